@@ -56,12 +56,13 @@ pub(super) const TABLE: &[Native] = &[
     ),
 ];
 
-/// Time between two points of a followed function, s, and the fewest points of one.
+/// The greatest time between two points of a followed function, s.
 const FOLLOW_STEP: f64 = 0.02;
+/// The least number of steps of a followed function.
 const FOLLOW_POINTS_MIN: f64 = 8.0;
-/// Most points of one followed function.
+/// The greatest number of steps of a followed function.
 const FOLLOW_POINTS_MAX: f64 = 100_000.0;
-/// Part of a step over which the speed of a followed function is measured.
+/// The part of a step over which the speed of a followed function is measured, to either side.
 const FOLLOW_SLOPE: f64 = 1e-3;
 
 impl Choice for Profile {
@@ -88,7 +89,7 @@ impl Choice for AngleUnit {
 }
 
 impl AngleUnit {
-    /// Returns the unit in radians.
+    /// Returns the size of the unit, rad.
     fn radians(self) -> f64 {
         crate::units::unit(self.word()).expect("the words are units").factor
     }
@@ -118,7 +119,8 @@ impl Extras {
     }
 }
 
-/// Returns an action on a joint with its cause.
+/// Returns an action on a joint with its cause; unknown where the robot can't be assembled. `at`: the argument
+/// that names the joint.
 fn joint_action(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -139,6 +141,7 @@ fn joint_action(
     Ok(behavior(Some(joint.robot.clone()), Node::Action(action)))
 }
 
+/// Runs `move`, which wants one of `to` and `by`.
 fn move_joint(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let joint = call.get::<&JointValue>("joint")?;
     let (target, at) = match (call.get::<Option<f64>>("to")?, call.get::<Option<f64>>("by")?) {
@@ -205,7 +208,8 @@ fn follow(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     })
 }
 
-/// Returns the positions and speeds of a function of time at even steps; `None` where a value is unknown.
+/// Returns (time, position, speed) of a function of time at even steps, from 0 to `duration` (s); `None` where
+/// a value is unknown. Speeds are central differences, at the ends one-sided ones of second order.
 fn sample(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -240,7 +244,8 @@ fn sample(
     Ok(Some(keyframes))
 }
 
-/// Returns the second-order difference to one side.
+/// Returns the speed at `time` by a difference of second order to one side; `near`: its step, s, negative for
+/// the side before. `position`: the value at `time`. `None` where a value is unknown.
 fn one_sided(
     at: &mut impl FnMut(f64) -> Eval<Option<f64>>,
     time: f64,
@@ -285,7 +290,7 @@ fn undock(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(Some(port.robot.clone()), Node::Action(action)))
 }
 
-/// Returns an action that has no time to wait and aborts at once: `else` takes its message.
+/// Runs `abort`: an action whose condition never holds and whose timeout is 0, so that it aborts at once.
 fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let otherwise = Otherwise::Abort(call.get::<&str>("message")?.to_string());
     let cause = interpreter.cause(call.span, Vec::new(), "");
@@ -349,6 +354,7 @@ fn stretch(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(behavior(body.robot.clone(), Node::Stretch { body: body.node.clone(), duration, cause }))
 }
 
+/// Runs `cycle`: behaviours with one period, each shifted by its phase, a part of the period.
 fn cycle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (bodies, phases) = (call.get::<&[Value]>("behaviors")?, call.get::<&[Value]>("phases")?);
     if bodies.len() != phases.len() {
@@ -382,6 +388,7 @@ fn mirror(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
 }
 
+/// Runs `table`: a series of rows, in each of which the joints move to their positions in one step of time.
 fn table(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let joints = call.get::<&[Value]>("joints")?;
     let step = call.positive("step", "the time of a row")?;

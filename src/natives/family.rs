@@ -44,11 +44,11 @@ pub(super) const TABLE: &[Native] = &[
     }),
 ];
 
-/// Divisions of an octet truss: more have more nodes than a truss may.
+/// The greatest number of divisions of an octet truss: more give more nodes than a truss may have.
 const DIVISIONS_MAX: usize = 16;
-/// Tetrahedra of a helix.
+/// The greatest number of tetrahedra of a helix.
 const HELIX_MAX: usize = 500;
-/// Neighbours of a node inside an octet lattice.
+/// The number of neighbours of a node inside an octet lattice.
 const NEIGHBOURS: usize = 12;
 
 fn block(interpreter: &mut Interpreter, call: &Call, size: [usize; 3]) -> Eval<Value> {
@@ -148,7 +148,8 @@ arguments! {
     }
 }
 
-/// Points `i e1 + j e2 + k e3` with i + j + k ≤ divisions, joined where they are one division apart.
+/// Runs `octet`: nodes at `i e1 + j e2 + k e3` with i + j + k ≤ divisions, joined where they are one division
+/// apart; without `interior` those with all 12 neighbours are left out.
 fn octet(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let OctetArguments { edge: Positive(edge), divisions, interior } = OctetArguments::read(call)?;
     if !(1..=DIVISIONS_MAX).contains(&divisions) {
@@ -178,7 +179,8 @@ fn octet(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(frame(nodes, struts))
 }
 
-/// Returns the position of grid point (k, j, i): those of a regular tetrahedron that rests on a face, edge 1.
+/// Returns the position of grid point (k, j, i) of a regular tetrahedron of edge 1 per step that rests on a
+/// face.
 fn octet_point([k, j, i]: [i64; 3]) -> Vec3 {
     let (k, j, i) = (k as f64, j as f64, i as f64);
     let root3 = libm::sqrt(3.0);
@@ -191,7 +193,8 @@ fn neighbours([k, j, i]: [i64; 3]) -> Vec<[i64; 3]> {
     both.map(|s| [k + s[0], j + s[1], i + s[2]]).collect()
 }
 
-/// Returns the helix of Boerdijk and Coxeter: each point and the next three are a regular tetrahedron.
+/// Runs `tetrahelix`: the Boerdijk–Coxeter helix, in which each point and the next three are a regular
+/// tetrahedron.
 fn tetrahelix(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let count = call.count("n", "the number of tetrahedra")?;
     if !(1..=HELIX_MAX).contains(&count) {
@@ -221,6 +224,7 @@ fn from_mesh(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(frame(mesh.vertices.clone(), edges.into_iter().collect()))
 }
 
+/// Runs `polyhedron`: a mesh of vertices, and faces by indices of vertices.
 fn polyhedron(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let vertices = points(call, "vertices")?;
     let mut faces = Vec::new();
@@ -262,6 +266,7 @@ fn load_cloud(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Cloud(Rc::new(mesh_file::read_cloud(interpreter, call, "file", scale)?)))
 }
 
+/// Runs `terrain`: a height field about `centre`, of which each list is a row along x.
 fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut heights = Vec::new();
     let mut columns = None;

@@ -18,13 +18,20 @@ use crate::planners::fold::{self, Count, MassModel, Method, Minimise, Problem, S
 use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
 
-/// The arguments that diagnostics of `fold` are about.
+// The names of arguments that diagnostics of `fold` are about.
+/// The parameter for the shape.
 pub(super) const TARGET: &str = "target";
+/// The parameter for the panel.
 pub(super) const MODULE: &str = "module";
+/// The parameter for the face at rest.
 pub(super) const ROOT: &str = "root";
+/// The parameter for the kind of search.
 pub(super) const METHOD: &str = "method";
+/// The parameter for the duration of a step.
 pub(super) const STEP: &str = "step";
+/// The parameter for the order of hinges.
 pub(super) const SEQUENCE: &str = "sequence";
+/// The parameter for a given layout.
 pub(super) const HINGES: &str = "hinges";
 
 /// The built-ins of this file.
@@ -97,6 +104,8 @@ impl Choice for Sequence {
 /// The greatest number of orders that are compared in one call.
 const ORDERS_MAX: usize = 100_000;
 
+/// Runs `fold`: reads the shape and its panels, plans, and returns the plan with the planner's report and
+/// verdict.
 fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = Arguments::read(call)?;
     let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
@@ -159,7 +168,10 @@ fn settings(arguments: &Arguments) -> Settings {
     }
 }
 
-/// Reads the hinges of a layout as pairs of faces.
+/// Returns the hinges of a layout as pairs of faces, by index.
+///
+/// # Errors
+/// A fault where an element is no pair of whole numbers.
 fn pairs(call: &Call, hinges: &[Value]) -> Eval<Vec<[usize; 2]>> {
     let index = |value: &Value| match value {
         Value::Int(face) => usize::try_from(*face).ok(),

@@ -10,7 +10,7 @@ use crate::source::{Diagnostic, code};
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
-/// Returns the diagnostic of a refusal of `fold`; `causes`: the run's numbers of the plan's causes.
+/// Returns the fault of a refusal of `fold`; `causes`: the run's number of each cause of the plan.
 pub(super) fn diagnostic(
     interpreter: &Interpreter,
     call: &Call,
@@ -56,7 +56,8 @@ pub(super) fn diagnostic(
     }
 }
 
-/// Returns the diagnostic for a step in an argument that takes less than the slowest hinge needs, s.
+/// Returns the fault of a step, the argument `key`, that is shorter than the slowest hinge needs; `least`: the
+/// time that it needs, s.
 pub(super) fn too_short(call: &Call, key: &'static str, message: String, least: f64) -> Stop {
     let least = quantity(least, Dimension::TIME);
     Diagnostic::error(code::BAD_VALUE, message)
@@ -65,6 +66,7 @@ pub(super) fn too_short(call: &Call, key: &'static str, message: String, least: 
         .into()
 }
 
+/// Returns the diagnostic of a search without result, with what it found out and what may help.
 fn with_hints(diagnostic: Diagnostic, call: &Call, found: &NoFolding) -> Diagnostic {
     let said = diagnostic
         .label(call.at(TARGET), "was not folded")
@@ -87,7 +89,7 @@ fn with_hints(diagnostic: Diagnostic, call: &Call, found: &NoFolding) -> Diagnos
     }
 }
 
-/// Returns what is known of the layout that would have been the answer.
+/// Returns the value, bound and gap of the best flat layout, in words.
 fn best(BestPattern { minimise, reached, bound, gap }: &BestPattern) -> String {
     let what = match minimise {
         Minimise::PeakTorque => "needs a torque of",

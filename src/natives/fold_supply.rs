@@ -22,7 +22,7 @@ const SIDES: &str = "sides";
 pub(super) struct PanelDesign {
     /// The module.
     pub design: Rc<Design>,
-    /// Its measures.
+    /// Its geometry, mass and hinges, as the planner knows them.
     pub panel: Panel,
 }
 
@@ -38,7 +38,11 @@ pub(super) struct Supply<'c> {
 }
 
 impl<'c> Supply<'c> {
-    /// Reads the module in an argument. One with a parameter `sides` is made to measure.
+    /// Returns the supply of panels of the module in the argument `module`. A module with a parameter `sides`
+    /// is made for each face by its sides; any other must have three equal sides.
+    ///
+    /// # Errors
+    /// A fault where the module is no such panel, or `sides` is stated.
     pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &'c Call<'c>,
@@ -68,7 +72,7 @@ impl<'c> Supply<'c> {
         Ok(supply)
     }
 
-    /// Refuses stated sides: a panel gets those of its face.
+    /// Refuses stated sides: a panel gets those of its face. `sides`: the index of the parameter.
     fn check_unstated(&self, interpreter: &mut Interpreter, sides: usize) -> Eval<()> {
         let usual = interpreter.default_design(self.design.def)?;
         let stated =
@@ -80,7 +84,10 @@ impl<'c> Supply<'c> {
         Err(self.call.refuse(self.module, why))
     }
 
-    /// Returns the panel of a face of the shape in argument `shape`.
+    /// Returns the panel of a face of the shape in argument `shape`; faces of equal sides share one.
+    ///
+    /// # Errors
+    /// A fault where the module can't be made with the sides of the face, or has other ones.
     pub(super) fn panel(
         &mut self,
         interpreter: &mut Interpreter,
@@ -103,7 +110,7 @@ impl<'c> Supply<'c> {
         Ok(panel)
     }
 
-    /// Refuses a face whose sides are not those of panels of one size.
+    /// Refuses a face whose sides differ from those of `panel`, which has three equal ones.
     pub(super) fn check_side(
         &self,
         shape: &'static str,
@@ -122,7 +129,10 @@ impl<'c> Supply<'c> {
         })
     }
 
-    /// Makes the module with the sides of a face.
+    /// Returns the module made with the sides `wanted` (m) of a face; `sides`: the index of the parameter.
+    ///
+    /// # Errors
+    /// A fault where the module refuses these sides, or has others in the end.
     fn to_measure(
         &self,
         interpreter: &mut Interpreter,
@@ -172,7 +182,10 @@ impl<'c> Supply<'c> {
     }
 }
 
-/// Reads a design as a panel; `key`: the argument that it came from.
+/// Returns a design as a panel; `key`: the argument that it came from.
+///
+/// # Errors
+/// A fault where it is no module, or no triangular panel.
 fn panel_of(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -190,16 +203,19 @@ fn panel_of(
     Ok(PanelDesign { design: design.clone(), panel })
 }
 
-/// The panels of all faces, as designs and as numbers.
+/// The panels of all faces, as designs and as data of the planner.
 pub(super) struct Sheet {
     /// The design of each panel, by face.
     pub designs: Vec<Rc<Design>>,
-    /// The panels as numbers, for the planner.
+    /// The panels as data of the planner.
     pub panels: Panels,
 }
 
 impl Sheet {
-    /// Collects the module types of panels, by face; `key`: the argument that they came from.
+    /// Returns the sheet of panels that are given by face; `key`: the argument that they came from.
+    ///
+    /// # Errors
+    /// A fault where a module is broken, or the planner refuses the panels.
     pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &Call,
@@ -238,7 +254,11 @@ pub(super) struct Passive<'c> {
     pub(super) module: Option<&'c Rc<Instance>>,
 }
 
-/// Reads the panels of the shape in argument `target`, with its passive faces.
+/// Returns the panels of the shape in argument `target`, and the shape with the hinges that its passive faces
+/// leave.
+///
+/// # Errors
+/// A fault where a face has no panel, or a passive face is wrong.
 pub(super) fn panels(
     interpreter: &mut Interpreter,
     supply: &mut Supply,

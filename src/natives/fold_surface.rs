@@ -7,7 +7,7 @@ use crate::interpret::value::Value;
 use crate::planners::fold::{Target, Unfoldable};
 use crate::source::{Diagnostic, code};
 
-/// Reads the shape in argument `key`.
+/// Returns the shape in argument `key` as the surface of a folding.
 ///
 /// # Errors
 /// A fault where it is no surface of triangles, or one that does not fold.
@@ -23,7 +23,10 @@ pub(super) fn unfoldable(call: &Call, key: &'static str, why: &Unfoldable) -> Di
         .hint(why.remedy())
 }
 
-/// Reads the vertices (m) and faces of a mesh, or of a shape that was read from a file as it is.
+/// Returns the vertices (m) and faces (indices of vertices) of a mesh, or of a shape that is one mesh.
+///
+/// # Errors
+/// A fault for other values.
 fn surface(call: &Call, key: &'static str, shape: &Value) -> Eval<(Vec<Vec3>, Vec<Vec<usize>>)> {
     match shape {
         Value::Mesh(mesh) => return Ok((mesh.vertices.clone(), mesh.faces.clone())),

@@ -50,7 +50,7 @@ fn hinges(plan: &PlanValue, report: &Report) -> Value {
     Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
 }
 
-/// The energies that random orders of folding take.
+/// A record `OrderSample`: the energies that random orders of folding take.
 #[derive(Debug)]
 pub struct OrderSample(pub Sample);
 
@@ -73,7 +73,7 @@ impl NativeRecord for OrderSample {
     }
 }
 
-/// The flat pattern of a plan that folds it.
+/// A record `Layout`: the flat pattern of a plan that folds it.
 #[derive(Debug)]
 pub struct LayoutValue(Rc<PlanValue>);
 

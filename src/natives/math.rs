@@ -63,7 +63,10 @@ fn to_number(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
     finite(call, function(call.get("x")?))
 }
 
-/// Returns the angle of a number in -1..1.
+/// Returns the angle that `function` gives for the argument `x`.
+///
+/// # Errors
+/// A fault where `x` is outside -1..1.
 fn from_ratio(call: &Call, function: fn(f64) -> f64) -> Eval<Value> {
     let x: f64 = call.get("x")?;
     if (-1.0..=1.0).contains(&x) { Ok(angle(function(x))) } else { Err(call.refuse("x", "outside -1..1")) }
@@ -105,7 +108,7 @@ fn extreme(call: &Call, wanted: Ordering) -> Eval<Value> {
     best.cloned().ok_or_else(|| call.refuse("values", "an empty list has neither least nor greatest"))
 }
 
-/// Returns the order of two values, exactly among whole numbers; `None` where they have none.
+/// Returns the order of two numbers, exactly among whole numbers; `None` for other values, and for NaN.
 pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Some(x.cmp(y)),

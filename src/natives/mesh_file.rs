@@ -8,8 +8,11 @@ use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Mesh;
 use crate::source::{Diagnostic, code};
 
-/// Returns the mesh in the file that an argument names, with its path in the project; `scale` is the
+/// Returns the mesh in the file that the argument `name` names, with its path in the project; `scale`: the
 /// length of one of the file's units, m.
+///
+/// # Errors
+/// A fault where the file can't be read, or its name or text is none of a mesh.
 pub(super) fn read(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -21,7 +24,7 @@ pub(super) fn read(
     Ok((path, Mesh { vertices, faces: read.faces }))
 }
 
-/// Returns the points in the file that an argument names; `scale` as in [`read`].
+/// Returns the points (m) in the file that the argument `name` names; `scale` and errors as in [`read`].
 pub(super) fn read_cloud(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -32,7 +35,8 @@ pub(super) fn read_cloud(
     Ok(read.vertices.into_iter().map(|p| Vec3::from(p) * scale).collect())
 }
 
-/// Returns the content of a file, with its path in the project.
+/// Returns the content of a file in one of the formats, by the ending of its name, with its path in the
+/// project. `what`: the word for such files.
 fn read_as(
     interpreter: &mut Interpreter,
     call: &Call,

@@ -53,7 +53,7 @@ use crate::source::Symbol;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-/// The natives of one file, with the records that it defines.
+/// The natives of one file, with the records that it defines and the names of their fields.
 struct Subject {
     natives: &'static [Native],
     records: fn() -> Vec<(&'static str, Vec<&'static str>)>,
@@ -64,7 +64,7 @@ const fn natives(natives: &'static [Native]) -> Subject {
     Subject { natives, records: Vec::new }
 }
 
-/// One line for each file.
+/// The natives of all files: one entry for each.
 const SUBJECTS: &[Subject] = &[
     natives(math::TABLE),
     natives(list::TABLE),
@@ -92,21 +92,23 @@ const SUBJECTS: &[Subject] = &[
     Subject { natives: truss::TABLE, records: truss::records },
 ];
 
-/// Returns all built-ins.
+/// Returns all built-ins, by file.
 pub fn all() -> impl Iterator<Item = &'static Native> {
     SUBJECTS.iter().flat_map(|subject| subject.natives)
 }
 
-/// Returns the names of a record's fields, as Rust has them; a test compares them with the declaration.
+/// Returns the names of a record's fields, as Rust has them; `None` if no built-in defines such a record. A
+/// test compares them with the declaration.
 pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
     let all = SUBJECTS.iter().flat_map(|subject| (subject.records)()).chain(fields());
     all.into_iter().find(|(name, _)| *name == record).map(|(_, fields)| fields)
 }
 
-/// Draws every robot, lattice and truss that the program declares, with its defaults.
+/// Draws every configuration, lattice and truss that the program declares, with its defaults, each as a page of
+/// its name. Faults are reported.
 ///
 /// # Errors
-/// A halt, or a fault where a page can't be written.
+/// A halt.
 pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
     interpreter.draw_declarations()
 }
@@ -114,7 +116,7 @@ pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
 static BY_KEY: LazyLock<HashMap<Symbol, &'static Native>> =
     LazyLock::new(|| all().map(|native| (Symbol::new(native.key), native)).collect());
 
-/// Returns the built-in of a key.
+/// Returns the built-in of a key, such as `move` or `Plan.at`; `None` if there is none.
 pub fn find(key: Symbol) -> Option<&'static Native> {
     BY_KEY.get(&key).copied()
 }

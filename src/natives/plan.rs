@@ -61,6 +61,10 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
+/// Runs `world`.
+///
+/// # Errors
+/// A fault where gravity or friction is negative, or a robot is to settle without gravity.
 fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ground: Ground = call.get("ground")?;
     let gravity = match call.get("gravity")? {
@@ -110,8 +114,11 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned_value(Some(reversed)))
 }
 
-/// Returns a plan from a file, of a robot that starts as the plan's own does, with the names of this one's
-/// modules: it goes on where a plan of this robot ends that does nothing.
+/// Runs `load_plan`: returns a plan from a file as a plan of this robot, which must match the plan's own in its
+/// start state. The two are joined: a plan of this robot that does nothing, and the one from the file.
+///
+/// # Errors
+/// A fault where the file is no sound plan, its motion is not that of its program, or the robots differ.
 fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, bytes) = interpreter.project_file(call, "file")?;
     let design = call.get::<&Rc<Instance>>("robot")?.design.clone();
@@ -175,7 +182,10 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned_value(Some(sliced)))
 }
 
-/// Returns the settings of the judge that `sample`, `unstable_for` and `stability` ask for.
+/// Returns the settings of the judge that the arguments `sample`, `unstable_for` and `stability` ask for.
+///
+/// # Errors
+/// A fault where `unstable_for` is negative or `sample` is not positive.
 pub(super) fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings> {
     let unstable_for: f64 = call.get("unstable_for")?;
     if unstable_for < 0.0 {
@@ -195,6 +205,8 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }
 
+/// Runs `emit`: writes the plan with its verdict, and a page of it if the run draws pages. Of a plan that fails
+/// only the page is written, and the failures are reported.
 fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, _) = output_path(call, "file")?;
     let settings = settings(interpreter, call)?;
@@ -228,7 +240,10 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the file named by an argument, below the output folder, and its name as written.
+/// Returns the path below the output folder that an argument names, and the name as it is written.
+///
+/// # Errors
+/// A fault where it leads out of the output folder, or names no file.
 pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)> {
     let name = call.get::<&str>(argument)?.to_string();
     match files::join("", &name).filter(|path| !path.is_empty()) {
@@ -237,7 +252,10 @@ pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)>
     }
 }
 
-/// Writes a file into the output folder, for the call at `at`. Returns the path to show.
+/// Writes a file into the output folder, and records it among the written ones. Returns the path to show.
+///
+/// # Errors
+/// A fault at `at` where it can't be written.
 pub(super) fn write_output(
     interpreter: &mut Interpreter,
     at: Span,
@@ -259,7 +277,7 @@ pub(super) fn write_output(
     }
 }
 
-/// Notes that a robot does not start as it is drawn.
+/// Reports that a robot does not start in its declared pose, if the judge notes that it settles.
 fn note_settling(interpreter: &mut Interpreter, call: &Call, notes: &[String]) {
     for note in notes.iter().filter(|note| note.contains("settles")) {
         interpreter

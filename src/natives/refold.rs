@@ -51,6 +51,8 @@ impl ReportFields for Report {
     ];
 }
 
+/// Runs `refold`: reads both shapes and the panel, plans, and returns the plan with the planner's report and
+/// verdict.
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = Arguments::read(call)?;
     let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
@@ -89,7 +91,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
 }
 
-/// Returns the diagnostic of a refusal; `causes`: the run's numbers of the plan's causes.
+/// Returns the fault of a refusal; `causes`: the run's number of each cause of the plan.
 fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusal: &Refusal) -> Stop {
     let message = refusal.to_string();
     let error = |code| Diagnostic::error(code, message.clone());

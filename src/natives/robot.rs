@@ -38,7 +38,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("State.pose", parameters![self: &StateValue, module: &Rc<Instance>], state_pose),
 ];
 
-/// Returns the argument `of` where several types are declared, all of them instances.
+/// Returns the instance in the argument `of`, for natives that declare several types of instances for it.
 fn instance<'c>(call: &Call<'c>) -> Eval<&'c Rc<Instance>> {
     match call.get::<&Value>("of")? {
         Value::Instance(instance) => Ok(instance),
@@ -71,7 +71,8 @@ fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Quantity(mass, Dimension::MASS))
 }
 
-/// Returns the part as a robot of its own: questions about a part are not about the whole.
+/// Returns the robot of the design in the argument `of`, which may be a part of another: it is then taken by
+/// itself. `None` where it can't be assembled.
 fn own_robot(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<Robot>>> {
     let design = call.get::<&Rc<Instance>>("of")?.design.clone();
     interpreter.robot_at(&design, call.at("of"))
@@ -107,7 +108,7 @@ fn is_taken(robot: &Rc<Design>, module: usize, port: usize) -> bool {
     robot.config().is_some_and(|config| config.taken.borrow().contains_key(&(module, port)))
 }
 
-/// Returns the modules of the kind of the second argument, whatever its arguments.
+/// Runs `modules`: returns the modules of the declaration of `kind`, whatever their arguments.
 fn modules(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (whole, kind) = (call.get::<&Rc<Instance>>("of")?, call.get::<&Rc<Instance>>("kind")?);
     let mut found = Vec::new();
@@ -115,6 +116,7 @@ fn modules(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::list(found))
 }
 
+/// Adds the instances of a declaration among an instance and its parts, in their order.
 fn collect(instance: &Rc<Instance>, kind: crate::check::typed::DefId, found: &mut Vec<Value>) {
     // A robot that a planner put together has the declaration of its modules.
     if instance.design.def == kind && (instance.design.module().is_some() || instance.parts().is_none()) {
@@ -136,8 +138,12 @@ fn collect(instance: &Rc<Instance>, kind: crate::check::typed::DefId, found: &mu
     }
 }
 
-/// Returns the pose of a port or a module's body in the frame of its robot's base module.
-fn place(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<(Rc<Design>, Pose)>> {
+/// Returns the robot of a port or a module, and its pose in the start state in the frame of the robot's base
+/// module; `None` where the robot can't be assembled.
+///
+/// # Errors
+/// A fault where the argument `name` is neither.
+fn pose_of(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<(Rc<Design>, Pose)>> {
     match call.arg(name) {
         Value::Port(port) => {
             let Some(robot) = interpreter.robot_at(&port.robot, call.at(name))? else { return Ok(None) };
@@ -152,11 +158,11 @@ fn place(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<
 }
 
 fn pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    Ok(place(interpreter, call, "of")?.map_or(Value::Unknown, |(_, pose)| Value::Pose(Rc::new(pose))))
+    Ok(pose_of(interpreter, call, "of")?.map_or(Value::Unknown, |(_, pose)| Value::Pose(Rc::new(pose))))
 }
 
 fn distance(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (a, b) = (place(interpreter, call, "a")?, place(interpreter, call, "b")?);
+    let (a, b) = (pose_of(interpreter, call, "a")?, pose_of(interpreter, call, "b")?);
     let (Some((robot, a)), Some((other, b))) = (a, b) else { return Ok(Value::Unknown) };
     interpreter.common_robot(Some(&robot), Some(&other), call.span)?;
     let between: Vec3 = a.translation.vector - b.translation.vector;

@@ -28,10 +28,11 @@ pub(super) const TABLE: &[Native] = &[
 /// The file of the library that declares the module.
 const LIBRARY: &str = "std/rofi.mod";
 
-/// RoFI's tools take a loop for closed when no entry of its matrices is farther off than this, in
-/// parts of the pitch (rad).
+/// The greatest error of a closed loop, in parts of the pitch and in rad: RoFI's tools take a loop for closed
+/// when no entry of its matrices is farther off.
 const CLOSURE_MAX: f64 = 1e-3;
 
+/// The joints of a module in the order of the files.
 const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -50,7 +51,7 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     made(interpreter, call, (kind, loaded), &file, &path, world)
 }
 
-/// Makes a random configuration to unwind; see the planner's documents.
+/// Runs `tangle`: returns a random configuration to unwind; see `docs/planners/tosnake.md`.
 fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let kinds = library(interpreter, call)?;
     let modules = call.count("n", "a number of modules")?;
@@ -70,10 +71,13 @@ fn tangle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     made(interpreter, call, kinds, &name, &name, world)
 }
 
-/// Actions of one tangle.
+/// The greatest number of actions of one tangle.
 const ACTIONS_MAX: usize = 1_000_000;
 
-/// Returns the library's module, and the configuration that holds what is made from data.
+/// Returns the library's module, and its configuration that stands for robots made from data.
+///
+/// # Errors
+/// A fault where the program does not import them.
 fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
     match (declared(interpreter, "Rofi"), declared(interpreter, "_Loaded")) {
         (Some(kind), Some(loaded)) => Ok((kind, loaded)),
@@ -84,7 +88,7 @@ fn library(interpreter: &Interpreter, call: &Call) -> Eval<(DefId, DefId)> {
     }
 }
 
-/// Returns the first argument, which says where the robot comes from: a file, or a number of modules.
+/// Returns the span of the first argument, the origin of the robot: a file, or a number of modules.
 fn origin(call: &Call) -> Span {
     call.at(call.native.parameters[0].name)
 }
@@ -98,7 +102,11 @@ fn check_count(interpreter: &Interpreter, call: &Call, modules: usize) -> Eval<(
     Ok(())
 }
 
-/// Returns a robot from data. `key` distinguishes it from others, `path` is its name for people.
+/// Returns a robot from data, without the connections that contradict others. `key` distinguishes it from
+/// others, `path` is its name in messages.
+///
+/// # Errors
+/// A fault where it has too many modules, a joint out of range, or several pieces.
 fn made(
     interpreter: &mut Interpreter,
     call: &Call,
@@ -141,7 +149,7 @@ fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
     Value::Instance(interpreter.whole(design))
 }
 
-/// Returns a declaration of the library's file.
+/// Returns a declaration of the library's file; `None` if the program does not import it.
 fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
     let here = |index: &usize| {
         let def = interpreter.shared.program.def(DefId(*index as u32));
@@ -221,8 +229,8 @@ fn open_loops(
     Ok(robot.residuals().into_iter().filter(open).collect())
 }
 
-/// Leaves out bonds of two docks that are apart, which hold nothing, whatever the file says: RoFI's own
-/// tangler writes such lines.
+/// Removes the connections `open`, whose docks do not meet, and warns of them: RoFI's own tangler writes such
+/// lines.
 fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual], call: &Call, path: &str) {
     let lines: Vec<String> = open.iter().map(|r| world.edges[r.bond].line.to_string()).collect();
     let worst = open.iter().map(|r| r.distance).fold(0.0, f64::max);
@@ -244,7 +252,11 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-/// Returns the robot to be saved as the data of a RoFI file; `None` if the robot is erroneous (reported).
+/// Returns the robot in the argument `what` as the data of a RoFI file; `None` if it can't be assembled, which
+/// has been reported.
+///
+/// # Errors
+/// A fault where a module is no RoFI module.
 pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<World>> {
     let Value::Instance(instance) = call.get::<&Value>("what")? else {
         unreachable!("`check` lets only robots and foldings through, and foldings have files of their own");
@@ -278,7 +290,7 @@ pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Optio
     Ok(Some(world))
 }
 
-/// Returns an angle in degrees, without the rounding of radians.
+/// Returns an angle (rad) in degrees, rounded to 1e-9 degrees.
 fn degrees(angle: f64) -> f64 {
     const PARTS: f64 = 1e9;
     (angle.to_degrees() * PARTS).round() / PARTS

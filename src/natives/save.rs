@@ -16,6 +16,7 @@ use crate::planners::fold::{Net, Report};
 /// The natives of this file.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
+/// Runs `save`: writes a robot or a folding in the format that the ending of the name asks for.
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
@@ -56,6 +57,7 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
+/// Returns the crease pattern of a folding, with the shape after each of its steps.
 fn creases(planned: &PlanValue, folded: &Report) -> CreasePattern {
     let (target, layout) = (&folded.target, &folded.layout);
     let net = Net::of(target, layout);

@@ -13,7 +13,7 @@ use crate::robot::{JointKind, Limits};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-/// Parameters of a solid: its own, and those that all solids have.
+/// Lists the parameters of a solid: its own, and those that all solids have.
 macro_rules! solid_parameters {
     ($($name:ident: $type:ty),*) => {
         parameters![$($name: $type,)* mass: Option<Positive>, com: Option<Vec3>, inertia: Option<Vec3>, friction: f64]
@@ -77,7 +77,7 @@ fn prism(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     solid(call, Shape::Hull { points: end(-height / 2.0).chain(end(height / 2.0)).collect() })
 }
 
-/// Returns true if a closed outline turns in one direction, and once.
+/// Returns true if a closed outline (x and y of its corners) turns in one direction only, and once.
 fn convex(outline: &[Vec3]) -> bool {
     let n = outline.len();
     let side = |i: usize| outline[(i + 1) % n].xy() - outline[i % n].xy();
@@ -125,13 +125,16 @@ fn placed(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Shape(Rc::new(Solid { parts: parts.collect(), ..Solid::default() })))
 }
 
-/// Returns a unit vector.
+/// Returns the argument `name` as a unit vector.
+///
+/// # Errors
+/// A fault where it is zero.
 fn axis(call: &Call, name: &str) -> Eval<Vec3> {
     let axis: Vec3 = call.get(name)?;
     axis.try_normalize(0.0).ok_or_else(|| call.refuse(name, "the axis must not be zero"))
 }
 
-/// Returns the points of a list.
+/// Returns the points of the list in the argument `name`.
 pub(super) fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
     let point = |value: &Value| match value {
         Value::Vec3(p, _) => Ok(*p),
@@ -140,13 +143,20 @@ pub(super) fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
     call.get::<&[Value]>(name)?.iter().map(point).collect()
 }
 
+/// Returns a solid of one shape, with the options of the call.
+///
+/// # Errors
+/// A fault where the shape is not sound, or an option is out of range.
 fn solid(call: &Call, shape: Shape) -> Eval<Value> {
     soundness::check(&shape)
         .map_err(|unsound| fault(code::BAD_SHAPE, call.span, unsound.to_string(), "this is no solid"))?;
     with_options(call, vec![Placed { pose: Pose::identity(), shape }])
 }
 
-/// Returns a solid of these parts with what `mass:`, `com:`, `inertia:` and `friction:` say.
+/// Returns a solid of these parts with the mass, centre of mass, moments of inertia and friction of the call.
+///
+/// # Errors
+/// A fault where a moment of inertia is not positive, or friction is negative.
 fn with_options(call: &Call, parts: Vec<Placed>) -> Eval<Value> {
     let inertia: Option<Vec3> = call.get("inertia")?;
     if let Some(moments) = inertia
@@ -175,6 +185,8 @@ fn prismatic(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     joint(call, JointKind::Prismatic, "max_force")
 }
 
+/// Returns a kind of joint with its axis and limits; `max_effort`: the parameter of its greatest force or
+/// torque.
 fn joint(call: &Call, kind: JointKind, max_effort: &str) -> Eval<Value> {
     let limits = Limits {
         range: call.get("range")?,

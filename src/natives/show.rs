@@ -38,6 +38,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
     show,
 )];
 
+/// Runs `show`: draws a lattice or truss as it is declared, or a plan with its verdict, whose failures are
+/// reported.
 fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let Some(form) = form(call, &name)? else {
@@ -64,15 +66,20 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// A form of drawing, chosen by the end of the file's name.
+/// A form of drawing, chosen by the ending of the file's name.
 #[derive(Clone, Copy)]
 pub(super) enum Form {
     /// A page in HTML.
     Page,
     /// A drawing in SVG.
     Svg,
-    /// A picture in PNG, at a time (s), from a side.
-    Png { time: f64, side: Side },
+    /// A picture in PNG.
+    Png {
+        /// The time that it shows, s.
+        time: f64,
+        /// The side from which it is seen.
+        side: Side,
+    },
 }
 
 fn form(call: &Call, name: &str) -> Eval<Option<Form>> {
@@ -96,7 +103,10 @@ impl Choice for Side {
 }
 
 impl Interpreter<'_> {
-    /// Writes the page of a plan with its verdict under these settings; returns the path to show.
+    /// Writes a drawing of a plan with its verdict under these settings to `path`; returns the path to show.
+    ///
+    /// # Errors
+    /// A fault at `at` where it can't be written.
     pub(super) fn draw(
         &mut self,
         planned: &Rc<PlanValue>,
@@ -111,8 +121,8 @@ impl Interpreter<'_> {
         write_output(self, at, path, bytes)
     }
 
-    /// Draws every robot, lattice and truss that the file declares, with its defaults: for `modl show`
-    /// of a program that draws nothing itself.
+    /// Draws every configuration, lattice and truss of the project's own files, with its defaults, for a
+    /// program that draws nothing itself. Faults are reported.
     pub(super) fn draw_declarations(&mut self) -> Eval<()> {
         let program = self.shared.program;
         for &def in &program.own {
@@ -162,6 +172,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns a lattice or truss as it is declared: a plan in which nothing moves, and that is not judged.
+    /// `None` for other designs, and for a broken cell or strut.
     fn still(&self, design: &Design) -> Option<Plan> {
         let mut library = Library::default();
         let body = match &design.kind {

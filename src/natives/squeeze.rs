@@ -63,6 +63,7 @@ impl Choice for Norm {
         &[("each_axis", Norm::EachAxis), ("euclidean", Norm::Euclidean)];
 }
 
+/// Runs `squeeze`: plans between two lattices of equal cells.
 fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let SqueezeArguments { from, to, method, model, max_force, profile, norm } =
         SqueezeArguments::read(call)?;
@@ -112,6 +113,7 @@ fn planned(
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }
 
+/// Returns the fault of a refusal, at the arguments that it is about.
 fn refused(refusal: &Refusal, call: &Call) -> Stop {
     let cells = |n: usize| if n == 1 { "1 cell".to_string() } else { format!("{n} cells") };
     match refusal {
@@ -179,7 +181,7 @@ impl ReportFields for Report {
     ];
 }
 
-/// Returns what cells go through, as the judge finds it.
+/// Returns the greatest dynamic quantities of a plan, as the judge finds them.
 fn dynamics(interpreter: &mut Interpreter, plan: &PlanValue) -> Dynamics {
     let settings = interpreter.judge_settings();
     interpreter.judge(plan, settings, None).dynamics.unwrap_or_default()

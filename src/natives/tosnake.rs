@@ -106,7 +106,7 @@ impl Options {
     /// Returns the options that the arguments ask for.
     ///
     /// # Errors
-    /// A fault where gravity points upwards, or the paper's own method is to reckon with it.
+    /// A fault where gravity is negative, or the paper's own method is to plan under gravity.
     fn of(call: &Call, arguments: &SearchArguments) -> Eval<Options> {
         let SearchArguments { gravity, seed, budget, timeout, collisions } = *arguments;
         let world = world(call, gravity)?;
@@ -142,7 +142,10 @@ impl Options {
     }
 }
 
-/// Returns the world that `gravity` asks for: with gravity the base is held.
+/// Returns the world that the argument `gravity` asks for: with gravity the base is held.
+///
+/// # Errors
+/// A fault where gravity is negative.
 fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
     let gravity = match gravity {
         WordOr::Word(Gravity::Off) => return Ok(World::FREE),
@@ -219,6 +222,7 @@ impl Subject {
     }
 }
 
+/// Runs `tosnake`.
 fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let TosnakeArguments { robot, search } = TosnakeArguments::read(call)?;
     let options = Options::of(call, &search)?;
@@ -239,6 +243,7 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     judged(interpreter, call, planned, &options)
 }
 
+/// Runs `reconfigure`: unwinds both robots, and joins the first motion with the reverse of the second.
 fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ReconfigureArguments { from, to, search } = ReconfigureArguments::read(call)?;
     let options = Options::of(call, &search)?;
@@ -286,7 +291,7 @@ fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
         .into()
 }
 
-/// Returns a refusal of a reconfiguration both halves of which can be planned.
+/// Returns the fault of a reconfiguration both halves of which can be planned.
 fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
     let message = refusal.to_string();
     match refusal {
@@ -304,7 +309,10 @@ fn no_reconfiguration(call: &Call, refusal: &reconfigure::Refusal) -> Stop {
     }
 }
 
-/// Returns the plan, if the judge lets it through; with the paper's method, whatever its verdict.
+/// Returns the plan if it passes the judge; with the paper's own method, whatever its verdict.
+///
+/// # Errors
+/// A fault with the first failure where it does not pass.
 fn judged(interpreter: &mut Interpreter, call: &Call, planned: PlanValue, options: &Options) -> Eval<Value> {
     if options.collisions != Collisions::Motion {
         return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
@@ -341,7 +349,7 @@ fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
     fault(code::NOT_COVERED, at, message, label)
 }
 
-/// Returns a refusal of the planner at the robot that it refuses.
+/// Returns the fault of a refusal of the planner, at the robot that it refuses; a halt if the user cancelled.
 fn refused(
     interpreter: &Interpreter,
     call: &Call,
@@ -437,7 +445,7 @@ fn overloaded(at: Span, robot: &Robot, overload: &Overload) -> Stop {
         .into()
 }
 
-/// Returns the refusal of a search that did not come to its end, with its progress.
+/// Returns the fault of a search that did not come to its end, with its progress.
 fn fell_short(at: Span, what: &str, status: &SearchStatus, hint: &str) -> Stop {
     let SearchStatus { needed, made, tried, work, longest, chains, .. } = status;
     let message =

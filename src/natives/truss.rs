@@ -106,6 +106,7 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![("Morphing", morph::Report::names()), ("Travel", locomote::Report::names())]
 }
 
+/// Runs `morph`; warns of a plan that ends short of the target.
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = MorphArguments::read(call)?;
     let design = arguments.truss.design.clone();
@@ -146,6 +147,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned(interpreter, call, design, "morph", World::FREE, solution))
 }
 
+/// Runs `locomote`; warns of a plan that does not reach the end of the path.
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = LocomoteArguments::read(call)?;
     let design = arguments.truss.design.clone();
@@ -192,8 +194,11 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned(interpreter, call, design, "locomote", World::default(), solution))
 }
 
-/// Returns the truss with its limits, among obstacles and on terrain; `None` after an error that was
-/// reported.
+/// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is no truss, or
+/// its strut is broken.
+///
+/// # Errors
+/// A fault where a strut in an argument is unknown.
 fn problem(
     call: &Call,
     design: &Design,
@@ -229,8 +234,7 @@ fn target(call: &Call, target: &Value) -> Eval<TargetShape> {
     }
 }
 
-/// Returns the triangles of a mesh, faces of more than three corners as fans; corners that turn inwards give
-/// triangles that overlap.
+/// Returns the triangles of a mesh, by their corners (m); faces of more corners are triangulated.
 fn triangles(mesh: &Mesh) -> Vec<[Vec3; 3]> {
     let fan = |face: &Vec<usize>| {
         let corner = |i: usize| mesh.vertices[face[i]];
@@ -255,7 +259,7 @@ impl<F: Fn() -> bool> Progress for Timed<F> {
     }
 }
 
-/// Returns the fault of a planner that was stopped by its time limit.
+/// Returns the fault of a planner that was stopped by its timeout; a halt if the user cancelled.
 fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
     if host.cancelled() {
         return Stop::Halt;
@@ -266,6 +270,7 @@ fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
         .into()
 }
 
+/// Returns the fault of a refusal of `morph`, at the argument that it is about.
 fn morph_refused(call: &Call, truss: &TrussProblem, refusal: morph::Refusal) -> Stop {
     match &refusal {
         morph::Refusal::Truss(invalid) => invalid_truss(call, invalid),
@@ -296,6 +301,7 @@ fn locomote_refused(call: &Call, refusal: locomote::Refusal) -> Stop {
     }
 }
 
+/// Returns the fault of a truss that can't be planned for, at the argument that it is about.
 fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
     let name = match invalid {
         InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } | InvalidTruss::TooFar { .. } => "truss",

@@ -21,7 +21,10 @@ arguments! {
     }
 }
 
-/// Returns the limits with struts as numbers.
+/// Returns the limits of the arguments, with struts by their indices.
+///
+/// # Errors
+/// A fault where the truss has no strut of a name, or a strut is named twice.
 pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArguments) -> Eval<Limits> {
     let mut loops = Vec::new();
     for list in arguments.perimeters {
@@ -38,7 +41,7 @@ pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArgument
     })
 }
 
-/// Returns the shapes of each of the `obstacles`, in the world's frame.
+/// Returns the shapes of each of the obstacles `around`, in the world's frame.
 pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
     let shape = |value: &Value| match value {
         Value::Shape(shape) => Ok(shape.parts.clone()),
@@ -47,7 +50,10 @@ pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>>
     around.iter().map(shape).collect()
 }
 
-/// Returns the struts by their names, `a -- b` or `b -- a`.
+/// Returns the indices of struts by their names, `a -- b` or `b -- a`.
+///
+/// # Errors
+/// A fault where the truss has no strut of a name, or a strut is named twice.
 fn struts(call: &Call, parameter: &'static str, names: &[Value], truss: &TrussDesign) -> Eval<Vec<usize>> {
     let known: Vec<String> = (0..truss.struts.len()).map(|strut| truss.strut_name(strut)).collect();
     let mut found = Vec::new();
