@@ -26,7 +26,7 @@ pub(super) struct Project {
     root: PathBuf,
     /// The folder that replaces the embedded library; absolute, without links.
     stdlib: Option<PathBuf>,
-    /// The program's name relative to the root.
+    /// The program's name relative to the root; empty without a program.
     pub name: String,
     bytes: Vec<u8>,
     /// The root as the user would name it; empty for the working folder.
@@ -36,7 +36,10 @@ pub(super) struct Project {
 }
 
 impl Project {
-    /// Returns a folder as a project without a program. Fails if there is no such folder.
+    /// Returns a folder as a project without a program; the working folder for `None`.
+    ///
+    /// # Errors
+    /// A message if there is no such folder.
     pub(super) fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
         let root = root.unwrap_or(Path::new("."));
         Ok(Project {
@@ -55,7 +58,10 @@ impl Project {
     }
 
     /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the folder of
-    /// the file (after links), or `root`. Fails if the file can't be read or is outside of the root.
+    /// the file (after links), or `root`.
+    ///
+    /// # Errors
+    /// A message if the file can't be read or is outside of the root.
     pub(super) fn open(
         file: &Path,
         root: Option<&Path>,
@@ -131,7 +137,10 @@ impl Files for Project {
     }
 }
 
-/// Reads a file below `root`. Links may lead anywhere inside of the root.
+/// Returns the bytes of a file below `root`. Links may lead anywhere inside of the root.
+///
+/// # Errors
+/// The reason why it can't be read.
 fn read_below(root: &Path, path: &str) -> Result<Vec<u8>, ReadError> {
     let relative = Path::new(path);
     if !relative.components().all(|c| matches!(c, Component::Normal(_))) {
@@ -183,7 +192,10 @@ impl std::fmt::Display for ReadFault {
     }
 }
 
-/// Reads a regular file. Others are not opened: opening a pipe would wait for a writer.
+/// Returns the bytes of a regular file. Others are not opened: opening a pipe would wait for a writer.
+///
+/// # Errors
+/// The reason why it can't be read.
 fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     if !fs::metadata(path)?.is_file() {
         return Err(ReadFault::Irregular);
@@ -191,8 +203,10 @@ fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     read_at_most(File::open(path)?, bytes_max)
 }
 
-/// Reads a file named by the user, of at most `bytes_max` bytes; `-` is standard input. Fails with a
-/// message.
+/// Returns the bytes of a file named by the user, at most `bytes_max`; `-` is standard input.
+///
+/// # Errors
+/// A message if it can't be read or is larger.
 pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
     let bytes = if file == Path::new("-") {
         read_at_most(io::stdin().lock(), bytes_max)
@@ -202,7 +216,10 @@ pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> 
     bytes.map_err(|fault| CallError(format!("the file `{}` {fault}", file.display())))
 }
 
-/// Reads a stream of at most `bytes_max` bytes. A file may be longer than its stated size.
+/// Returns the bytes of a stream, at most `bytes_max`. A file may be longer than its stated size.
+///
+/// # Errors
+/// The reason why it can't be read.
 fn read_at_most(stream: impl Read, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     let mut bytes = Vec::new();
     stream.take(bytes_max as u64 + 1).read_to_end(&mut bytes)?;
@@ -215,7 +232,10 @@ pub(super) fn system_words(e: &io::Error) -> String {
     text.split(" (os error").next().unwrap_or(&text).to_owned()
 }
 
-/// Returns the real path of a folder named by the user.
+/// Returns the real path of a folder named by the user, without links.
+///
+/// # Errors
+/// A message if there is no such folder.
 fn folder(path: &Path) -> Result<PathBuf, CallError> {
     let real = fs::canonicalize(path).map_err(|e| ReadFault::from(e).to_string());
     let real = real.map_err(|e| CallError(format!("the folder `{}` {e}", path.display())))?;
@@ -228,7 +248,7 @@ fn relative_name(path: &Path) -> Option<String> {
     parts.map(|parts| parts.join("/"))
 }
 
-/// Returns a folder as the user would name it.
+/// Returns a folder as the user would name it; empty for the working folder.
 fn shown_folder(path: &Path) -> String {
     let shown = path.to_string_lossy().into_owned();
     if shown == "." { String::new() } else { shown }

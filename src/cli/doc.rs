@@ -17,6 +17,9 @@ const FOLDER: &str = "doc";
 const DEPTH_MAX: usize = 16;
 
 /// Runs `modl doc`; `library` is true if the standard library is documented, too.
+///
+/// # Errors
+/// A message if there is no program to document, or a file can't be written or opened.
 pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let project =
         Project::of_folder(Some(globals.root.as_deref().unwrap_or(folder)), globals.stdlib.as_deref())?;

@@ -47,7 +47,10 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Returns an editor with the history of earlier sessions. Fails without a terminal.
+    /// Returns an editor with the history of earlier sessions.
+    ///
+    /// # Errors
+    /// A message without a terminal.
     pub(super) fn new(color: bool) -> Result<Lines, CallError> {
         let config = Config::builder()
             .max_history_size(HISTORY_MAX)
@@ -68,7 +71,10 @@ impl Lines {
         Ok(Lines { editor, history })
     }
 
-    /// Reads an entry; `knowledge` is the state of the session for completion. Fails if the terminal does.
+    /// Reads an entry; `knowledge` is the state of the session for completion.
+    ///
+    /// # Errors
+    /// A message if the terminal can't be read.
     pub(super) fn read(&mut self, knowledge: Knowledge) -> Result<Typed, CallError> {
         if let Some(assistant) = self.editor.helper_mut() {
             assistant.knowledge = Some(knowledge);
@@ -100,7 +106,8 @@ impl Lines {
     }
 }
 
-/// Returns the file of the history: `MODL_HISTORY`, or a file in the user's state folder.
+/// Returns the file of the history: `MODL_HISTORY`, or a file in the user's state folder; `None` if no folder
+/// is known.
 fn history_file() -> Option<PathBuf> {
     let folder = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
     folder("MODL_HISTORY")

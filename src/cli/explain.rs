@@ -6,7 +6,10 @@ use super::terminal::{print, print_json};
 use super::{CallError, Ending};
 use crate::source::{code, suggest::suggest};
 
-/// Runs `modl explain`: prints the page of a code, or lists all codes. Fails for an unknown code.
+/// Runs `modl explain`: prints the page of a code, or lists all codes.
+///
+/// # Errors
+/// A message for an unknown code.
 pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, CallError> {
     let Some(wanted) = wanted else {
         list(globals);

@@ -13,7 +13,10 @@ use std::{fs, io};
 /// The greatest depth of folders that are searched.
 const DEPTH_MAX: usize = 64;
 
-/// Runs `modl fmt`; with `check` it writes nothing. Fails if a file can't be read or written.
+/// Runs `modl fmt`; with `check` it writes nothing.
+///
+/// # Errors
+/// A message if a file can't be read or written.
 pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first, so that a wrong call does nothing.
     let mut programs = Vec::new();
@@ -38,7 +41,10 @@ struct Program {
     bytes: Vec<u8>,
 }
 
-/// Collects the programs of a file or folder.
+/// Collects the programs of a file or folder, by path.
+///
+/// # Errors
+/// A message if one can't be read.
 fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(), CallError> {
     if file == Path::new("-") {
         let bytes = disk::read(file, FILE_BYTES_MAX)?;
@@ -73,6 +79,9 @@ fn belongs(path: &Path) -> bool {
 }
 
 /// Formats a program, or checks its style. Returns true if it is readable and (with `check`) in style.
+///
+/// # Errors
+/// A message if it can't be written, or the formatter has a defect.
 fn one(program: &Program, check: bool, report: &mut Report, globals: &Globals) -> Result<bool, CallError> {
     let Program { file, name, bytes } = program;
     let mut sources = Sources::default();

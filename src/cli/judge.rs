@@ -17,7 +17,10 @@ use std::path::{Path, PathBuf};
 /// The greatest size of a plan file, in bytes.
 const PLAN_BYTES_MAX: usize = 1 << 30;
 
-/// Runs `modl verify`. Fails if a file can't be read.
+/// Runs `modl verify`.
+///
+/// # Errors
+/// A message if a file can't be read.
 pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first, so that a wrong call does nothing.
     let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
@@ -44,7 +47,10 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// Parses a plan file. Fails with a diagnostic at the span of the mistake.
+/// Returns the plan of a file's bytes.
+///
+/// # Errors
+/// A diagnostic at the mistake, with the text that its span refers to.
 pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
@@ -129,12 +135,15 @@ fn declarations(plan: &Plan) -> Vec<Declaration> {
     facts::declarations(library).into_iter().map(beside).collect()
 }
 
-/// Reads a plan file; `-` is standard input. Fails with a message.
+/// Returns the bytes of a plan file; `-` is standard input.
+///
+/// # Errors
+/// A message if it can't be read or is larger than 1 GiB.
 pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     disk::read(file, PLAN_BYTES_MAX)
 }
 
-/// The tolerance within which values of two verdicts are equal.
+/// The tolerance within which values of two verdicts are equal, SI.
 const TOL_VERDICT: f64 = 1e-6;
 
 /// Returns true if the stated verdict differs from the one found.

@@ -28,7 +28,7 @@ use clap::{CommandFactory, Parser};
 use std::io::Write;
 use std::process::ExitCode;
 
-/// The outcome of a command.
+/// The outcome of a command, which gives the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ending {
     /// Everything is fine.
@@ -96,7 +96,10 @@ fn carry_out(arguments: &Arguments) -> u8 {
     }
 }
 
-/// Runs the command. Fails if the call is wrong.
+/// Runs the command.
+///
+/// # Errors
+/// The message for the user, if the call is wrong.
 fn run(arguments: &Arguments) -> Result<Ending, CallError> {
     let globals = &arguments.globals;
     let Some(command) = &arguments.command else {

@@ -10,7 +10,10 @@ use std::path::Path;
 /// The program of a new project.
 const PROGRAM: &str = include_str!("new_program.mod");
 
-/// Runs `modl new`. Fails if a file of that name exists.
+/// Runs `modl new`.
+///
+/// # Errors
+/// A message if a file of that name exists, or the project can't be written.
 pub(super) fn run(name: &Path, globals: &Globals) -> Result<Ending, CallError> {
     let cannot =
         |e: std::io::Error| CallError(format!("cannot make `{}`: {}", name.display(), system_words(&e)));

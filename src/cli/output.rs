@@ -13,7 +13,9 @@ const PREFIX: &str = ".modl-";
 
 /// Writes `bytes` to `path` below `folder`, making folders as needed, and returns the path to show. The
 /// file appears whole or not at all: it is written under a temporary name in the same folder, then moved.
-/// Fails if the path leads out of the folder, or with the system's message.
+///
+/// # Errors
+/// The path leads out of the folder, or the system refuses.
 pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
     let path = join("", path).ok_or(WriteError::Outside)?;
     let relative = Path::new(&path);
@@ -30,7 +32,10 @@ pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, W
 }
 
 /// Replaces the contents of an existing file, following links; whole or not at all. Its permissions are
-/// kept. Fails with the system's error.
+/// kept.
+///
+/// # Errors
+/// The system's error; that of a refused permission for a read-only file.
 pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = fs::canonicalize(file)?;
     let found = fs::metadata(&target)?;
@@ -43,8 +48,10 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(file, &target, bytes)
 }
 
-/// Returns the real parent folder of a path below `root`, making missing folders. Fails if a link leads out
-/// of the root.
+/// Returns the real parent folder of a path below `root`, making missing folders.
+///
+/// # Errors
+/// A link leads out of the root, or the system refuses.
 fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     let mut parent = root.to_owned();
     for part in relative.components() {
@@ -61,8 +68,11 @@ fn parent_below(root: &Path, relative: &Path) -> Result<PathBuf, WriteError> {
     Ok(parent)
 }
 
-/// Fails if the file's own path is a link that leads out of `root`. It would be replaced and not followed,
-/// but someone has put it there on purpose.
+/// Refuses a path that is a folder, or a link that leads out of `root`. The link would be replaced and not
+/// followed, but someone has put it there on purpose.
+///
+/// # Errors
+/// The reason of the refusal.
 fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     match fs::symlink_metadata(target) {
         Ok(found) if found.is_dir() => Err(WriteError::Failed("a folder has this name".to_owned())),

@@ -34,12 +34,18 @@ struct Tally {
     cancelled: bool,
 }
 
-/// Runs programs. Fails if a file can't be read.
+/// Runs programs one after the other.
+///
+/// # Errors
+/// A message if a file can't be read.
 pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
     run_all(files, &task, globals, None).map(|(ending, _)| ending)
 }
 
 /// Runs programs and records the files they depend on in `watched`. A run that becomes stale ends early.
+///
+/// # Errors
+/// A message if a file can't be read.
 pub(super) fn run_watched(
     files: &[PathBuf],
     task: &Task,
@@ -49,7 +55,10 @@ pub(super) fn run_watched(
     run_all(files, task, globals, Some(watched)).map(|(ending, _)| ending)
 }
 
-/// Runs one program, and returns the files that it wrote, too.
+/// Runs one program, and returns the paths of the files that it wrote, too.
+///
+/// # Errors
+/// A message if the file can't be read.
 pub(super) fn run_and_list(
     file: &Path,
     task: Task,
@@ -58,7 +67,10 @@ pub(super) fn run_and_list(
     run_all(&[file.to_owned()], &task, globals, None)
 }
 
-/// Runs programs one after the other.
+/// Runs programs one after the other, and returns the paths of the files that they wrote, too.
+///
+/// # Errors
+/// A message if a file can't be read.
 fn run_all(
     files: &[PathBuf],
     task: &Task,
@@ -96,7 +108,7 @@ fn run_all(
     Ok((ending, tally.report.written.unwrap_or_default()))
 }
 
-/// Runs one program.
+/// Checks one program, does the task with it, and prints or records its diagnostics, tests and files.
 fn one(
     file: &Path,
     project: &Project,

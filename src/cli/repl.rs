@@ -47,7 +47,10 @@ struct Repl<'g> {
     interrupted: bool,
 }
 
-/// Runs `modl repl`. Fails if the project or file can't be read.
+/// Runs `modl repl`.
+///
+/// # Errors
+/// A message if the project, the file or the terminal can't be read, or there is no memory for a session.
 pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
     let stdlib = globals.stdlib.as_deref();
     let (project, load) = match file {
@@ -80,7 +83,10 @@ pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, Call
     }
 }
 
-/// Runs `modl -e`.
+/// Runs `modl -e`: evaluates texts one after the other, up to the first that fails.
+///
+/// # Errors
+/// A message if the project can't be read, or there is no memory for a session.
 pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
     let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();
@@ -96,7 +102,10 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
 }
 
 impl<'g> Repl<'g> {
-    /// Returns a session without entries. Fails if there is no memory for it.
+    /// Returns a session without entries.
+    ///
+    /// # Errors
+    /// A message if there is no memory for it.
     fn new(project: Project, globals: &'g Globals) -> Result<Repl<'g>, CallError> {
         let terminal = Terminal::new(globals);
         let style = report::style(globals, &project.folder);
@@ -185,7 +194,7 @@ impl<'g> Repl<'g> {
         print_error(&format!("{why}\n"));
     }
 
-    /// Runs work that Ctrl-C cancels.
+    /// Runs work that Ctrl-C cancels, once abandoned work has ended or been left.
     fn cancellable<T>(&mut self, work: impl FnOnce(&mut Session, &mut Terminal) -> T) -> T {
         if self.session.is_abandoned() && !settled(|| self.session.wait_for_abandoned()) {
             if let Err(e) = self.session.renew(&self.terminal) {
@@ -199,13 +208,13 @@ impl<'g> Repl<'g> {
         work(&mut self.session, &mut self.terminal)
     }
 
-    /// Evaluates an entry and prints the outcome.
+    /// Evaluates an entry and prints the outcome; returns true if it was accepted.
     fn enter(&mut self, input: &Input) -> bool {
         let reply = self.cancellable(|session, terminal| session.enter(input, terminal));
         self.print_reply(&reply)
     }
 
-    /// Evaluates the expression of a command, and keeps nothing of it.
+    /// Evaluates the text of a command, and keeps nothing of it; returns true if that went well.
     fn ask(&mut self, text: &str, shown: Shown) -> bool {
         self.enter(&Input { text, name: "<command>", first_line: 1, shown, keep: false })
     }

@@ -22,7 +22,7 @@ const JSON_DIAGNOSTICS_MAX: usize = 10_000;
 pub(super) struct Report {
     /// True if the exit code is 0.
     pub ok: bool,
-    /// The diagnostics.
+    /// The diagnostics, at most 10,000; empty if they are printed as text.
     pub diagnostics: Vec<JsonDiagnostic>,
     /// The number of diagnostics left out because there were too many.
     pub omitted: usize,
@@ -30,16 +30,16 @@ pub(super) struct Report {
     pub errors: usize,
     /// The number of warnings.
     pub warnings: usize,
-    /// The lines that the program printed.
+    /// The lines that the program printed; `None` for commands that print none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<Vec<String>>,
-    /// The paths of the files written.
+    /// The paths of the files written; `None` for commands that write none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<Vec<String>>,
-    /// The results of tests.
+    /// The results of tests; `None` for commands that run none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tests: Option<Vec<JsonTest>>,
-    /// The verdicts on plan files.
+    /// The verdicts on plan files; `None` for commands that judge none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
     #[serde(skip)]
@@ -73,12 +73,12 @@ pub(super) struct JsonPlan {
 /// A declaration of a plan file's library, which a verdict rests on.
 #[derive(Debug, Serialize)]
 pub(super) struct Declaration {
-    /// The facts of it.
+    /// Its facts.
     #[serde(flatten)]
     pub facts: Facts,
-    /// The declaration of the same name in the standard library: `std.smores.Smores`.
+    /// The declaration of the same name in the standard library, `std.smores.Smores`; `None` if there is none.
     pub standard: Option<String>,
-    /// The differences from that.
+    /// The differences from that, in words; empty if there are none.
     pub differences: Vec<String>,
 }
 
@@ -155,7 +155,7 @@ pub(super) fn style(globals: &Globals, folder: &str) -> Style {
     Style { width: width(), color: color(globals.color), folder: folder.to_owned(), ..Style::default() }
 }
 
-/// Returns the width of the terminal in columns.
+/// Returns the width of the terminal in columns: that of standard error, else `COLUMNS`, else 100.
 pub(super) fn width() -> usize {
     let columns = || std::env::var("COLUMNS").ok()?.parse().ok();
     match terminal_size::terminal_size_of(stderr()) {
@@ -164,7 +164,8 @@ pub(super) fn width() -> usize {
     }
 }
 
-/// Returns true if text on standard error is coloured.
+/// Returns true if text on standard error is coloured: by default on a terminal that is not `dumb`, unless
+/// `NO_COLOR` is set.
 pub(super) fn color(choice: Color) -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     match choice {

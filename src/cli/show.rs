@@ -11,7 +11,10 @@ use crate::view::{self, RenderInput};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Runs `modl show`. Fails if the file can't be read or no page was made.
+/// Runs `modl show`; with `open` the last page is opened, if one was made.
+///
+/// # Errors
+/// A message if the file can't be read, or a page can't be written or opened.
 pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     let (ending, written) =
@@ -23,7 +26,10 @@ pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, 
     Ok(ending)
 }
 
-/// Writes the page of a plan file, which is verified again.
+/// Writes the page of a plan file, which is verified again; returns its path, too.
+///
+/// # Errors
+/// A message if the file can't be read or the page can't be written.
 fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
     let bytes = judge::read(file)?;
     listen_for_cancel();
@@ -59,13 +65,16 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
     Ok((if ok { Ending::Fine } else { Ending::Wrong }, vec![written]))
 }
 
-/// Returns the title of a page.
+/// Returns the title of a page: the robot's name, or the stem of the file.
 fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
     let name = plan.body.tracks().map(|tracks| tracks.robot.name.as_str());
     name.filter(|name| !name.is_empty()).unwrap_or(stem)
 }
 
-/// Opens a page in the system's browser. Fails if no program for it can be started.
+/// Opens a page in the system's browser.
+///
+/// # Errors
+/// A message if the program for it can't be started.
 pub(super) fn open_page(page: &str) -> Result<(), CallError> {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

@@ -58,7 +58,7 @@ static TYPED: Mutex<Option<Instant>> = Mutex::new(None);
 /// The instant of the last Ctrl-C while a session worked.
 static PRESSED: Mutex<Option<Instant>> = Mutex::new(None);
 
-/// Installs the Ctrl-C handler of a session: it cancels the work at hand, and abandons it after a grace
+/// Installs the Ctrl-C handler of a session: it cancels the current work, and abandons it after a grace
 /// period. While the session waits for input, it exits the process with code 130.
 pub(super) fn listen_for_interrupt() {
     let on_signal = || {
@@ -165,7 +165,7 @@ pub(super) fn note_output(written: io::Result<()>) {
     }
 }
 
-/// Returns why standard output could not be written, in the system's words; `None` if it could.
+/// Returns the reason why standard output could not be written, in the system's words; `None` if it could.
 pub(super) fn output_failure() -> Option<String> {
     OUTPUT_FAILURE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }

@@ -9,7 +9,7 @@ use crate::units::Dimension;
 use crate::units::{number, quantity};
 use std::fmt::Write;
 
-/// Returns the verdict on a plan as text of several lines.
+/// Returns the verdict on a plan as text of several lines; `name`: the file, for the first line.
 pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     let headline = if verdict.ok() { plan::headline(plan, verdict) } else { "NOT verified".to_owned() };
     let mut out = format!("{name}: {headline}\n");
@@ -85,7 +85,7 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
-/// Rounds to the nearest multiple of `step`; smaller differences mean nothing to a reader.
+/// Returns the nearest multiple of `step`; smaller differences mean nothing to a reader.
 fn rounded(value: f64, step: f64) -> f64 {
     (value / step).round() * step
 }

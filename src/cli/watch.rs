@@ -52,13 +52,16 @@ impl Watched {
     }
 }
 
-/// Returns the version of a file.
+/// Returns the version of a file; `None` if there is none.
 fn stamp(file: &Path) -> Stamp {
     let found = fs::metadata(file).ok()?;
     Some((found.modified().ok()?, found.len()))
 }
 
 /// Runs the task, and again after each change, until the user cancels.
+///
+/// # Errors
+/// A message if a file is standard input, or can't be read at the first run.
 pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, CallError> {
     if let Some(file) = files.iter().find(|file| file.as_path() == Path::new("-")) {
         return Err(CallError(format!("`{}`: standard input does not change", file.display())));
@@ -102,7 +105,7 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
     }
 }
 
-/// Prints the outcome even if there is nothing else to print.
+/// Prints the outcome of a run and the number of watched files, unless the run is outdated.
 fn told(ending: Ending, watched: &Watched, globals: &Globals) {
     if globals.json || watched.stale() {
         return;

@@ -3,13 +3,13 @@
 use crate::source::FileId;
 use crate::syntax::{self, ast};
 
-/// An example as a text with the same lines and columns as in its file: blanks replace the marks of the
-/// comment.
+/// An example as a text with the same columns as in its file: blanks replace the marks of the comment. Its
+/// lines count from `first_line`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Example {
     /// The text of the program.
     pub text: String,
-    /// The line at which it begins, from 1.
+    /// The line of the file at which it begins, from 1.
     pub first_line: usize,
     /// True if it is only checked: ` ```modl check `.
     pub only_checked: bool,

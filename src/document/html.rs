@@ -9,10 +9,10 @@ pub(super) const STYLE: &str = include_str!("site.css");
 /// The script of its search.
 pub(super) const SCRIPT: &str = include_str!("search.js");
 
-/// A function that returns a piece of documentation as HTML.
+/// A function that returns a piece of documentation, given as Markdown, as HTML.
 pub(super) type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
 
-/// Returns text escaped for HTML.
+/// Returns text escaped for HTML, also for attributes in double quotes.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -149,7 +149,8 @@ pub(super) fn index(pages: &[Page]) -> String {
     frame("Documentation", pages, &body)
 }
 
-/// Returns the guide: all configurations, by order, with their behaviours.
+/// Returns the guide: all configurations with their behaviours, by order; those without a default instance
+/// last.
 pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut body = String::from(
         "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \

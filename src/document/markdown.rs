@@ -4,14 +4,16 @@ use pulldown_cmark::{BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag, 
 
 /// The targets of links.
 pub(super) trait Targets {
-    /// Returns the address of a declaration, or of a member behind a dot, relative to the current page.
+    /// Returns the address of a declaration, or of a member after a dot, relative to the current page; `None`
+    /// if there is none.
     fn address(&self, name: &str) -> Option<String>;
 
-    /// Returns the address in the site of a file of the project, if there is one.
+    /// Returns the address in the site of a file of the project; `None` if it can't be read.
     fn file(&self, path: &str) -> Option<String>;
 }
 
-/// Returns the HTML of a Markdown text, and the broken links in it.
+/// Returns the HTML of a Markdown text, and the targets of the broken links in it. HTML in the text is shown as
+/// text.
 pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();
     let mut lost_names = Vec::new();
@@ -36,8 +38,8 @@ fn bare(reference: &str) -> &str {
     reference.trim_matches('`')
 }
 
-/// Resolves links: `[text](Name)`, `[text](file.md)`, `[text](https://...)`, and so by reference. Images are files
-/// of the project.
+/// Resolves a link, `[text](Name)`, `[text](file.md)`, `[text](https://...)`, or one by reference. Images are
+/// files of the project.
 fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>) -> Event<'e> {
     match event {
         Event::Start(Tag::Link { link_type, dest_url, title, id }) if !is_resolved(link_type) => {
@@ -57,8 +59,8 @@ fn followed<'e>(event: Event<'e>, targets: &dyn Targets, lost: &mut Vec<String>)
     }
 }
 
-/// Returns true if a link leads to the place of a declaration that was found, or to a mail address, which is no
-/// address of a page.
+/// Returns true if a link leads to a declaration that was found, or to a mail address, which is no address of a
+/// page.
 fn is_resolved(link_type: LinkType) -> bool {
     matches!(
         link_type,
@@ -83,7 +85,7 @@ fn leads_out(to: &str) -> bool {
     ["https://", "http://", "mailto:"].iter().any(|scheme| to.starts_with(scheme))
 }
 
-/// Returns the address in the site of a declaration or a file, if it exists.
+/// Returns the address in the site of a declaration or a file; `None` if there is none.
 fn within(to: &str, targets: &dyn Targets) -> Option<String> {
     if let Some(address) = targets.address(bare(to.trim_start_matches('#'))) {
         return Some(address);

@@ -12,7 +12,7 @@ pub(super) struct Page {
     pub title: String,
     /// The name of its file in the site.
     pub file: String,
-    /// The file's documentation.
+    /// The file's documentation, Markdown; `None` if it has none.
     pub doc: Option<String>,
     /// The entries, in the order of the text.
     pub entries: Vec<PageEntry>,
@@ -26,7 +26,7 @@ pub(super) struct PageEntry {
     pub word: &'static str,
     /// Its signature.
     pub signature: String,
-    /// Its documentation.
+    /// Its documentation, Markdown; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its members.
     pub inside: Vec<Inside>,
@@ -34,9 +34,9 @@ pub(super) struct PageEntry {
     pub has_default: bool,
     /// The facts about its default instance: order, modules, mass.
     pub facts: Vec<String>,
-    /// The order of its default instance, for a configuration.
+    /// The order of its default instance; `None` if it is no configuration or has none.
     pub order: Option<u32>,
-    /// The name of its picture in the site.
+    /// The name of its picture in the site; `None` if it has none.
     pub picture: Option<String>,
 }
 

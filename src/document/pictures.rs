@@ -34,7 +34,8 @@ impl Host for Answers {
     }
 }
 
-/// Fills in the facts of every entry of a page with a default instance, and returns the pictures by name.
+/// Fills in the facts of every entry of a page with a default instance, and returns the pictures (PNG) with
+/// their names in the site.
 pub(super) fn drawn(
     page: &mut Page,
     files: &dyn Files,
@@ -63,7 +64,7 @@ pub(super) fn drawn(
     pictures
 }
 
-/// Runs the program for one entry; `None` if it has no default instance.
+/// Runs the program for one entry; `None` if the program has an error.
 fn asked(entry: &PageEntry, import: &str, files: &dyn Files, cancel_state: &CancelState) -> Option<Answers> {
     let name = &entry.name;
     let facts = match entry.word {

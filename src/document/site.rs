@@ -11,40 +11,42 @@ use crate::syntax;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// The input of [`site`].
+/// The input of [`site`]: a project, and the part of the library to document.
 pub struct Request<'r> {
     /// The files of the project.
     pub files: &'r dyn Files,
-    /// The paths of the project's programs.
+    /// The paths of the project's programs, from its root, in the order of the pages.
     pub programs: &'r [String],
     /// True if the standard library is documented, too.
     pub library: bool,
-    /// The token that cancels the work.
+    /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
 }
 
 /// The generated site.
 pub struct Site {
-    /// The files by name.
+    /// The files as (name in the site, contents).
     pub files: Vec<(String, Vec<u8>)>,
-    /// The broken links in documentation.
+    /// The broken links in documentation, page by page.
     pub faults: Vec<LinkFault>,
-    /// The programs that are left out because of errors, with their diagnostics.
+    /// The programs that are left out because of errors, each with its errors.
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
 }
 
 /// A broken link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkFault {
-    /// The file that contains it.
+    /// The title of the page that contains it: `std.smores`, or the path of a program.
     pub file: String,
-    /// The declaration whose documentation contains it.
+    /// The declaration whose documentation contains it; empty for the documentation of a file.
     pub entry: String,
-    /// The text of its target.
+    /// Its target as it is written.
     pub link: String,
 }
 
-/// Generates the site of a project. Mistakes in programs and links are part of the result.
+/// Returns the site of a project, as files that work without a server: a page for each program and library
+/// file, an index, a guide and a search. Mistakes in programs and links are part of the result. Nothing is
+/// written.
 pub fn site(request: &Request) -> Site {
     let mut site = Site { files: Vec::new(), faults: Vec::new(), wrong: Vec::new() };
     let mut pages = Vec::new();
@@ -126,7 +128,7 @@ fn stands_in(entry: &PageEntry, text: &str) -> bool {
     entry.doc.as_deref() == Some(text) || entry.inside.iter().any(|i| i.doc.as_deref() == Some(text))
 }
 
-/// Returns the addresses of names, by name: a declaration, or a member behind a dot, with the title of
+/// Returns the addresses of names, by name: of a declaration, or a member after a dot, each with the title of
 /// its page.
 fn addresses(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
     let mut found: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();

@@ -6,7 +6,7 @@ use crate::check::Checked;
 use crate::check::typed::DefId;
 use std::collections::BTreeMap;
 
-/// A changed declaration of a file.
+/// A declaration of a file that is new, changed or gone since the file was read before.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
     /// The name of the file.
@@ -15,7 +15,7 @@ pub struct Change {
     pub name: String,
     /// The kind of change.
     pub kind: ChangeKind,
-    /// The names of the session that depend on it.
+    /// The visible names of the session that depend on it, sorted; empty if it is gone.
     pub users: Vec<String>,
 }
 
@@ -24,13 +24,14 @@ pub struct Change {
 pub enum ChangeKind {
     /// The declaration is new.
     Added,
-    /// Its text is another one.
+    /// Its text differs.
     Changed,
     /// It is gone.
     Removed,
 }
 
-/// Returns the differences between the declarations of files, by file and name.
+/// Returns the differences between the declarations of the project's files: first new and changed ones, then
+/// those that are gone, each sorted by file and name.
 pub(super) fn changes(before: &Checked, after: &Checked) -> Vec<Change> {
     let (old, new) = (declarations(before), declarations(after));
     let dependencies = Dependencies::of(after);

@@ -41,7 +41,10 @@ pub(crate) const COMMANDS: &[(&str, &str, &str)] = &[
     ("quit", "", "leave; Ctrl-D does, too"),
 ];
 
-/// Parses a line as a command. `None` if the line is not a command; an error message if it is a wrong one.
+/// Parses a line as a command, which begins with `:` or `?`. `None` if the line does not.
+///
+/// # Errors
+/// A message for an unknown command, and for one with an argument too many or too few.
 pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     let line = line.trim();
     if let Some(name) = line.strip_prefix('?') {
@@ -53,7 +56,10 @@ pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     Some(command(word, rest.trim()))
 }
 
-/// Returns the command with this name or unique prefix of a name.
+/// Returns the command with this name or unique prefix of a name, with the argument `rest`.
+///
+/// # Errors
+/// A message if there is none, or if the argument does not fit.
 fn command(word: &str, rest: &str) -> Result<Command, String> {
     // A prefix is enough if it is unique.
     let of_word = |name: &str| !word.is_empty() && name.starts_with(word);

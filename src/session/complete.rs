@@ -17,7 +17,7 @@ use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, 
 use crate::units::UNITS;
 use std::sync::Arc;
 
-/// The state of a session that completion needs; cheap to clone.
+/// The state of a session that completion needs. Clones share the files and the checked program.
 #[derive(Clone)]
 pub struct Knowledge {
     files: Arc<FileSnapshot>,
@@ -50,7 +50,8 @@ impl Session {
 /// The greatest length of a hint in characters; it is shown on the line being typed.
 const HINT_MAX: usize = 60;
 
-/// Returns the candidates at the offset `at`, in bytes.
+/// Returns the candidates at the offset `at`, in bytes: those that begin with what is typed, sorted by name,
+/// each once. Panics if `at` is within a character or beyond the text.
 pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
     let before = &text[..at];
     let mut completion = candidates(knowledge, before);
@@ -61,12 +62,13 @@ pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completi
     completion
 }
 
-/// Returns the remaining parameters of the call in which a text ends, as text for a reader.
+/// Returns the remaining parameters of the call in which a text ends, as text for a reader; `None` outside of a
+/// call, for an unknown function, behind a dot, and within an argument.
 pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
     let callee = receiver(&text[..open])?;
     let inside = &text[open + 1..];
-    // Behind a dot the type would have to be inferred, which is too slow for every key.
+    // After a dot the type would have to be inferred, which is too slow for every key.
     if callee.contains('.') || !(inside.trim().is_empty() || inside.trim_end().ends_with(',')) {
         return None;
     }
@@ -128,7 +130,7 @@ fn line_start(text: &str) -> usize {
     text.rfind('\n').map_or(0, |at| at + 1)
 }
 
-/// Returns the candidates of a command line.
+/// Returns the candidates of a command line; `None` if the text is none.
 fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
     let line = before.trim_start();
     let indent = before.len() - line.len();
@@ -153,7 +155,7 @@ fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
     }
 }
 
-/// Returns the offset of the contents of a text literal that is still open.
+/// Returns the offset of the contents of a text literal that is still open; `None` if none is.
 fn open_text(before: &str) -> Option<usize> {
     let outline = Outline::of(before)?;
     let last = outline.tokens.last()?;
@@ -211,7 +213,8 @@ fn declared(text: &str) -> Vec<Named> {
     named.collect()
 }
 
-/// Returns the offset of the unit attached to a number at the end of a text: `90d`, `6rad/`.
+/// Returns the offset of the unit, or of its last factor, attached to a number at the end of a text: `90d`,
+/// `6rad/`; `None` if the text does not end so.
 fn unit_start(before: &str) -> Option<usize> {
     let glued = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '/' | '*' | '^' | '_');
     let start = before.rfind(|c| !glued(c)).map_or(0, |at| at + last_char(before, at));
@@ -227,7 +230,7 @@ fn unit_start(before: &str) -> Option<usize> {
     Some(start + last)
 }
 
-/// Returns the expression of names, calls and indices that ends a text.
+/// Returns the expression of names, calls and indices that ends a text; `None` if there is none.
 fn receiver(text: &str) -> Option<&str> {
     let bytes = text.as_bytes();
     let mut at = text.len();
@@ -263,7 +266,7 @@ fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
 }
 
-/// Checks an expression as the next entry, and returns the program and its type.
+/// Checks an expression as the next entry, and returns the program and its type; `None` if it has no value.
 fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
     let mut entries = knowledge.entries.clone();
     entries.push(Entry {
@@ -304,7 +307,7 @@ fn substituted(expr: &str, before: &str) -> String {
     expr
 }
 
-/// Returns the offset of the innermost open bracket of a call.
+/// Returns the offset of the innermost open bracket, if it is a parenthesis; otherwise `None`.
 fn open_call(text: &str) -> Option<usize> {
     let outline = Outline::of(text)?;
     let mut open = Vec::new();
@@ -338,7 +341,8 @@ fn arguments(inside: &str) -> Vec<&str> {
     found
 }
 
-/// Returns the parameters of the call in which a text ends, and the text of its arguments.
+/// Returns the checked program, the parameters of the call in which a text ends, and the text of its arguments;
+/// `None` outside of a call, and for an unknown function.
 fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<Param>, &'t str)> {
     let open = open_call(before)?;
     let callee = receiver(&before[..open])?;
@@ -373,7 +377,7 @@ fn named_arguments(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     open.map(|(_, p)| Named::new(format!("{}: ", p.name), checked.program.type_name(&p.ty))).collect()
 }
 
-/// Returns the words of a choice behind the name of its parameter: `profile: `.
+/// Returns the words of a choice after the name of its parameter, `profile: `; `None` elsewhere.
 fn words_of_argument(knowledge: &Knowledge, before: &str) -> Option<Vec<Named>> {
     let name = before.trim_end().strip_suffix(':')?;
     let name = &name[word_start(name)..];

@@ -32,7 +32,7 @@ impl<'c> Dependencies<'c> {
         found
     }
 
-    /// Returns the declaration that contains a span.
+    /// Returns the project's declaration that contains a span; `None` if none does.
     pub(super) fn declaration_at(&self, span: Span) -> Option<DefId> {
         let defs = self.places.get(&span.file)?;
         let next = defs.partition_point(|(start, _, _)| *start <= span.start);

@@ -12,7 +12,11 @@ use crate::syntax::{self, ast};
 use std::sync::Arc;
 
 impl Session {
-    /// Returns the type of an expression, or the diagnostics if it has none.
+    /// Returns the type of an expression in the language's words; `nothing` for a text without a value. Nothing
+    /// is evaluated.
+    ///
+    /// # Errors
+    /// The errors in the text, with the checked program whose sources their spans refer to.
     pub fn type_of(&self, text: &str) -> Result<String, (Arc<Checked>, Vec<Diagnostic>)> {
         let entry =
             Entry { name: "<type>".into(), text: text.into(), first_line: 1, value: None, last: self.last };
@@ -30,7 +34,11 @@ impl Session {
         }
     }
 
-    /// Returns the signature and documentation of a name. Fails with a message for an unknown name.
+    /// Returns the signature, documentation and members of a name: of a declaration, `name.member`, an item of
+    /// the library that is not imported, or a command such as `:load`.
+    ///
+    /// # Errors
+    /// A message for an unknown name.
     pub fn doc(&self, name: &str) -> Result<String, String> {
         if let Some(&(_, command, does)) =
             super::command::COMMANDS.iter().find(|(c, ..)| name == format!(":{c}"))
@@ -48,8 +56,9 @@ impl Session {
         }
     }
 
-    /// Returns the signature of a built-in function, for a text that is only its name. Functions with
-    /// arguments of several types are no values, so the text alone would be an error.
+    /// Returns the signature of a built-in function, for a text that is only its name; `None` if the text names
+    /// no built-in function. Functions with arguments of several types are no values, so the text alone would
+    /// be an error.
     pub fn call_of(&self, text: &str) -> Option<String> {
         let (id, member) = self.find(text.trim())?;
         let native = matches!(self.checked.program.def(id).kind, DefKind::Native(_)) && member.is_none();
@@ -57,8 +66,11 @@ impl Session {
         native.then(|| format!("{}\n`:doc {name}` tells more\n", summary::signature(&self.checked, id)))
     }
 
-    /// Returns the declaration of a name with its position in the source. Fails with a message for an unknown
-    /// name.
+    /// Returns the text of the declaration of a name after a comment with its file and line; for `name.member`,
+    /// that of `name`.
+    ///
+    /// # Errors
+    /// A message for an unknown name.
     pub fn source(&self, name: &str) -> Result<String, String> {
         let Some((id, _)) = self.find(name) else { return Err(self.unknown(name)) };
         let def = self.checked.program.def(id);
@@ -67,7 +79,8 @@ impl Session {
         Ok(format!("// {}:{line}\n{}\n", file.name, self.checked.sources.text(def.whole)))
     }
 
-    /// Returns everything that was declared or imported, with its type, by name.
+    /// Returns all declarations that are visible by a name, without those of the prelude, each with its type or
+    /// keyword, sorted by name.
     pub fn vars(&self) -> Vec<(String, String)> {
         let program = &self.checked.program;
         let own = meant(&self.checked).into_iter().filter(|(name, id)| {
@@ -77,7 +90,8 @@ impl Session {
         own.map(|(name, id)| (name.to_string(), about(program, id))).collect()
     }
 
-    /// Returns a declaration by its name, and the name of a member behind a dot.
+    /// Returns a declaration by its name, and the name of a member after a dot; `None` if there is no such
+    /// declaration.
     fn find(&self, name: &str) -> Option<(DefId, Option<String>)> {
         let mut names = name.split('.').map(str::trim);
         let first = names.next()?;
@@ -103,6 +117,9 @@ impl Session {
     }
 
     /// Returns the documentation of a library item that is not imported.
+    ///
+    /// # Errors
+    /// A message if the library has none of this name.
     fn doc_of_library(&self, name: &str) -> Result<String, String> {
         for (file, _) in library::FILES {
             let Some(text) = crate::source::Files::library(&*self.files, file) else { continue };
@@ -132,7 +149,8 @@ impl Session {
     }
 }
 
-/// Checks a text as the next entry, and returns the program and the type of its last expression.
+/// Checks a text as the next entry, and returns the program and the type of its last expression; `None` if that
+/// has no value.
 pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
     let mut entries = session.entries.clone();
     entries.push(entry);
@@ -146,7 +164,8 @@ fn is_named(item: &ast::Item, name: &str) -> bool {
     item.kind.name().is_some_and(|declared| declared.text == name)
 }
 
-/// Returns the declaration of which the value of a `let` is an instance.
+/// Returns the declaration of which the value of a `let` is an instance; `None` for other declarations and
+/// values.
 fn type_of(def: &Def) -> Option<DefId> {
     match &def.kind {
         DefKind::Let(binding) => match binding.ty {
@@ -175,7 +194,8 @@ fn head(inside: &Inside) -> String {
     }
 }
 
-/// Returns the documentation of a joint, port, behaviour, field or method.
+/// Returns the documentation of a joint, port, behaviour, field or method; `None` if the declaration has none
+/// of this name.
 fn member_doc(checked: &Checked, def: &Def, name: &str) -> Option<String> {
     let found = summary::inside(checked, def).into_iter().find(|inside| inside.name.as_str() == name)?;
     let doc = found.doc.as_deref().map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();

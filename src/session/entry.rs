@@ -2,8 +2,9 @@
 
 use crate::syntax::{Outline, TokenKind, breaks_off};
 
-/// Returns true if a text is incomplete: a bracket, a raw text or a comment is open, or it ends where more
-/// is expected. A text with a mistake elsewhere is complete: it can be checked.
+/// Returns true if a text is incomplete: a bracket, a raw text or a comment is open, or it ends where more is
+/// expected. A blank text, and one with a mistake elsewhere, is complete: it can be checked. So is one that is
+/// too large or nests too deeply.
 pub fn is_incomplete(text: &str) -> bool {
     match Outline::of(text).map(|outline| openness(&outline)) {
         _ if text.trim().is_empty() => false,
@@ -13,14 +14,15 @@ pub fn is_incomplete(text: &str) -> bool {
     }
 }
 
-/// Returns true if a user submits an incomplete text: by an empty line; inside brackets, where empty lines
-/// may occur, by two.
+/// Returns true if a user submits an incomplete text: by an empty line at its end; inside brackets, where empty
+/// lines may occur, by two.
 pub fn is_given_up(text: &str) -> bool {
     let open = Outline::of(text).is_some_and(|outline| matches!(openness(&outline), Openness::Open));
     text.ends_with(if open { "\n\n" } else { "\n" })
 }
 
-/// Returns true if a line can only continue the one before.
+/// Returns true if a line can only continue the one before: it begins with `and`, `or`, `else`, or an operator
+/// that begins no statement.
 pub fn goes_on(line: &str) -> bool {
     let line = line.trim_start();
     let word = line.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");

@@ -6,10 +6,11 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The files that a session can read.
+/// The files that a session can read, shared with completion on another thread.
 pub type Project = Arc<dyn Files + Send + Sync>;
 
-/// A project with the files read from it so far.
+/// A project with the files read from it so far: each is read once, also one that can't be read. Lists of
+/// folders and the library are not kept.
 pub struct FileSnapshot {
     project: Project,
     read: Mutex<BTreeMap<String, Result<Vec<u8>, ReadError>>>,

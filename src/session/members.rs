@@ -21,7 +21,8 @@ impl Named {
     }
 }
 
-/// Returns the candidates behind `value.` for a value of this type.
+/// Returns the candidates after `value.` for a value of this type, sorted by name; empty for a type without
+/// members.
 pub(super) fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
     let program = &checked.program;
     match ty {
@@ -37,7 +38,7 @@ pub(super) fn members(checked: &Checked, ty: &Type) -> Vec<Named> {
     }
 }
 
-/// Returns a record of the prelude.
+/// Returns a record of the library by its name; `None` if there is none.
 fn prelude(checked: &Checked, name: &str) -> Option<DefId> {
     let record = |id: &usize| matches!(checked.program.defs[*id].kind, DefKind::Record(_));
     let found = (0..checked.program.defs.len()).filter(record).find(|id| {
@@ -47,7 +48,7 @@ fn prelude(checked: &Checked, name: &str) -> Option<DefId> {
     found.and_then(|index| u32::try_from(index).ok()).map(DefId)
 }
 
-/// Returns the members of an instance.
+/// Returns the members of an instance, sorted by name.
 fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
     let mut found: Vec<Named> = Vec::new();
     let kind = &program.def(id).kind;
@@ -82,7 +83,7 @@ fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
     sorted(found)
 }
 
-/// Returns the fields and methods of a record.
+/// Returns the fields and methods of a record, inherited ones included, sorted by name.
 fn of_record(program: &Program, id: DefId) -> Vec<Named> {
     let mut found = Vec::new();
     let mut line = Some(id);
@@ -121,7 +122,8 @@ pub(super) fn params_text(program: &Program, params: &[Param], result: &str) -> 
     format!("({}) -> {result}", params.join(", "))
 }
 
-/// Returns the parameters of a behaviour or method of a type.
+/// Returns the parameters of a behaviour or method of a type, without its object; empty if there is none of
+/// this name.
 pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
     let mut line = match ty {

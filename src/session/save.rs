@@ -11,7 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 impl Session {
-    /// Returns the text of a program that does what was entered, formatted.
+    /// Returns the text of a program that does what was entered, formatted: imports first, then the entries
+    /// without what later ones replaced. `_` is replaced by a name.
     pub fn program(&self) -> String {
         let checked = self.checked();
         let saved = Saved::of(checked);

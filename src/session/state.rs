@@ -46,31 +46,31 @@ struct Before {
 /// A text to enter.
 #[derive(Clone, Debug)]
 pub struct Input<'t> {
-    /// The text.
+    /// The text of the program; no command.
     pub text: &'t str,
     /// Its name in diagnostics.
     pub name: &'t str,
     /// The line of a longer input at which it begins; 1 if there is none.
     pub first_line: usize,
-    /// The values that are printed.
+    /// The part of the result that is printed.
     pub shown: Shown,
-    /// True if its declarations are kept.
+    /// True if its declarations and values are kept; otherwise the session is afterwards as it was.
     pub keep: bool,
 }
 
 /// The outcome of an entry.
 pub struct Reply {
-    /// The program that was checked, with the texts that the diagnostics refer to.
+    /// The program that was checked, the entry included, with the texts that the diagnostics refer to.
     pub checked: Arc<Checked>,
     /// The errors and warnings about the entry.
     pub diagnostics: Vec<Diagnostic>,
-    /// Further messages, a line each.
+    /// Further messages for the user, one line each.
     pub notes: Vec<String>,
     /// Errors in earlier entries caused by this one, which is accepted all the same.
     pub broken: Vec<Diagnostic>,
-    /// The paths of the files that were written.
+    /// The paths of the files that were written, as the host showed them.
     pub written: Vec<String>,
-    /// True if the entry was accepted. If not, the session is as it was.
+    /// True if the entry was evaluated without an error. If not, the session is as it was.
     pub ok: bool,
     /// True if the entry was cancelled.
     pub interrupted: bool,
@@ -80,7 +80,7 @@ pub struct Reply {
 pub struct Reloaded {
     /// The outcome of evaluating the reloaded program.
     pub reply: Reply,
-    /// The changed declarations.
+    /// The declarations that changed; also listed if evaluating them failed, and empty if checking did.
     pub changes: Vec<Change>,
 }
 
@@ -105,7 +105,10 @@ impl Reply {
 }
 
 impl Session {
-    /// Returns an empty session in a project. Only the cancellation token of `host` is used.
+    /// Returns an empty session in a project. Only the cancellation state of `host` is used.
+    ///
+    /// # Errors
+    /// The system's words where it gives no memory for the evaluator's thread.
     pub fn new(project: Project, options: Options, host: &dyn Host) -> Result<Session, String> {
         let files = Arc::new(FileSnapshot::new(project));
         let checked = Arc::new(check::check_session(&*files, &[]));
@@ -142,7 +145,7 @@ impl Session {
         true
     }
 
-    /// Leaves work that does not end, and starts a new evaluator with the current cancellation token of
+    /// Leaves work that does not end, and starts a new evaluator with the current cancellation state of
     /// `host`. All values are computed again when they are needed.
     ///
     /// # Errors
@@ -153,8 +156,9 @@ impl Session {
         Ok(())
     }
 
-    /// Checks and evaluates a text. A new declaration replaces an earlier one of its name. If the entry
-    /// fails, the session is as it was.
+    /// Checks and evaluates a text as the next entry. A new declaration replaces an earlier one of its name. If
+    /// the entry fails, or `input` says not to keep it, the session is as it was. Panics if abandoned work has
+    /// not been waited for.
     pub fn enter(&mut self, input: &Input, host: &mut dyn Host) -> Reply {
         self.count += 1;
         let entry = Entry {
@@ -167,7 +171,8 @@ impl Session {
         self.take(entry, input, host)
     }
 
-    /// Checks an entry, and evaluates it if it has no errors.
+    /// Checks an entry, and evaluates it if it has no errors. The value of its last expression is declared
+    /// under a name, so that `_` can stand for it.
     fn take(&mut self, entry: Entry, input: &Input, host: &mut dyn Host) -> Reply {
         let mut entries = self.entries.clone();
         entries.push(entry);
@@ -306,7 +311,8 @@ impl Session {
         (stale, notes)
     }
 
-    /// Loads a file: imports the names that it declares. Returns an outcome like that of an entry.
+    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome
+    /// like that of an entry; a file that can't be read or declares nothing is an error in it.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());
@@ -344,7 +350,8 @@ impl Session {
             .collect()
     }
 
-    /// Reads all files again. If there are errors in them, the session stays as it was.
+    /// Reads all files again, evaluates what changed, and forgets the values that depend on it. If there are
+    /// errors in them, the session stays as it was. Earlier entries can't be undone after it.
     pub fn reload(&mut self, host: &mut dyn Host) -> Reloaded {
         let files = Arc::new(self.files.fresh());
         let mut entries = self.entries.clone();
@@ -388,7 +395,8 @@ impl Session {
         Reloaded { reply, changes }
     }
 
-    /// Undoes the last entry, and returns its text; `None` if there is none to undo.
+    /// Undoes the last entry that was kept, and returns its text; `None` if there is none to undo. At most 200
+    /// entries can be undone.
     pub fn undo(&mut self, host: &mut dyn Host) -> Option<String> {
         let before = self.before.pop()?;
         let undone = self.entries.drain(before.entries..).next()?;
@@ -398,7 +406,7 @@ impl Session {
         Some(undone.text)
     }
 
-    /// Removes all entries and values.
+    /// Removes all entries and values; files are read again when they are needed.
     pub fn reset(&mut self, host: &mut dyn Host) {
         self.files = Arc::new(self.files.fresh());
         (self.entries, self.before, self.loaded) = (Vec::new(), Vec::new(), Vec::new());
@@ -414,7 +422,7 @@ pub(super) fn is_given(name: Symbol) -> bool {
     digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// Returns the type of the expression that ends the newest entry, if it has a value.
+/// Returns the type of the expression that ends the newest entry, the text `file`; `None` if it has no value.
 pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     let program = &checked.program;
     let value = program.statements.statements.last()?;
@@ -424,7 +432,7 @@ pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     is_last.then(|| type_of(value))?
 }
 
-/// Returns the type of a statement that is also an expression with a value.
+/// Returns the type of a statement that is also an expression with a value; `None` for others.
 fn type_of(statement: &Stmt) -> Option<Type> {
     match &statement.kind {
         StmtKind::Expr(value) => (!matches!(value.ty, Type::Nothing | Type::Error)).then(|| value.ty.clone()),
@@ -440,12 +448,15 @@ fn type_of(statement: &Stmt) -> Option<Type> {
 /// The prefix of the names of entries that stand for loaded files.
 const LOAD: &str = "<load ";
 
-/// Returns the path of the file that an entry stands for.
+/// Returns the path of the file that an entry loads; `None` for an entry that was typed.
 pub(super) fn loaded_path(entry: &Entry) -> Option<&str> {
     entry.name.strip_prefix(LOAD)?.strip_suffix('>')
 }
 
 /// Returns the entry that imports all public declarations of a file.
+///
+/// # Errors
+/// A message if the file can't be read or declares nothing.
 fn load_entry(files: &dyn Files, path: &str) -> Result<Entry, String> {
     let bytes = files.read(path).map_err(|error| check::why_unreadable(path, &error))?;
     let text = String::from_utf8_lossy(&bytes);
