@@ -172,7 +172,7 @@ impl Interpreter<'_> {
             DesignKind::Truss(truss) => {
                 format!(": {}, {}", counted(truss.nodes.len(), "node"), counted(truss.struts.len(), "strut"))
             }
-            _ => String::new(),
+            DesignKind::Cell(_) | DesignKind::Strut(_) => String::new(),
         });
         Ok(format!("{kind} {name}{}", facts.unwrap_or_default()))
     }

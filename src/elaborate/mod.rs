@@ -52,14 +52,12 @@ pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Libr
     let Some(design) = interpreter.default_design(def)?.filter(|design| !design.broken.get()) else {
         return Ok(None);
     };
-    Ok(match &design.kind {
+    match &design.kind {
         DesignKind::Module(_) | DesignKind::Config(_) => {
-            interpreter.library_of(&design)?.map(|(library, _)| library)
+            Ok(interpreter.library_of(&design)?.map(|(library, _)| library))
         }
-        DesignKind::Cell(cell) => Some(Library { cells: vec![cell.clone()], ..Library::default() }),
-        DesignKind::Strut(strut) => Some(Library { struts: vec![strut.clone()], ..Library::default() }),
-        DesignKind::Lattice(_) | DesignKind::Truss(_) => None,
-    })
+        _ => Ok(design.library_of_element()),
+    }
 }
 
 /// Returns the robot of a design, assembled once; `None` where the design is broken, not complete yet, or no

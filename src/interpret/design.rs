@@ -11,7 +11,7 @@ use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::truss::Rigidity;
-use crate::robot::{Cell, Connector, JointId, JointOwner, ModuleType, PortRef, Strut};
+use crate::robot::{Cell, Connector, JointId, JointOwner, Library, ModuleType, PortRef, Strut};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use std::cell::{Cell as Flag, OnceCell, RefCell};
@@ -314,6 +314,41 @@ impl Design {
             DesignKind::Module(_) => 1,
             DesignKind::Config(config) => config.modules.get().map_or(0, Vec::len),
             _ => 0,
+        }
+    }
+
+    /// Returns the number of elements: cells of a lattice, struts of a truss, else modules; 0 for a single cell or
+    /// strut.
+    pub fn element_count(&self) -> usize {
+        match &self.kind {
+            DesignKind::Lattice(lattice) => lattice.cells.positions.len(),
+            DesignKind::Truss(truss) => truss.struts.len(),
+            DesignKind::Module(_) | DesignKind::Config(_) => self.module_count(),
+            DesignKind::Cell(_) | DesignKind::Strut(_) => 0,
+        }
+    }
+
+    /// Returns the mass of the whole, kg; 0 for a configuration that is not far enough elaborated.
+    pub fn mass(self: &Rc<Design>) -> f64 {
+        match &self.kind {
+            DesignKind::Cell(cell) => cell.mass,
+            DesignKind::Strut(strut) => strut.mass,
+            DesignKind::Lattice(LatticeDesign { of, .. }) => of.mass() * self.element_count() as f64,
+            DesignKind::Truss(truss) => {
+                truss.strut_kind().map_or(0.0, |strut| strut.mass) * self.element_count() as f64
+            }
+            DesignKind::Module(_) | DesignKind::Config(_) => (0..self.module_count())
+                .map(|module| self.module_type(module).links.iter().map(|link| link.mass).sum::<f64>())
+                .sum(),
+        }
+    }
+
+    /// Returns a library of nothing but this cell or strut; `None` for any other kind.
+    pub fn library_of_element(&self) -> Option<Library> {
+        match &self.kind {
+            DesignKind::Cell(cell) => Some(Library { cells: vec![cell.clone()], ..Library::default() }),
+            DesignKind::Strut(strut) => Some(Library { struts: vec![strut.clone()], ..Library::default() }),
+            _ => None,
         }
     }
 

@@ -47,28 +47,11 @@ fn instance<'c>(call: &Call<'c>) -> Eval<&'c Rc<Instance>> {
 }
 
 fn count(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &instance(call)?.design;
-    Ok(Value::count(match &design.kind {
-        DesignKind::Lattice(lattice) => lattice.cells.positions.len(),
-        _ => design.module_count(),
-    }))
+    Ok(Value::count(instance(call)?.design.element_count()))
 }
 
 fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let design = &instance(call)?.design;
-    let mass = match &design.kind {
-        DesignKind::Cell(cell) => cell.mass,
-        DesignKind::Strut(strut) => strut.mass,
-        DesignKind::Lattice(lattice) => match &lattice.of.kind {
-            DesignKind::Cell(cell) => cell.mass * lattice.cells.positions.len() as f64,
-            _ => 0.0,
-        },
-        DesignKind::Truss(truss) => truss.strut_kind().map_or(0.0, |s| s.mass) * truss.struts.len() as f64,
-        DesignKind::Module(_) | DesignKind::Config(_) => (0..design.module_count())
-            .map(|m| design.module_type(m).links.iter().map(|link| link.mass).sum::<f64>())
-            .sum(),
-    };
-    Ok(Value::Quantity(mass, Dimension::MASS))
+    Ok(Value::Quantity(instance(call)?.design.mass(), Dimension::MASS))
 }
 
 /// Returns the robot of the design in the argument `of`, which may be a part of another: it is then taken by

@@ -12,7 +12,7 @@ pub(super) fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) ->
     let strut = library.struts.get(paths.strut);
     let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);
     json!({
-        "form": "paths",
+        "form": "node_paths",
         "strut": strut.map_or("strut", |strut| strut.name.as_str()),
         "range": list([low, high]),
         "nodes": paths.node_names,

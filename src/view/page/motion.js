@@ -15,7 +15,8 @@ function motionOf(plan) {
   const body = plan.body;
   if (body.form === "tracks") return robotMotion(plan, body);
   if (body.form === "stages") return latticeMotion(plan, body);
-  return trussMotion(plan, body);
+  if (body.form === "node_paths") return trussMotion(plan, body);
+  throw new Error("a plan of the form " + body.form + " can't be drawn");
 }
 
 /** The part that each path name belongs to: its first step that is not the same for all, as `leg[2]` of `leg[2].m[0]`. */
