@@ -1,15 +1,15 @@
 //! Calls: the callee, and the assignment of arguments to parameters.
 
-use super::checker::{Bound, Checker, DefItem, Entity, ParamInfo, Signature, TypeParam};
+use super::bindings::Bindings;
+use super::checker::{Checker, DefItem, Entity, ParamInfo, Signature};
 use super::expr::{Role, error_expr, expr_of, has_params};
 use super::lists::list_element;
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
-use super::types::{FnType, Type};
+use super::types::Type;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code, foreign};
 use crate::syntax::ast;
-use crate::units::Dimension;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -27,14 +27,6 @@ enum Callee {
     Error,
 }
 
-/// The types and dimensions bound to the type parameters of a built-in in one call.
-#[derive(Default)]
-struct Bindings {
-    types: Vec<Option<Type>>,
-    dimensions: Vec<Option<Dimension>>,
-    bounds: Vec<Bound>,
-}
-
 impl<'a> Checker<'a> {
     /// Checks a call.
     pub(super) fn call(
@@ -46,6 +38,9 @@ impl<'a> Checker<'a> {
         want: Option<&Type>,
     ) -> Expr {
         match self.callee(scope, callee) {
+            Callee::Def(id) if matches!(self.def(id).item, DefItem::Record(_)) => {
+                self.build_record(scope, span, id, args)
+            }
             Callee::Def(id) if self.family(id).is_some() => {
                 let signature = self.signature(id);
                 let name = self.def(id).name;
@@ -111,7 +106,7 @@ impl<'a> Checker<'a> {
     /// Returns a declaration as callee; reports one that cannot be called.
     fn def_callee(&mut self, id: DefId, span: Span) -> Callee {
         match self.def(id).item {
-            DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => Callee::Def(id),
+            DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) | DefItem::Record(_) => Callee::Def(id),
             _ if self.family(id).is_some() => Callee::Def(id),
             _ => match self.def_value(id, span) {
                 e if e.ty.is_error() => Callee::Error,
@@ -316,7 +311,7 @@ impl<'a> Checker<'a> {
                         Some(index) => index,
                         None => {
                             misnamed = true;
-                            self.no_parameter(name, n, params);
+                            self.no_parameter(name, n, signature);
                             self.expr(scope, &arg.value, Some(&Type::Error));
                             continue;
                         }
@@ -371,7 +366,12 @@ impl<'a> Checker<'a> {
                         span,
                         format!(
                             "{} not given",
-                            if missing.len() == 1 { "one argument is" } else { "arguments are" }
+                            match (missing.len(), signature.fields) {
+                                (1, true) => "one field is",
+                                (1, false) => "one argument is",
+                                (_, true) => "fields are",
+                                (_, false) => "arguments are",
+                            }
                         ),
                     ),
             );
@@ -380,16 +380,18 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports an argument whose name is that of no parameter.
-    fn no_parameter(&mut self, function: Symbol, name: ast::Name, params: &[ParamInfo]) {
-        let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
-        let mut d =
-            Diagnostic::error(code::ARGUMENTS, format!("`{function}` has no parameter `{}`", name.text))
-                .label(name.span, "no such parameter");
+    pub(super) fn no_parameter(&mut self, function: Symbol, name: ast::Name, signature: &Signature) {
+        let names: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
+        let what = if signature.fields { "field" } else { "parameter" };
+        let mut d = Diagnostic::error(code::ARGUMENTS, format!("`{function}` has no {what} `{}`", name.text))
+            .label(name.span, format!("no such {what}"));
         let renamed = foreign::renamed(function.as_str(), name.text.as_str());
         d = match renamed.or_else(|| suggest(name.text.as_str(), names.iter().copied())) {
             Some(new) if renamed.is_some() => d.hint(format!("`{}` is now called `{new}`", name.text)),
             Some(near) => d.hint(format!("`{near}`?")),
+            None if names.is_empty() && signature.fields => d.hint(format!("`{function}` has no fields")),
             None if names.is_empty() => d.hint(format!("`{function}` takes no arguments")),
+            None if signature.fields => d.hint(format!("its fields are {}", names.join(", "))),
             None => d.hint(format!("it takes {}", names.join(", "))),
         };
         self.report(d);
@@ -490,106 +492,5 @@ impl<'a> Checker<'a> {
         let ty = bindings.apply(element);
         let ty = if has_params(&ty) { Type::Error } else { ty };
         expr_of(span, Type::List(Arc::new(ty)), ExprKind::List(items))
-    }
-
-    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does.
-    fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
-        match (pattern, got) {
-            (_, Type::Error) => true,
-            (Type::Param(i), _) => {
-                let joined = match &bindings.types[*i as usize] {
-                    None => Some(got.clone()),
-                    Some(bound) => self.join(bound, got),
-                };
-                let Some(joined) = joined else { return false };
-                let within = match bindings.bounds[*i as usize] {
-                    Bound::Quantity => joined.dimension().is_some(),
-                    Bound::Family(family) => self.fits(&joined, &Type::AnyOf(family)),
-                    Bound::Anything | Bound::Dimension => true,
-                };
-                if !within {
-                    return false;
-                }
-                bindings.types[*i as usize] = Some(joined);
-                true
-            }
-            (Type::QuantityParam { param, power }, _) => {
-                let Some(d) = got.dimension() else { return false };
-                let base = if *power == 2 { d.root() } else { Some(d) };
-                let slot = &mut bindings.dimensions[*param as usize];
-                match (base, &*slot) {
-                    (None, _) => false,
-                    (Some(base), None) => {
-                        *slot = Some(base);
-                        true
-                    }
-                    (Some(base), Some(bound)) => match base.common(*bound) {
-                        Some(common) => {
-                            *slot = Some(common);
-                            true
-                        }
-                        None => false,
-                    },
-                }
-            }
-            (Type::List(p), Type::List(g))
-            | (Type::Vec3(p), Type::Vec3(g))
-            | (Type::Range(p), Type::Range(g))
-            | (Type::Signal(p), Type::Signal(g))
-            | (Type::Joint(p), Type::Joint(g))
-            | (Type::Optional(p), Type::Optional(g)) => self.unify(p, g, bindings),
-            (Type::Optional(p), _) => self.unify(p, got, bindings),
-            (Type::Fn(p), Type::Fn(g)) => self.unify_fn(p, g, bindings),
-            (Type::Choice(c), _) => {
-                self.fits(got, pattern) || c.types.iter().any(|t| self.unify(t, got, bindings))
-            }
-            _ => self.fits(got, pattern),
-        }
-    }
-
-    /// Unifies two function types: parameters and result.
-    fn unify_fn(&self, pattern: &FnType, got: &FnType, bindings: &mut Bindings) -> bool {
-        if pattern.params.len() != got.params.len() {
-            return false;
-        }
-        let params = pattern.params.iter().zip(&got.params);
-        let bound = params.map(|(p, g)| has_params(g) || self.unify(p, g, bindings)).fold(true, |a, b| a & b);
-        bound && self.unify(&pattern.result, &got.result, bindings)
-    }
-}
-
-impl Bindings {
-    /// Returns bindings of `params` in which nothing is bound.
-    fn new(params: &[TypeParam]) -> Bindings {
-        let n = params.len();
-        let bounds = params.iter().map(|p| p.bound).collect();
-        Bindings { types: vec![None; n], dimensions: vec![None; n], bounds }
-    }
-
-    /// Returns a type with the bound parameters substituted.
-    fn apply(&self, ty: &Type) -> Type {
-        let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
-        match ty {
-            Type::Param(i) => self.types[*i as usize].clone().unwrap_or_else(|| ty.clone()),
-            Type::QuantityParam { param, power } => match self.dimensions[*param as usize] {
-                Some(d) => d.power(i32::from(*power)).map_or(Type::Error, Type::Quantity),
-                None => ty.clone(),
-            },
-            Type::List(t) => Type::List(inner(t)),
-            Type::Vec3(t) => Type::Vec3(inner(t)),
-            Type::Range(t) => Type::Range(inner(t)),
-            Type::Optional(t) => Type::Optional(inner(t)),
-            Type::Signal(t) => Type::Signal(inner(t)),
-            Type::Joint(t) => Type::Joint(inner(t)),
-            Type::Fn(f) => Type::Fn(Arc::new(FnType {
-                params: f.params.iter().map(|p| self.apply(p)).collect(),
-                result: self.apply(&f.result),
-            })),
-            Type::Choice(c) => {
-                let types = c.types.iter().map(|t| self.apply(t)).collect();
-                Type::Choice(Arc::new(super::types::Choice { words: c.words.clone(), types }))
-            }
-            _ => ty.clone(),
-        }
     }
 }

@@ -36,7 +36,8 @@ pub(super) enum DefItem<'a> {
     Native(&'a ast::ExternFn),
     /// A method of the record.
     Method(&'a ast::ExternFn, DefId),
-    Record(&'a ast::ExternType),
+    Record(&'a ast::Record),
+    ExternType(&'a ast::ExternType),
     Connector(&'a ast::Connector),
     Module(&'a ast::Module),
     Facts(&'a ast::Facts),
@@ -83,6 +84,8 @@ pub(super) struct Signature {
     pub result: Option<Type>,
     /// The type parameters of an `extern fn`.
     pub type_params: Vec<TypeParam>,
+    /// True if the parameters are the fields of a record, which are given by name.
+    pub fields: bool,
 }
 
 /// A type parameter of an `extern fn`.
@@ -369,7 +372,8 @@ impl<'a> Checker<'a> {
             K::Let(x) => (x.name, DefItem::Let(x)),
             K::Fn(x) => (x.name, DefItem::Fn(x)),
             K::ExternFn(x) => (x.name, DefItem::Native(x)),
-            K::ExternType(x) => (x.name, DefItem::Record(x)),
+            K::Record(x) => (x.name, DefItem::Record(x)),
+            K::ExternType(x) => (x.name, DefItem::ExternType(x)),
             K::Connector(x) => (x.name, DefItem::Connector(x)),
             K::Module(x) => (x.name, DefItem::Module(x)),
             K::Facts(x) => (x.name, DefItem::Facts(x)),
@@ -379,7 +383,7 @@ impl<'a> Checker<'a> {
             K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return None,
         };
         let id = self.add_def(file, name, item, def);
-        if let DefItem::Record(record) = def {
+        if let DefItem::ExternType(record) = def {
             for (doc, method) in &record.methods {
                 let id = self.add_def(file, method.name, item, DefItem::Method(method, id));
                 self.defs[id.0 as usize].doc = doc.as_deref().map(Arc::from);

@@ -150,6 +150,7 @@ impl<'a> Checker<'a> {
             K::Call { callee, args } => self.call(scope, span, callee, args, want),
             K::Index { object, index } => self.index(scope, span, object, index, want),
             K::Field { object, field } => self.field(scope, span, object, *field, want),
+            K::With { object, fields } => self.with(scope, span, object, fields),
             K::If { condition, then, otherwise } => {
                 self.if_expr(scope, span, condition, then, otherwise.as_deref(), want)
             }

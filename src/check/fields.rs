@@ -217,10 +217,7 @@ impl<'a> Checker<'a> {
     /// Returns a field of a record, inherited ones included; reports an unknown one.
     fn record_field(&mut self, span: Span, object: Expr, id: DefId, field: ast::Name) -> Expr {
         for record in self.record_line(id) {
-            let DefItem::Record(ast) = self.def(record).item else { continue };
-            if let Some(found) = ast.fields.iter().find(|f| f.name.text == field.text) {
-                let scope = Scope::new(self.def(record).file, None);
-                let ty = self.type_expr(&scope, &found.ty);
+            if let Some(ty) = self.field_type(record, field.text) {
                 let kind = ExprKind::Field { object: Box::new(object), field: field.text };
                 return expr_of(span, ty, kind);
             }
@@ -236,6 +233,22 @@ impl<'a> Checker<'a> {
         }
         self.report(d);
         error_expr(span)
+    }
+
+    /// Returns the type of a field that a record itself declares; `None` if it has none of this name.
+    fn field_type(&mut self, record: DefId, field: Symbol) -> Option<Type> {
+        match self.def(record).item {
+            DefItem::Record(_) => {
+                let signature = self.signature(record);
+                signature.params.iter().find(|p| p.name == field).map(|p| p.ty.clone())
+            }
+            DefItem::ExternType(ast) => {
+                let found = ast.fields.iter().find(|f| f.name.text == field)?;
+                let scope = Scope::new(self.def(record).file, None);
+                Some(self.type_expr(&scope, &found.ty))
+            }
+            _ => None,
+        }
     }
 
     /// Returns the prelude's record `Plan`; `None` if the prelude could not be read.
@@ -257,9 +270,13 @@ impl<'a> Checker<'a> {
     fn record_names(&self, id: DefId) -> Vec<&'static str> {
         let mut names = Vec::new();
         for record in self.record_line(id) {
-            if let DefItem::Record(ast) = self.def(record).item {
-                names.extend(ast.fields.iter().map(|f| f.name.text.as_str()));
-                names.extend(ast.methods.iter().map(|(_, m)| m.name.text.as_str()));
+            match self.def(record).item {
+                DefItem::Record(ast) => names.extend(ast.fields.iter().map(|f| f.name.text.as_str())),
+                DefItem::ExternType(ast) => {
+                    names.extend(ast.fields.iter().map(|f| f.name.text.as_str()));
+                    names.extend(ast.methods.iter().map(|(_, m)| m.name.text.as_str()));
+                }
+                _ => {}
             }
         }
         names

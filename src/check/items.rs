@@ -33,8 +33,11 @@ impl<'a> Checker<'a> {
             DefItem::Fn(f) => Signature {
                 params: self.params(&scope, &f.params),
                 result: f.result.as_ref().map(|ty| self.type_expr(&scope, ty)),
-                type_params: Vec::new(),
+                ..Signature::default()
             },
+            DefItem::Record(x) => {
+                Signature { params: self.params(&scope, &x.fields), fields: true, ..Signature::default() }
+            }
             DefItem::Native(f) => self.native_signature(&mut scope, f, None),
             DefItem::Method(f, record) => self.native_signature(&mut scope, f, Some(record)),
             item => {
@@ -74,7 +77,8 @@ impl<'a> Checker<'a> {
         }
         params.extend(self.params(scope, &f.params));
         let result = f.result.as_ref().map_or(Type::Nothing, |ty| self.type_expr(scope, ty));
-        Signature { params, result: Some(result), type_params: scope.type_params.clone() }
+        let type_params = scope.type_params.clone();
+        Signature { params, result: Some(result), type_params, fields: false }
     }
 
     /// Returns the parameters of a signature; reports names given twice.
@@ -116,7 +120,7 @@ impl<'a> Checker<'a> {
                 let ty = if info.variadic { Type::list(info.ty.clone()) } else { info.ty.clone() };
                 scope.bind(info.name, ty);
             }
-            self.lint_snake(info.name, info.span, "parameters");
+            self.lint_snake(info.name, info.span, "parameters and fields");
             let (name, span, ty, variadic) = (info.name, info.span, info.ty.clone(), info.variadic);
             out.push(Param { name, span, ty, default, variadic });
         }
@@ -206,6 +210,7 @@ impl<'a> Checker<'a> {
             DefItem::Native(x) => self.check_native(id, x, None),
             DefItem::Method(x, record) => self.check_native(id, x, Some(record)),
             DefItem::Record(x) => self.check_record(id, x),
+            DefItem::ExternType(x) => self.check_extern_type(id, x),
             DefItem::Connector(x) => self.check_connector(id, x),
             DefItem::Module(x) => self.check_module(id, x),
             DefItem::Facts(x) => self.check_facts(id, x),
@@ -291,7 +296,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks an `extern type`.
-    fn check_record(&mut self, id: DefId, record: &'a ast::ExternType) -> DefKind {
+    fn check_extern_type(&mut self, id: DefId, record: &'a ast::ExternType) -> DefKind {
         self.only_in_library(id, "extern type");
         let scope = Scope::new(self.def(id).file, None);
         let fields = record
@@ -308,7 +313,7 @@ impl<'a> Checker<'a> {
         };
         let methods = self.defs.iter().enumerate().filter_map(owned).collect();
         let is = self.record_line(id).get(1).copied();
-        DefKind::Record(RecordDef { is, fields, methods })
+        DefKind::Record(RecordDef { is, fields, methods, build: None })
     }
 
     /// Reports a declaration that only the standard library may have.

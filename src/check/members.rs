@@ -213,7 +213,7 @@ impl<'a> Checker<'a> {
                     let scope = Scope::new(self.def(id).file, Some(id));
                     let params = self.params(&scope, &behavior.params);
                     let result = Some(Type::Behavior);
-                    let signature = super::checker::Signature { params, result, type_params: Vec::new() };
+                    let signature = super::checker::Signature { params, result, ..Default::default() };
                     let doc = clause.doc.as_deref().map(Arc::from);
                     members.behaviors.push(BehaviorInfo {
                         ast: behavior,

@@ -5,8 +5,9 @@
 //!
 //! Reading order: `load` reads files, `checker` holds the state, `scope` the locals, `items` drives; `members`,
 //! `module`, `config` and `families` check declarations, `expr`, `literals`, `names`,
-//! `lists`, `call` and `operators` expressions, `type_expr` types as written.
+//! `lists`, `call`, `bindings`, `records` and `operators` expressions, `type_expr` types as written.
 
+mod bindings;
 mod call;
 mod checker;
 mod config;
@@ -25,6 +26,7 @@ mod members;
 mod module;
 mod names;
 mod operators;
+mod records;
 mod reserve;
 mod scope;
 pub(crate) mod summary;

@@ -162,6 +162,7 @@ impl<'a> Checker<'a> {
                 let params = signature.params.iter().map(|p| p.ty.clone()).collect();
                 expr_of(span, Type::Fn(Arc::new(FnType { params, result })), ExprKind::FnValue(id))
             }
+            DefItem::Record(_) => self.default_instance(id, span),
             _ if self.family(id).is_some() => self.default_instance(id, span),
             _ => {
                 let name = self.def(id).name;
@@ -194,6 +195,9 @@ impl<'a> Checker<'a> {
             return error_expr(span);
         }
         let args = vec![None; signature.params.len()];
+        if signature.fields {
+            return expr_of(span, Type::Record(id), ExprKind::Record { def: id, fields: args });
+        }
         expr_of(span, Type::Instance(id), ExprKind::Instance { def: id, args })
     }
 

@@ -97,7 +97,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the result type of an operator; `None` if it does not apply.
-    fn binary_type(&self, op: BinaryOp, a: &Type, b: &Type) -> Option<Type> {
+    fn binary_type(&mut self, op: BinaryOp, a: &Type, b: &Type) -> Option<Type> {
         use BinaryOp as O;
         match op {
             O::Or | O::And => match (a, b) {
@@ -105,7 +105,10 @@ impl<'a> Checker<'a> {
                 (Type::Condition, Type::Condition) => Some(Type::Condition),
                 _ => None,
             },
-            O::Eq | O::Ne => self.join(a, b).filter(comparable).map(|_| Type::Bool),
+            O::Eq | O::Ne => {
+                let joined = self.join(a, b)?;
+                self.incomparable(&joined).is_none().then_some(Type::Bool)
+            }
             O::Lt | O::Le | O::Gt | O::Ge => self.order_type(a, b),
             O::Mated => (*a == Type::Port && *b == Type::Port).then_some(Type::Condition),
             O::Join => self.join_type(a, b),
@@ -219,7 +222,10 @@ impl<'a> Checker<'a> {
             .label(op_span, format!("`{sign}` stands between them"))
             .label(left.span, format!("this is {a}"))
             .label(right.span, format!("this is {b}"));
-        if op == BinaryOp::Add && (left.ty == Type::Text || right.ty == Type::Text) {
+        if let (BinaryOp::Eq | BinaryOp::Ne, Some(field)) = (op, self.incomparable_field(&left.ty, &right.ty))
+        {
+            d = d.hint(field);
+        } else if op == BinaryOp::Add && (left.ty == Type::Text || right.ty == Type::Text) {
             d = d.hint("texts are joined by `++`, and values put into them by `\"... {value}\"`");
         } else if op == BinaryOp::Add && matches!(left.ty, Type::List(_)) {
             d = d.hint("lists are joined by `++`");
@@ -235,11 +241,6 @@ impl<'a> Checker<'a> {
         }
         self.report(d);
     }
-}
-
-/// Returns true if values of a type can be compared for equality.
-fn comparable(ty: &Type) -> bool {
-    !matches!(ty, Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing)
 }
 
 /// Returns the type of a product; `None` if it does not apply.

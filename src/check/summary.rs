@@ -59,6 +59,14 @@ pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
         DefKind::Let(binding) => format!("let {}: {}", def.name, program.type_name(&binding.ty)),
         DefKind::Fn(f) => called(def.name, &written, &program.type_name(&f.result)),
         DefKind::Native(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Record(record) if record.build.is_some() => {
+            let fields = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+            if fields.is_empty() {
+                format!("record {} {{}}", def.name)
+            } else {
+                format!("record {} {{ {fields} }}", def.name)
+            }
+        }
         DefKind::Error => def.name.to_string(),
         _ => format!("{} {}{written}", word(&def.kind), def.name),
     }
@@ -69,6 +77,7 @@ pub(crate) fn word(kind: &DefKind) -> &'static str {
     match kind {
         DefKind::Let(_) => "let",
         DefKind::Fn(_) | DefKind::Native(_) => "fn",
+        DefKind::Record(record) if record.build.is_some() => "record",
         DefKind::Record(_) => "type",
         DefKind::Connector(_) => "connector",
         kind => kind.instantiable().map_or("", |instantiable| instantiable.family.word()),
@@ -99,6 +108,7 @@ pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     match &program.def(id).kind {
         DefKind::Fn(function) => &function.params,
         DefKind::Native(native) => &native.params,
+        DefKind::Record(record) => record.build.as_ref().map_or(&[], |build| &build.params),
         kind => kind.instantiable().map_or(&[], |instantiable| instantiable.params),
     }
 }
@@ -161,7 +171,12 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         }
         DefKind::Record(record) => {
             let fields = record.fields.iter().map(|f| {
-                entry(Group::Field, f.name, format!("{}: {}", f.name, program.type_name(&f.ty)), &f.doc)
+                let built = record.build.iter().flat_map(|build| &build.params).find(|p| p.name == f.name);
+                let head = built.map_or_else(
+                    || format!("{}: {}", f.name, program.type_name(&f.ty)),
+                    |param| with_default(checked, param),
+                );
+                entry(Group::Field, f.name, head, &f.doc)
             });
             let methods = record.methods.iter().map(|id| {
                 let method = program.def(*id);

@@ -83,7 +83,7 @@ impl<'a> Checker<'a> {
 
     /// Returns true if a declaration is a type.
     fn is_type(&self, id: DefId) -> bool {
-        self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_))
+        self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_) | DefItem::ExternType(_))
     }
 
     /// Checks a quantity type `Quantity<m/s>`, or one of a dimension parameter.
@@ -156,7 +156,7 @@ impl<'a> Checker<'a> {
         }
         match self.path_entity(scope.file, path) {
             Some(Entity::Def(id)) => match self.def(id).item {
-                DefItem::Record(_) => Type::Record(id),
+                DefItem::Record(_) | DefItem::ExternType(_) => Type::Record(id),
                 _ if self.family(id).is_some() => Type::Instance(id),
                 _ => self.no_type(scope, path, "is no type"),
             },
@@ -277,7 +277,7 @@ impl<'a> Checker<'a> {
     pub(super) fn record_line(&self, id: DefId) -> Vec<DefId> {
         let mut line = vec![id];
         let mut last = id;
-        while let DefItem::Record(ast::ExternType { is: Some(parent), .. }) = self.def(last).item
+        while let DefItem::ExternType(ast::ExternType { is: Some(parent), .. }) = self.def(last).item
             && let Some(Entity::Def(parent)) = self.entity(self.def(last).file, parent.text)
             && !line.contains(&parent)
         {

@@ -75,7 +75,7 @@ pub enum DefKind {
     Fn(FnDef),
     /// A built-in function: `extern fn`.
     Native(NativeDef),
-    /// A record type: `extern type`.
+    /// A record: `record`, or `extern type`.
     Record(RecordDef),
     /// A connector: `connector`.
     Connector(ConnectorDef),
@@ -148,7 +148,7 @@ pub struct Param {
     pub variadic: bool,
 }
 
-/// A record type: `extern type`.
+/// A record: `record`, or a type of the standard library (`extern type`).
 #[derive(Clone, Debug)]
 pub struct RecordDef {
     /// The record that this one extends, as a `Folding` is a `Plan`; `None` if it stands alone.
@@ -157,6 +157,17 @@ pub struct RecordDef {
     pub fields: Vec<RecordField>,
     /// Its own methods: natives whose first parameter is the record.
     pub methods: Vec<DefId>,
+    /// The fields as a call by name takes them; `None` for an `extern type`, which only built-ins build.
+    pub build: Option<RecordBuild>,
+}
+
+/// The parameters of a call that builds a record.
+#[derive(Clone, Debug)]
+pub struct RecordBuild {
+    /// The fields as parameters, with their defaults.
+    pub params: Vec<Param>,
+    /// The number of slots of the frame in which defaults are evaluated.
+    pub frame: usize,
 }
 
 /// A field of a record.

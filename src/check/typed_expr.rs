@@ -152,6 +152,20 @@ pub enum ExprKind {
         /// The name of the field; that of a record may be inherited.
         field: Symbol,
     },
+    /// A record that is built of its fields.
+    Record {
+        /// The declaration.
+        def: DefId,
+        /// The values of the fields, in the order of the declaration; `None`: the default.
+        fields: Vec<Option<Expr>>,
+    },
+    /// A changed copy of a record: `d with { bend: 40deg }`.
+    With {
+        /// The record.
+        object: Box<Expr>,
+        /// The fields that change as (index in the declaration, value), in the order of the text.
+        fields: Vec<(usize, Expr)>,
+    },
     /// A list: `[a, b]`.
     List(Vec<Expr>),
     /// A list comprehension: `[body for x in xs if c]`.

@@ -66,7 +66,7 @@ pub enum Type {
     /// The instances of all declarations of a family: `Module`, `Config` (every module is one), `Lattice`,
     /// ...
     AnyOf(Family),
-    /// A record, declared by `extern type`.
+    /// A record, declared by `record` or `extern type`.
     Record(DefId),
     /// A type parameter of the `extern fn` being checked, by index from 0.
     Param(u8),

@@ -58,7 +58,7 @@ impl Interpreter<'_> {
 }
 
 /// Returns a text as it could be written.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -3,7 +3,7 @@
 use super::pretty::{Branch, counted, listed};
 use super::shape;
 use super::truss;
-use crate::check::typed::{DefId, DefKind};
+use crate::check::typed::{DefId, DefKind, RecordField};
 use crate::elaborate::free_ports;
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign};
 use crate::interpret::interpreter::Interpreter;
@@ -153,6 +153,11 @@ impl Interpreter<'_> {
                     .collect();
                 let result = program.type_name(&function.result);
                 return Ok(format!("fn {name}({}) -> {result}", params.join(", ")));
+            }
+            DefKind::Record(record) => {
+                let field = |f: &RecordField| format!("{}: {}", f.name, program.type_name(&f.ty));
+                let fields: Vec<String> = record.fields.iter().map(field).collect();
+                return Ok(format!("record {name} {{ {} }}", fields.join(", ")));
             }
             DefKind::Connector(_) => "connector",
             kind => kind.instantiable().map_or("declared", |body| body.family.word()),

@@ -1,15 +1,19 @@
 //! Values as `print` and `{...}` in a text show them: as they could be written, with units that suit
 //! their size.
 
+use super::pretty::quoted;
+use crate::check::typed::DefKind;
 use crate::geometry::Vec3;
 use crate::interpret::interpreter::Interpreter;
-use crate::interpret::record::Record;
+use crate::interpret::record::{DeclaredRecord, Record};
 use crate::interpret::value::{Callable, Value};
 use crate::interpret::verdicts;
 use crate::units::{Dimension, number, quantity};
 
 /// The greatest number of elements of a list that are shown; the rest are counted.
 const ELEMENTS_SHOWN: usize = 1000;
+/// The greatest number of records within each other that are shown.
+const LEVELS_SHOWN: usize = 100;
 /// Coordinates and angles below this are shown as 0, SI.
 const COORDINATE_ROUNDING: f64 = 1e-12;
 
@@ -29,11 +33,7 @@ impl Interpreter<'_> {
             Value::Quantity(x, d) => quantity(*x, without_radians(*d)),
             Value::Text(text) => text.to_string(),
             Value::Word(word) => word.to_string(),
-            Value::List(_) => {
-                let mut text = String::new();
-                self.write_nested(value, &mut text);
-                text
-            }
+            Value::List(_) => self.show_nested(value),
             Value::Vec3(v, d) => show_vector(v, *d),
             Value::Pose(pose) => show_pose(pose),
             Value::Range(ends) => format!("{}..{}", self.show_value(&ends.0), self.show_value(&ends.1)),
@@ -58,17 +58,35 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Appends a value, of a list each element. Lists may share their elements over and over, so writing stops
-    /// beyond the limit of a text, which is then refused where it is printed.
-    fn write_nested(&self, value: &Value, text: &mut String) {
-        let Value::List(elements) = value else { return text.push_str(&self.show_value(value)) };
+    fn show_nested(&self, value: &Value) -> String {
+        let mut text = String::new();
+        self.write_nested(value, 0, &mut text);
+        text
+    }
+
+    /// Appends a value that is in `level` records, of a list or a record each element. They may share what they hold
+    /// over and over, so writing stops beyond the limit of a text, which is then refused where it is printed.
+    fn write_nested(&self, value: &Value, level: usize, text: &mut String) {
+        match value {
+            Value::List(elements) => self.write_list(elements, level, text),
+            Value::Record(record) => match &**record {
+                Record::Declared(record) => self.write_record(record, level, text),
+                other => text.push_str(&self.show_record(other)),
+            },
+            // A record is shown as it is written, so that a text in it does not run into the next field.
+            Value::Text(words) if level > 0 => text.push_str(&quoted(words)),
+            _ => text.push_str(&self.show_value(value)),
+        }
+    }
+
+    fn write_list(&self, elements: &[Value], level: usize, text: &mut String) {
         text.push('[');
         for (index, element) in elements.iter().take(ELEMENTS_SHOWN).enumerate() {
             if text.len() > self.limits().text {
                 return;
             }
             text.push_str(if index > 0 { ", " } else { "" });
-            self.write_nested(element, text);
+            self.write_nested(element, level, text);
         }
         if elements.len() > ELEMENTS_SHOWN {
             text.push_str(&format!(", and {} more", elements.len() - ELEMENTS_SHOWN));
@@ -76,9 +94,32 @@ impl Interpreter<'_> {
         text.push(']');
     }
 
+    fn write_record(&self, record: &DeclaredRecord, level: usize, text: &mut String) {
+        let DefKind::Record(declared) = &self.shared.program.def(record.def).kind else { return };
+        text.push_str(self.name(record.def).as_str());
+        if level >= LEVELS_SHOWN {
+            return text.push_str("(...)");
+        }
+        text.push('(');
+        for (index, (field, value)) in declared.fields.iter().zip(&record.fields).enumerate() {
+            if text.len() > self.limits().text {
+                return;
+            }
+            text.push_str(if index > 0 { ", " } else { "" });
+            text.push_str(&format!("{}: ", field.name));
+            self.write_nested(value, level + 1, text);
+        }
+        text.push(')');
+    }
+
     /// Returns a record as `print` shows it.
     fn show_record(&self, record: &Record) -> String {
         match record {
+            Record::Declared(record) => {
+                let mut text = String::new();
+                self.write_record(record, 0, &mut text);
+                text
+            }
             Record::Plan(planned) => format!(
                 "a plan of {}, {} actions",
                 quantity(planned.plan.body.duration(), Dimension::TIME),

@@ -7,10 +7,11 @@ use super::host::Mode;
 use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::native::{Call, Effect};
+use super::record::{DeclaredRecord, Record};
 use super::routines::Args;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, BehaviorCall, Callable, Value};
-use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param};
+use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param, RecordDef};
 use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -41,6 +42,49 @@ impl Interpreter<'_> {
     ) -> Eval<Value> {
         let args = self.eval_args(args, span, frame)?;
         self.apply_def(def, args, span)
+    }
+
+    /// Builds a record of its fields; unknown where one of them is.
+    pub fn build_record(
+        &mut self,
+        def: DefId,
+        fields: &[Option<Expr>],
+        span: Span,
+        frame: &mut Frame,
+    ) -> Eval<Value> {
+        let args = self.eval_args(fields, span, frame)?;
+        let program = self.shared.program;
+        let DefKind::Record(RecordDef { build: Some(build), .. }) = &program.def(def).kind else {
+            return Ok(Value::Unknown);
+        };
+        self.with_call(span, program.def(def).name, |this| {
+            let mut inner = Frame::new(build.frame, None);
+            this.fill(&build.params, args, &mut inner)?;
+            inner.slots.truncate(build.params.len());
+            Ok(declared_record(def, inner.slots))
+        })
+    }
+
+    /// Returns a copy of a record with other values for some of its fields; unknown where one is.
+    pub fn changed_record(
+        &mut self,
+        object: &Expr,
+        changed: &[(usize, Expr)],
+        frame: &mut Frame,
+    ) -> Eval<Value> {
+        let object = self.eval(object, frame)?;
+        let values = changed.iter().map(|(_, value)| self.eval(value, frame)).collect::<Eval<Vec<_>>>()?;
+        let Value::Record(record) = object else { return Ok(Value::Unknown) };
+        let Record::Declared(DeclaredRecord { def, fields }) = &*record else { return Ok(Value::Unknown) };
+        let mut fields = fields.clone();
+        for ((index, _), value) in changed.iter().zip(values) {
+            if let DefKind::Record(RecordDef { build: Some(build), .. }) = &self.shared.program.def(*def).kind
+            {
+                value.bind(Name { span: build.params[*index].span, index: None });
+            }
+            fields[*index] = value;
+        }
+        Ok(declared_record(*def, fields))
     }
 
     /// Evaluates a function value and its arguments, and calls it; unknown where the function is.
@@ -243,4 +287,12 @@ impl Interpreter<'_> {
         })?;
         Ok(Value::Behavior(Rc::new(Behavior { robot, node: Arc::new(node) })))
     }
+}
+
+/// Returns a record of a declaration with the values of its fields; unknown where one is.
+fn declared_record(def: DefId, fields: Vec<Value>) -> Value {
+    if fields.iter().any(Value::is_unknown) {
+        return Value::Unknown;
+    }
+    Value::Record(Rc::new(Record::Declared(DeclaredRecord { def, fields })))
 }

@@ -116,6 +116,8 @@ impl Interpreter<'_> {
                 Value::Unknown => Ok(Value::Unknown),
                 value => self.field(&value, *field, span),
             },
+            ExprKind::Record { def, fields } => self.build_record(*def, fields, span, frame),
+            ExprKind::With { object, fields } => self.changed_record(object, fields, frame),
             ExprKind::List(elements) => self.eval_list(elements, frame),
             ExprKind::Comprehension { body, clauses } => self.eval_comprehension(body, clauses, span, frame),
             ExprKind::Vec3(coordinates) => self.eval_vec3(coordinates, frame),

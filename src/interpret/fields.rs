@@ -7,13 +7,14 @@ use super::plan_value::PlanValue;
 use super::stop::Eval;
 use super::value::Value;
 use super::verdicts;
+use crate::check::typed::DefKind;
 use crate::geometry::Vec3;
 use crate::plan::{Verdict, World, Worst};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use std::rc::Rc;
 
-use super::record::{Field, Record, StateValue, field_names, first_world, read_field};
+use super::record::{DeclaredRecord, Field, Record, StateValue, field_names, first_world, read_field};
 
 impl Interpreter<'_> {
     /// Returns a field of a record, vector, range or pose; for a behaviour, that of the plan that it gives, and
@@ -22,6 +23,11 @@ impl Interpreter<'_> {
     /// # Errors
     /// A fault where the behaviour can't be planned.
     pub fn field(&mut self, value: &Value, field: Symbol, span: Span) -> Eval<Value> {
+        if let Value::Record(record) = value
+            && let Record::Declared(declared) = &**record
+        {
+            return Ok(self.declared_field(declared, field));
+        }
         let field = field.as_str();
         match value {
             Value::Behavior(behavior) => match self.plan_behavior(behavior, span)? {
@@ -29,6 +35,7 @@ impl Interpreter<'_> {
                 None => Ok(Value::Unknown),
             },
             Value::Record(record) => Ok(match &**record {
+                Record::Declared(_) => unreachable!("read above"),
                 Record::Plan(planned) => return self.plan_field(planned, field, span),
                 Record::Report(verdict, _) => read_field(REPORT, verdict, field),
                 Record::State(state) => read_field(STATE, state, field),
@@ -59,6 +66,14 @@ impl Interpreter<'_> {
             }),
             _ => unreachable!("check gives fields to records, vectors, ranges and poses only"),
         }
+    }
+
+    fn declared_field(&self, record: &DeclaredRecord, field: Symbol) -> Value {
+        let DefKind::Record(declared) = &self.shared.program.def(record.def).kind else {
+            return Value::Unknown;
+        };
+        let index = declared.fields.iter().position(|f| f.name == field);
+        index.and_then(|index| record.fields.get(index)).cloned().unwrap_or(Value::Unknown)
     }
 
     fn plan_field(&mut self, plan: &Rc<PlanValue>, field: &str, span: Span) -> Eval<Value> {

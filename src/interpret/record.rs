@@ -1,9 +1,11 @@
-//! Records: values with fields that built-ins give back, and how each field is read.
+//! Records: values with fields, of a program's own declarations or given back by built-ins, and how each field
+//! is read.
 
 use super::design::Design;
 use super::plan_value::PlanValue;
 use super::robot::Robot;
 use super::value::Value;
+use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{Ground, Plan, Verdict, World};
@@ -15,6 +17,8 @@ use std::rc::Rc;
 /// A value with fields.
 #[derive(Debug)]
 pub enum Record {
+    /// A record that a `record` declares.
+    Declared(DeclaredRecord),
     /// A `Plan`, or what a planner makes of it.
     Plan(Rc<PlanValue>),
     /// A `Report`: the verdict of the judge, and the headline under which it is shown.
@@ -29,6 +33,15 @@ pub enum Record {
     Rigidity(Rc<Design>),
     /// A record that the file of a native defines.
     Native(Rc<dyn NativeRecord>),
+}
+
+/// A record that a `record` declares, with the values of its fields in the order of the declaration.
+#[derive(Debug)]
+pub struct DeclaredRecord {
+    /// The declaration.
+    pub def: DefId,
+    /// The values of the fields; none is unknown.
+    pub fields: Vec<Value>,
 }
 
 /// A record that the file of a native defines, with its fields and how it is shown.

@@ -343,6 +343,7 @@ impl Value {
             (Fn(a), Fn(b)) => Rc::ptr_eq(a, b),
             (Instance(a), Instance(b)) => Rc::ptr_eq(a, b),
             (Behavior(a), Behavior(b)) => Rc::ptr_eq(a, b),
+            (Record(a), Record(b)) => Rc::ptr_eq(a, b),
             _ => false,
         }
     }
@@ -354,11 +355,12 @@ impl Value {
     }
 }
 
-/// A comparison of two values. Lists may share their elements over and over, so each pair of lists is compared
-/// once.
+/// A comparison of two values. Lists and records may share what they hold over and over, so each pair of them is
+/// compared once.
 #[derive(Default)]
 struct Comparison {
     equal: HashSet<(*const Vec<Value>, *const Vec<Value>)>,
+    equal_records: HashSet<(*const Record, *const Record)>,
 }
 
 impl Comparison {
@@ -370,6 +372,21 @@ impl Comparison {
         let equal = a.iter().zip(b.iter()).all(|(x, y)| self.same(x, y) == Some(true));
         if equal {
             self.equal.insert(pair);
+        }
+        equal
+    }
+
+    /// Compares two records: declared ones by their fields, all others by what they are.
+    fn records(&mut self, a: &Rc<Record>, b: &Rc<Record>) -> bool {
+        let pair = (Rc::as_ptr(a), Rc::as_ptr(b));
+        if Rc::ptr_eq(a, b) || self.equal_records.contains(&pair) {
+            return true;
+        }
+        let (Record::Declared(x), Record::Declared(y)) = (&**a, &**b) else { return false };
+        let mut fields = x.fields.iter().zip(&y.fields);
+        let equal = x.def == y.def && fields.all(|(x, y)| self.same(x, y) == Some(true));
+        if equal {
+            self.equal_records.insert(pair);
         }
         equal
     }
@@ -406,7 +423,7 @@ impl Comparison {
             (Mesh(a), Mesh(b)) => a.vertices == b.vertices && a.faces == b.faces,
             (Cloud(a), Cloud(b)) => a == b,
             (Terrain(a), Terrain(b)) => a == b,
-            (Record(a), Record(b)) => Rc::ptr_eq(a, b),
+            (Record(a), Record(b)) => self.records(a, b),
             (a, b) => a.as_number()? == b.as_number()?,
         })
     }

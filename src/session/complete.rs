@@ -200,6 +200,7 @@ fn declared(text: &str) -> Vec<Named> {
         let (name, what) = match &item.kind {
             K::Let(x) => (x.name, "value"),
             K::Fn(x) => (x.name, "function"),
+            K::Record(x) => (x.name, "record"),
             K::Connector(x) => (x.name, "connector"),
             K::Module(x) => (x.name, "module"),
             K::Facts(x) => (x.name, x.family.word()),
@@ -309,6 +310,11 @@ fn substituted(expr: &str, before: &str) -> String {
 
 /// Returns the offset of the innermost open bracket, if it is a parenthesis; otherwise `None`.
 fn open_call(text: &str) -> Option<usize> {
+    open_bracket(text).filter(|at| text[*at..].starts_with('('))
+}
+
+/// Returns the offset of the innermost open bracket; `None` outside of all brackets.
+fn open_bracket(text: &str) -> Option<usize> {
     let outline = Outline::of(text)?;
     let mut open = Vec::new();
     for token in &outline.tokens {
@@ -318,7 +324,13 @@ fn open_call(text: &str) -> Option<usize> {
             _ => {}
         }
     }
-    open.pop().filter(|at| text[*at..].starts_with('('))
+    open.pop()
+}
+
+/// Returns the record whose fields a text is about to change: `d` in `d with {`.
+fn changed_record(before_brace: &str) -> Option<&str> {
+    let object = before_brace.trim_end().strip_suffix("with")?;
+    object.ends_with(char::is_whitespace).then(|| receiver(object.trim_end()))?
 }
 
 /// Returns the arguments of a call between its commas; the last one is being typed.
@@ -341,12 +353,20 @@ fn arguments(inside: &str) -> Vec<&str> {
     found
 }
 
-/// Returns the checked program, the parameters of the call in which a text ends, and the text of its arguments;
-/// `None` outside of a call, and for an unknown function.
+/// Returns the checked program, the parameters of the call, or the fields of the changed record, in which a text
+/// ends, and the text of its arguments; `None` outside of both, and for an unknown function.
 fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<Param>, &'t str)> {
+    let open = open_bracket(before)?;
+    let inside = &before[open + 1..];
+    if before[open..].starts_with('{') {
+        let record = changed_record(&before[..open])?;
+        let (checked, ty) = type_of(knowledge, &substituted(record, before));
+        let Some(Type::Record(id)) = ty else { return None };
+        let fields = params_of(&checked.program, id).to_vec();
+        return Some((checked, fields, inside));
+    }
     let open = open_call(before)?;
     let callee = receiver(&before[..open])?;
-    let inside = &before[open + 1..];
     let Some((object, name)) = callee.rsplit_once('.') else {
         let id = *meant(&knowledge.checked).get(&Symbol::new(callee))?;
         let params = params_of(&knowledge.checked.program, id).to_vec();
@@ -359,7 +379,7 @@ fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<P
 
 /// Returns the names of the parameters that are not given yet, as `name: `, where an argument begins.
 fn named_arguments(knowledge: &Knowledge, before: &str) -> Vec<Named> {
-    if !before.trim_end().ends_with(['(', ',']) {
+    if !before.trim_end().ends_with(['(', '{', ',']) {
         return Vec::new();
     }
     let Some((checked, params, inside)) = call_at(knowledge, before) else { return Vec::new() };

@@ -35,8 +35,8 @@ const INSTEAD: &[(&[&str], &str)] = &[
         "names are brought in by `use std.smores.{Smores}`, or `use \"file.mod\".{Name}`",
     ),
     (
-        &["class", "struct", "type"],
-        "a `module` is made of links, joints and ports; a `config` is made of modules",
+        &["class", "struct", "type", "data", "dataclass"],
+        "values under names are a `record Name { a: Length, b: Angle }`; robots are a `module` or a `config`",
     ),
     (&["var", "const", "mut", "val"], "a name is given its value by `let name = ...`"),
     (
@@ -46,9 +46,10 @@ const INSTEAD: &[(&[&str], &str)] = &[
     (&["elif", "elsif", "elseif"], "write `else if c { ... }`"),
     (&["switch", "match", "case"], "write `if c { ... } else if d { ... } else { ... }`"),
     (
-        &["try", "except", "catch", "throw", "raise", "with", "async", "await", "yield"],
+        &["try", "except", "catch", "throw", "raise", "async", "await", "yield"],
         "nothing is thrown: what is wrong is told where it stands",
     ),
+    (&["with"], "a changed copy of a record is written `d with { bend: 40deg }`"),
     (&["assert"], "write `expect condition` in a `test`, `require condition, \"why\"` in a body"),
     (&["pass"], "a body without clauses is `{ }`"),
     (
@@ -87,7 +88,7 @@ const TYPES: &[(&[&str], &str)] = &[
     (&["str", "string", "String"], "`Text`"),
     (&["bool", "boolean", "Boolean"], "`Bool`"),
     (&["list", "array", "Array", "Vec"], "`List<Length>`, or of another type"),
-    (&["dict", "tuple", "object", "Dict", "Tuple"], "`List<Length>`, or a parameter for each value"),
+    (&["dict", "tuple", "object", "Dict", "Tuple"], "`List<Length>`, or a `record` of your own"),
 ];
 
 /// Longer names of units.

@@ -75,7 +75,9 @@ pub enum ItemKind {
     Fn(Fn),
     /// A built-in function: `extern fn`.
     ExternFn(ExternFn),
-    /// A record type: `extern type`.
+    /// A record: `record`.
+    Record(Record),
+    /// A record type of the standard library: `extern type`.
     ExternType(ExternType),
     /// A connector: `connector`.
     Connector(Connector),
@@ -104,6 +106,7 @@ impl ItemKind {
             ItemKind::Let(x) => x.name,
             ItemKind::Fn(x) => x.name,
             ItemKind::ExternFn(x) => x.name,
+            ItemKind::Record(x) => x.name,
             ItemKind::ExternType(x) => x.name,
             ItemKind::Connector(x) => x.name,
             ItemKind::Module(x) => x.name,
@@ -195,7 +198,18 @@ pub struct TypeParam {
     pub bound: Option<Name>,
 }
 
-/// A record: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`.
+/// A record: `record Design { bend: Angle = 30deg, speed: Speed }`.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Its name.
+    pub name: Name,
+    /// The fields, in order.
+    pub fields: Vec<Param>,
+    /// The text of the `///` lines before each field, without the marks; `None` if there are none.
+    pub docs: Vec<Option<String>>,
+}
+
+/// A record type of the standard library: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`.
 #[derive(Clone, Debug)]
 pub struct ExternType {
     /// Its name.
@@ -208,7 +222,7 @@ pub struct ExternType {
     pub methods: Vec<(Option<String>, ExternFn)>,
 }
 
-/// A field of a record.
+/// A field of an `extern type`.
 #[derive(Clone, Debug)]
 pub struct ExternField {
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
@@ -905,6 +919,13 @@ pub enum ExprKind {
         object: Box<Expr>,
         /// The name of the member.
         field: Name,
+    },
+    /// A changed copy of a record: `object with { bend: 40deg }`.
+    With {
+        /// The record.
+        object: Box<Expr>,
+        /// The fields that change, in order; each has a name.
+        fields: Vec<Arg>,
     },
     /// A conditional expression, whose branches are blocks: `if c { a } else { b }`.
     If {

@@ -239,6 +239,7 @@ impl Builder<'_> {
                 Rule::args => self.call(tall, node),
                 Rule::index => self.index(tall, node),
                 Rule::field => self.field(tall, node),
+                Rule::with => self.with(tall, node),
                 _ => break,
             };
             nodes.next();
@@ -265,6 +266,14 @@ impl Builder<'_> {
         let span = object.expr.span.to(self.span(&node));
         let field = self.word(next(&mut node.into_inner()));
         self.grown(span, ExprKind::Field { object: Box::new(object.expr), field }, object.height)
+    }
+
+    /// Builds the changed copy of a record.
+    fn with(&mut self, object: Tall, node: Node) -> Tall {
+        let span = object.expr.span.to(self.span(&node));
+        let (fields, height) = self.tall_args(node);
+        let kind = ExprKind::With { object: Box::new(object.expr), fields };
+        self.grown(span, kind, height.max(object.height))
     }
 
     /// Builds the arguments of a call.

@@ -21,6 +21,7 @@ impl Builder<'_> {
             Rule::use_item => ItemKind::Use(self.use_item(node)),
             Rule::let_item => ItemKind::Let(self.let_item(node)),
             Rule::fn_item => ItemKind::Fn(self.fn_item(node)),
+            Rule::record => ItemKind::Record(self.record(node)),
             Rule::config => ItemKind::Config(self.config(node)),
             Rule::module => ItemKind::Module(self.module(node)),
             Rule::connector => ItemKind::Connector(self.connector(node)),
@@ -65,6 +66,21 @@ impl Builder<'_> {
         let params = self.plain_params(next(&mut nodes));
         let result = next_if(&mut nodes, Rule::type_expr).map(|ty| self.ty(ty));
         Fn { name, params, result, body: self.body(next(&mut nodes)) }
+    }
+
+    fn record(&mut self, node: Node) -> Record {
+        let mut nodes = node.into_inner();
+        let name = self.declared(next(&mut nodes));
+        let mut record = Record { name, fields: Vec::new(), docs: Vec::new() };
+        for field in nodes {
+            record.docs.push(self.doc(self.span(&field).start));
+            let mut nodes = field.into_inner();
+            let name = self.declared(next(&mut nodes));
+            let ty = self.ty(next(&mut nodes));
+            let default = nodes.next().map(|value| self.expr(value));
+            record.fields.push(Param { name, ty, default, variadic: false });
+        }
+        record
     }
 
     fn test(&mut self, node: Node) -> Test {

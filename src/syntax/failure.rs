@@ -44,15 +44,15 @@ impl BodyKind {
 }
 
 /// A parse error: the tokens of the piece, and the token that the grammar could not take.
-struct Mistake<'t> {
-    text: &'t str,
+pub(super) struct Mistake<'t> {
+    pub(super) text: &'t str,
     base: usize,
     file: FileId,
-    tokens: Vec<Token>,
+    pub(super) tokens: Vec<Token>,
     /// The index of the faulty token; the number of tokens if the piece ends too early.
-    found: usize,
+    pub(super) found: usize,
     failure: &'t Failure,
-    place: BodyKind,
+    pub(super) place: BodyKind,
     in_text: bool,
 }
 
@@ -111,6 +111,8 @@ impl Mistake<'_> {
             .or_else(|| self.reserved_name())
             .or_else(|| self.foreign_mark())
             .or_else(|| self.turned_condition())
+            .or_else(|| self.built_in_braces())
+            .or_else(|| self.changed_in_place())
             .or_else(|| self.wrong_mark())
             .or_else(|| self.brace_literal())
             .or_else(|| self.line_start())
@@ -120,21 +122,21 @@ impl Mistake<'_> {
     }
 
     /// Returns the text of a token; empty if there is none.
-    fn token_text(&self, index: usize) -> &str {
+    pub(super) fn token_text(&self, index: usize) -> &str {
         self.tokens.get(index).map_or("", |token| &self.text[token.start..token.end])
     }
 
     /// Returns the text of the faulty token.
-    fn found(&self) -> &str {
+    pub(super) fn found(&self) -> &str {
         self.token_text(self.found)
     }
 
     /// Returns the text of the token before the faulty one.
-    fn before(&self) -> &str {
+    pub(super) fn before(&self) -> &str {
         self.found.checked_sub(1).map_or("", |before| self.token_text(before))
     }
 
-    fn kind_of(&self, index: usize) -> Option<TokenKind> {
+    pub(super) fn kind_of(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
@@ -149,17 +151,17 @@ impl Mistake<'_> {
     }
 
     /// Returns true if the grammar would have accepted this text.
-    fn wants(&self, text: &str) -> bool {
+    pub(super) fn wants(&self, text: &str) -> bool {
         self.failure.wanted.iter().any(|wanted| wanted == text)
     }
 
     /// Returns true if the grammar would have accepted any expression.
-    fn wants_expression(&self) -> bool {
+    pub(super) fn wants_expression(&self) -> bool {
         self.wants("\"") && self.wants("[") && self.wants("not")
     }
 
     /// Returns true if the faulty token begins a line.
-    fn begins_line(&self) -> bool {
+    pub(super) fn begins_line(&self) -> bool {
         let Some(before) = self.found.checked_sub(1).and_then(|before| self.tokens.get(before)) else {
             return false;
         };
@@ -167,11 +169,16 @@ impl Mistake<'_> {
         self.text[before.end..end].contains('\n')
     }
 
-    fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
+    pub(super) fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
         self.error_at(code::SYNTAX, self.found, message)
     }
 
-    fn error_at(&self, code: Code, index: usize, message: impl Into<String>) -> Option<Diagnostic> {
+    pub(super) fn error_at(
+        &self,
+        code: Code,
+        index: usize,
+        message: impl Into<String>,
+    ) -> Option<Diagnostic> {
         Some(Diagnostic::error(code, message).label(self.span_of(index), ""))
     }
 
@@ -287,6 +294,9 @@ impl Mistake<'_> {
         let hint = match (self.before(), self.found()) {
             (_, ":") if self.wants("{") && self.token_text(0) == "for" => return self.loop_with_colon(),
             (_, ":") if self.wants("{") => "a body stands in braces: `{ ... }`",
+            ("fn" | "behavior", _) if self.token_text(0) == "record" && self.wants(":") => {
+                "a record has only fields; a function takes it: `fn name(it: Name) = ...`"
+            }
             (_, "in") if self.wants_operator() && self.token_text(0) != "for" => {
                 "whether a list holds something is `contains(list, item)`"
             }
@@ -359,28 +369,8 @@ impl Mistake<'_> {
     }
 
     /// Returns true if the faulty token follows a complete operand.
-    fn wants_operator(&self) -> bool {
+    pub(super) fn wants_operator(&self) -> bool {
         self.wants("*") && self.wants("^") || self.failure.wanted.is_empty()
-    }
-
-    /// Explains `{ a: 1 }`, or `{` in place of an expression.
-    fn brace_literal(&self) -> Option<Diagnostic> {
-        let record = self.found() == ":"
-            && matches!(
-                self.kind_of(self.found.wrapping_sub(1)),
-                Some(TokenKind::Word | TokenKind::Text { .. })
-            )
-            && self.found >= 2
-            && self.token_text(self.found - 2) == "{";
-        let brace = self.found() == "{" && self.wants_expression();
-        // The first entry of a brace literal that was read as a block.
-        let entry = self.found() == ":" && self.found == 1 && self.place == BodyKind::Statements;
-        if !record && !brace && !entry {
-            return None;
-        }
-        let index = if record { self.found - 2 } else { self.found };
-        self.error_at(code::SYNTAX, index, "there are no records in `{ }`")
-            .map(|d| d.hint("give named values as arguments: `Name(a: 1, b: 2)`; a list is written `[a, b]`"))
     }
 
     /// Explains `+`, `-`, `(` or `[` that begins a line but was meant to continue one.
@@ -393,17 +383,21 @@ impl Mistake<'_> {
             .then(|| explain::line_break(mark, first))
     }
 
-    /// Explains a parameter without its type.
+    /// Explains a parameter or field without its type.
     fn missing_type(&self) -> Option<Diagnostic> {
         let first = self.token_text(0);
-        let declares = matches!(first, "fn" | "extern" | "behavior") || words::FAMILIES.contains(&first);
-        let ends = matches!(self.found(), "," | ")" | "=");
+        let record = first == "record";
+        let declares =
+            record || matches!(first, "fn" | "extern" | "behavior") || words::FAMILIES.contains(&first);
+        let ends =
+            matches!(self.found(), "," | ")" | "=") || record && (self.found() == "}" || self.begins_line());
         let before = self.found.checked_sub(1)?;
         if !declares || !ends || !self.wants(":") || self.kind_of(before) != Some(TokenKind::Word) {
             return None;
         }
         let name = self.before();
-        self.error_at(code::SYNTAX, before, format!("the parameter `{name}` needs a type"))
+        let what = if record { "field" } else { "parameter" };
+        self.error_at(code::SYNTAX, before, format!("the {what} `{name}` needs a type"))
             .map(|diagnostic| diagnostic.hint(format!("write for example `{name}: Length`")))
     }
 

@@ -17,6 +17,7 @@ mod lex;
 mod outline;
 mod parse;
 mod quotient;
+mod record_mistakes;
 mod recover;
 mod scan;
 mod split;

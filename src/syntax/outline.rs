@@ -203,6 +203,8 @@ fn begins(rule: Rule, parent: Rule) -> bool {
         R::chunk | R::statements | R::block => rule != R::EOI,
         R::module_body | R::config_body | R::truss_body | R::extern_body => true,
         R::cell | R::strut => rule == R::fact,
+        R::record => rule == R::record_field,
+        R::with => rule == R::label,
         R::connector => rule != R::name,
         _ => false,
     }

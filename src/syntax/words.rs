@@ -11,6 +11,7 @@ pub const ITEMS: &[&str] = &[
     "use",
     "let",
     "fn",
+    "record",
     "extern",
     "connector",
     "module",
@@ -41,6 +42,7 @@ pub const DECLARING: &[&str] = &[
     "node",
     "part",
     "port",
+    "record",
     "strut",
     "truss",
 ];
@@ -89,6 +91,7 @@ const FORMS: &[(&str, &str)] = &[
     ("use", "use std.smores.{Smores}"),
     ("let", "let name = value"),
     ("fn", "fn name(a: Length) -> Length = value"),
+    ("record", "record Name { a: Length = 1m, b: Angle }"),
     ("connector", "connector Name { mates Name, turns 4 }"),
     ("module", "module Name(length: Length = 40mm) { ... }"),
     ("cell", "cell Name { size 100mm  mass 1kg }"),

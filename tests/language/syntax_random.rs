@@ -15,6 +15,8 @@ const TOKENS: &[&str] = &[
     "type",
     "connector",
     "module",
+    "record",
+    "with",
     "cell",
     "strut",
     "config",

@@ -13,6 +13,10 @@ fn item(item: &Item) -> String {
         ItemKind::Fn(f) => {
             format!("(fn {}{}{} {})", f.name.text, params(&f.params), result(&f.result), expr(&f.body))
         }
+        ItemKind::Record(r) => {
+            let field = |(p, doc): (&Param, &Option<String>)| format!(" {}", documented(doc, param(p)));
+            format!("(record {}{})", r.name.text, r.fields.iter().zip(&r.docs).map(field).collect::<String>())
+        }
         ItemKind::ExternFn(f) => extern_fn(f),
         ItemKind::ExternType(t) => extern_type(t),
         ItemKind::Connector(c) => {
@@ -328,6 +332,7 @@ fn expr(e: &Expr) -> String {
         ExprKind::Call { callee, args } => format!("(call {}{})", expr(callee), each(args, arg)),
         ExprKind::Index { object, index } => format!("(at {} {})", expr(object), expr(index)),
         ExprKind::Field { object, field } => format!("{}.{}", expr(object), field.text),
+        ExprKind::With { object, fields } => format!("(with {}{})", expr(object), each(fields, arg)),
         ExprKind::If { condition, then, otherwise } => {
             format!("(if {} {}{})", expr(condition), expr(then), optional(otherwise, "", |e| expr(e)))
         }

@@ -68,9 +68,9 @@
 
 --- records
     let a = { x: 1, y: 2 }
-//             ^ E0001 no records | arguments
+//             ^ E0001 no value is written in `{ }` | `record Name { a: Int, b: Int }` | `Name(a: 1, b: 2)`
     let b = f({ x: 1 })
-//            ^ E0001 no records
+//            ^ E0001 no value is written in `{ }`
 
 --- single quotes
     let a = 'text'

@@ -1,0 +1,121 @@
+//! Type parameters: what they are bound to in a call.
+
+use super::checker::{Bound, Checker, TypeParam};
+use super::expr::has_params;
+use super::types::{FnType, Type};
+use crate::units::Dimension;
+use std::sync::Arc;
+
+/// The types and dimensions bound to the type parameters of a built-in in one call.
+#[derive(Default)]
+pub(super) struct Bindings {
+    /// The type of each parameter, once bound.
+    pub(super) types: Vec<Option<Type>>,
+    /// The dimension of each parameter, once bound.
+    pub(super) dimensions: Vec<Option<Dimension>>,
+    /// The bound of each parameter.
+    pub(super) bounds: Vec<Bound>,
+}
+
+impl Checker<'_> {
+    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does.
+    pub(super) fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
+        match (pattern, got) {
+            (_, Type::Error) => true,
+            (Type::Param(i), _) => {
+                let joined = match &bindings.types[*i as usize] {
+                    None => Some(got.clone()),
+                    Some(bound) => self.join(bound, got),
+                };
+                let Some(joined) = joined else { return false };
+                let within = match bindings.bounds[*i as usize] {
+                    Bound::Quantity => joined.dimension().is_some(),
+                    Bound::Family(family) => self.fits(&joined, &Type::AnyOf(family)),
+                    Bound::Anything | Bound::Dimension => true,
+                };
+                if !within {
+                    return false;
+                }
+                bindings.types[*i as usize] = Some(joined);
+                true
+            }
+            (Type::QuantityParam { param, power }, _) => {
+                let Some(d) = got.dimension() else { return false };
+                let base = if *power == 2 { d.root() } else { Some(d) };
+                let slot = &mut bindings.dimensions[*param as usize];
+                match (base, &*slot) {
+                    (None, _) => false,
+                    (Some(base), None) => {
+                        *slot = Some(base);
+                        true
+                    }
+                    (Some(base), Some(bound)) => match base.common(*bound) {
+                        Some(common) => {
+                            *slot = Some(common);
+                            true
+                        }
+                        None => false,
+                    },
+                }
+            }
+            (Type::List(p), Type::List(g))
+            | (Type::Vec3(p), Type::Vec3(g))
+            | (Type::Range(p), Type::Range(g))
+            | (Type::Signal(p), Type::Signal(g))
+            | (Type::Joint(p), Type::Joint(g))
+            | (Type::Optional(p), Type::Optional(g)) => self.unify(p, g, bindings),
+            (Type::Optional(p), _) => self.unify(p, got, bindings),
+            (Type::Fn(p), Type::Fn(g)) => self.unify_fn(p, g, bindings),
+            (Type::Choice(c), _) => {
+                self.fits(got, pattern) || c.types.iter().any(|t| self.unify(t, got, bindings))
+            }
+            _ => self.fits(got, pattern),
+        }
+    }
+
+    /// Unifies two function types: parameters and result.
+    fn unify_fn(&self, pattern: &FnType, got: &FnType, bindings: &mut Bindings) -> bool {
+        if pattern.params.len() != got.params.len() {
+            return false;
+        }
+        let params = pattern.params.iter().zip(&got.params);
+        let bound = params.map(|(p, g)| has_params(g) || self.unify(p, g, bindings)).fold(true, |a, b| a & b);
+        bound && self.unify(&pattern.result, &got.result, bindings)
+    }
+}
+
+impl Bindings {
+    /// Returns bindings of `params` in which nothing is bound.
+    pub(super) fn new(params: &[TypeParam]) -> Bindings {
+        let n = params.len();
+        let bounds = params.iter().map(|p| p.bound).collect();
+        Bindings { types: vec![None; n], dimensions: vec![None; n], bounds }
+    }
+
+    /// Returns a type with the bound parameters substituted.
+    pub(super) fn apply(&self, ty: &Type) -> Type {
+        let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
+        match ty {
+            Type::Param(i) => self.types[*i as usize].clone().unwrap_or_else(|| ty.clone()),
+            Type::QuantityParam { param, power } => match self.dimensions[*param as usize] {
+                Some(d) => d.power(i32::from(*power)).map_or(Type::Error, Type::Quantity),
+                None => ty.clone(),
+            },
+            Type::List(t) => Type::List(inner(t)),
+            Type::Vec3(t) => Type::Vec3(inner(t)),
+            Type::Range(t) => Type::Range(inner(t)),
+            Type::Optional(t) => Type::Optional(inner(t)),
+            Type::Signal(t) => Type::Signal(inner(t)),
+            Type::Joint(t) => Type::Joint(inner(t)),
+            Type::Fn(f) => Type::Fn(Arc::new(FnType {
+                params: f.params.iter().map(|p| self.apply(p)).collect(),
+                result: self.apply(&f.result),
+            })),
+            Type::Choice(c) => {
+                let types = c.types.iter().map(|t| self.apply(t)).collect();
+                Type::Choice(Arc::new(super::types::Choice { words: c.words.clone(), types }))
+            }
+            _ => ty.clone(),
+        }
+    }
+}
