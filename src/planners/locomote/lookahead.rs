@@ -6,12 +6,12 @@ use super::objective::Objective;
 use super::rollout::{End, Monitor, Rollout, StepPolicy};
 use std::collections::VecDeque;
 
-/// Choices that are remembered to backtrack to.
+/// The number of choices that are remembered to backtrack to.
 const CHOICES_KEPT: usize = 12;
-/// Backtracks allowed in all.
+/// The greatest number of backtracks in all.
 const BACKTRACKS_MAX: usize = 20;
 
-/// A rollout with its end, if it came to one.
+/// A rollout with its end; `None` if it may go on.
 type Tried<'a> = (Rollout<'a>, Option<End>);
 
 /// Returns the finished rollout that the search decides for.
@@ -75,6 +75,7 @@ fn without_lookahead<'a>(mut rollout: Rollout<'a>, monitor: &mut Monitor) -> Rol
     ended(rollout, end)
 }
 
+/// Returns a rollout with its end; without one its steps are used up.
 fn ended(mut rollout: Rollout, end: Option<End>) -> Rollout {
     rollout.travel.end = end.unwrap_or(End::Steps);
     rollout

@@ -52,30 +52,30 @@ use std::fmt;
 pub struct Problem {
     /// The truss, in the world's frame; it is put down on the ground and falls to where it rests.
     pub truss: TrussProblem,
-    /// The points (x, y), m, that the centre of mass has to reach one after another.
+    /// The points (x, y) in the world's frame, m, that the centre of mass has to reach one after another; at least one.
     pub path: Vec<[f64; 2]>,
 }
 
 /// The figures of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The reason why the motion ends; short of the path unless it is [`End::Arrived`].
+    /// The reason why the motion ends; unless it is [`End::Arrived`], before the end of the path.
     pub end: End,
-    /// `end` in words.
+    /// The reason why the motion ends in words, for a message.
     pub ended: String,
     /// The number of points of the path that were reached.
     pub reached: usize,
     /// The length of the path of the centre of mass over the ground, m.
     pub distance: f64,
-    /// Steps made.
+    /// The number of steps made, those included that were taken back because a roll after them was blocked.
     pub steps: usize,
-    /// Rolls made.
+    /// The number of rolls made, likewise.
     pub rolls: usize,
-    /// Nodes placed beyond an edge before the centre of mass went there.
+    /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,
-    /// Steps that were relaxed because no ordinary step was found.
+    /// The number of steps that were relaxed because no ordinary step was found, likewise.
     pub relaxed_steps: usize,
-    /// The distance that contacts slid over the ground, summed over nodes, m.
+    /// The distance that nodes in contact slid over the ground in steps, summed over nodes, m.
     pub slip: f64,
 }
 
@@ -86,7 +86,7 @@ pub enum Refusal {
     Truss(InvalidTruss),
     /// The path has no point.
     EmptyPath,
-    /// A place of the path is farther away than [`EXTENT_MAX`].
+    /// A coordinate of a point of the path is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar,
     /// The truss does not come to rest on the ground.
     NeverRests,
@@ -109,7 +109,7 @@ impl std::error::Error for Refusal {}
 /// the motion so far, and the report says why. The body is node paths for a world with gravity and ground.
 ///
 /// # Errors
-/// [`Refusal`] if there is nothing to begin with.
+/// [`Refusal`] if the truss, its rest on the ground or the path rules out any motion.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,
@@ -140,6 +140,7 @@ pub fn plan(
     Ok(Solution { body: Body::NodePaths(paths), program: None, report })
 }
 
+/// Returns the reason why a motion ends in words.
 fn ended(problem: &TrussProblem, truss: &Structure, settings: &Settings, end: &End) -> String {
     match end {
         End::Arrived => "arrived".to_string(),

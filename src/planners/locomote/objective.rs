@@ -10,43 +10,43 @@ const DAMPING: f64 = 1.0;
 /// The damping of `FEWEST`: just enough that there is one best step.
 const DAMPING_FEWEST: f64 = 1e-3;
 
-/// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes beside that
-/// of the rates of length: without it, motion that hardly changes lengths costs nothing, and the robot
+/// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes, relative to that
+/// of the changes of length, not negative: without it, motion that hardly changes lengths costs nothing, and the robot
 /// collapses to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objective {
-    /// Equation (17): every node moves where its struts, as springs of their mean length at the start, pull
-    /// it.
+    /// Equation (17): every node moves where its struts, as springs whose rest length is the mean length at the start,
+    /// pull it.
     Springs,
     /// Equation (14): the squared rates of length are least.
     Lengths {
-        /// The weight of displacements.
+        /// The weight of the squared displacements, without unit.
         damping: f64,
     },
     /// Equation (14) about rates that bring the struts back to their mean length at the start.
     Restoring {
-        /// The weight of displacements.
+        /// The weight of the squared displacements, without unit.
         damping: f64,
     },
     /// The sum of the absolute rates of length is least, so that few struts move (a linear program but for
     /// the damping).
     Fewest {
-        /// The weight of displacements.
+        /// The weight of the squared displacements, 1/m.
         damping: f64,
     },
 }
 
 impl Objective {
-    /// Equation (14) with the default damping.
+    /// [`Objective::Lengths`] with the default damping, 1.
     pub const LENGTHS: Objective = Objective::Lengths { damping: DAMPING };
-    /// Equation (14) about restoring rates, with the default damping.
+    /// [`Objective::Restoring`] with the default damping, 1.
     pub const RESTORING: Objective = Objective::Restoring { damping: DAMPING };
-    /// Least absolute rates, with the default damping.
+    /// [`Objective::Fewest`] with the default damping, 1e-3.
     pub const FEWEST: Objective = Objective::Fewest { damping: DAMPING_FEWEST };
 }
 
-/// Returns the cost of displacements of the nodes at `x`, m, for a step in which a speed of one unit length
-/// a second means a displacement of `pace` unit lengths.
+/// Returns the cost of the displacements of the nodes at `x`, m, in one step. `pace`: the displacement in the step,
+/// m, for a speed of 1 m/s, by which the velocities of `Springs` and the rates of `Restoring` are scaled.
 pub fn cost(objective: Objective, truss: &Structure, x: &[Vec3], pace: f64) -> QuadraticCost {
     match objective {
         Objective::Springs => springs(truss, x, pace),

@@ -13,16 +13,19 @@ use crate::planners::truss::step::{StepError, StepProblem, WarmStart, step};
 use crate::planners::truss::support_polygon;
 use crate::planners::truss::tolerances::Tolerances;
 
-/// Relaxed steps that are taken one after another; with lookahead, where other policies are known, fewer.
+/// The greatest number of relaxed steps in a row.
 const RELAXED_MAX: usize = 60;
+/// The greatest number of relaxed steps in a row with lookahead, where other policies are known.
 const RELAXED_MAX_LOOKAHEAD: usize = 3;
-/// Bisections of a step in which the centre of mass leaves the support polygon: more than a double has bits.
+/// The number of bisections of a step in which the centre of mass leaves the support polygon: more than a double has
+/// bits.
 const BISECTIONS: usize = 60;
 
-/// The contacts that stay where they are during a step.
+/// The contacts that keep their positions during a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
-    /// Three nodes on the ground, with the centre of mass well inside their triangle; others may slide.
+    /// Three nodes on the ground, those whose triangle holds the centre of mass with the greatest margin; others may
+    /// slide or lift off.
     #[default]
     Three,
     /// All nodes on the ground.
@@ -39,19 +42,19 @@ pub struct Settings {
     pub stride: f64,
     /// The cost that each step minimises. Springs, (17): the most robust.
     pub objective: Objective,
-    /// The number of contacts that keep their position. Three.
+    /// The contacts that keep their positions. Three.
     pub hold: Hold,
-    /// True if the truss may fall over an edge onto other nodes; else it places a node beyond the edge
+    /// True if the truss may fall over an edge onto other nodes; false if it places a node beyond the edge
     /// first, where it can, as variable topology trusses roll without impact. True, as in the paper.
     pub impact: bool,
-    /// Steps for which each policy is tried before the best is taken; 0 for no lookahead. 0: lookahead takes
-    /// five times the work.
+    /// The number of steps for which each policy is tried before the best is taken; 0 for no lookahead. 0: lookahead
+    /// takes five times the work.
     pub lookahead: usize,
     /// True if relaxed steps are tried where no step is found. True.
     pub fallbacks: bool,
     /// The greatest number of steps. 100 000: a distance of five thousand units.
     pub steps_max: usize,
-    /// The placing of nodes without impact.
+    /// The settings of placing nodes without impact.
     pub foothold: Foothold,
     /// The time law of the plan.
     pub time_law: TimeLaw,
@@ -96,13 +99,14 @@ impl Default for Settings {
 pub enum End {
     /// The centre of mass reached the last point of the path.
     Arrived,
-    /// No step was found, not even a relaxed one; the error is that of the ordinary step.
+    /// No step was found, not even a relaxed one, or too many relaxed steps in a row were taken; the error is that of
+    /// the ordinary step.
     Stuck(StepError),
-    /// The truss stands on one node, or rolls without end.
+    /// The truss stands on one node, has no contact, or rolls without end.
     Falls,
     /// The truss would topple over an edge, and violate this constraint while it rolls.
     Blocked(Constraint),
-    /// The steps allowed were not enough.
+    /// The greatest number of steps was made before the path ended.
     Steps,
     /// The observer ended the search.
     Cancelled,
@@ -113,21 +117,21 @@ pub enum End {
 pub struct Travel {
     /// The moves, one after another.
     pub moves: Vec<Move>,
-    /// The reason why there are no more.
+    /// The reason why there are no more moves.
     pub end: End,
     /// The number of points of the path that were reached.
     pub reached: usize,
-    /// Steps made.
+    /// The number of steps made, those included that were taken back because a roll after them was blocked.
     pub steps: usize,
-    /// Rolls made.
+    /// The number of rolls made, likewise.
     pub rolls: usize,
-    /// Steps among them that were relaxed.
+    /// The number of steps among them that were relaxed.
     pub relaxed_steps: usize,
-    /// Nodes placed beyond an edge before the centre of mass went there.
+    /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,
-    /// The distance that contacts slid over the ground, summed over nodes, m.
+    /// The distance that nodes in contact slid over the ground in steps, summed over nodes, m.
     pub slip: f64,
-    /// The duration of the motion, s.
+    /// The duration of the motion, s, without rounding steps up to the law's shortest.
     pub duration: f64,
 }
 
@@ -157,9 +161,9 @@ const RELAXATIONS: [Relaxation; 8] = [
 ];
 
 /// Returns the motion of a truss whose centre of mass follows a path of points (x, y), m, after sections IV.A
-/// to IV.C of the paper; the first point may be where it is. `start`: the positions of the nodes, m, resting
-/// on the ground. It always returns the motion found so far; [`Travel::end`] gives the reason that it ended,
-/// also where `progress` ended the search.
+/// to IV.C of the paper; the first point may be where it is, and an empty path is at its end. `start`: the positions of
+/// the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it, the result is the motion found
+/// so far, and [`Travel::end`] gives the reason.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 pub fn follow_path(
@@ -201,6 +205,7 @@ pub(super) struct Monitor<'a> {
 }
 
 impl Monitor<'_> {
+    /// Reports a step that is about to begin; returns false if the observer ends the search.
     fn should_continue(&mut self, rollout: &Rollout) -> bool {
         let (step, most) = (self.asked, rollout.settings.steps_max);
         let (reached, places) = (rollout.travel.reached, rollout.path.len());
@@ -266,8 +271,7 @@ pub(super) struct Rollout<'a> {
 }
 
 impl Rollout<'_> {
-    /// Continues for at most `steps` steps; returns the reason that it ended, `None` if the path is not
-    /// finished then.
+    /// Continues for at most `steps` steps; returns the reason why the rollout ended, `None` if it may go on then.
     pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
         while let Some(place) = self.path.get(self.travel.reached) {
@@ -326,7 +330,7 @@ impl Rollout<'_> {
     }
 
     /// Makes a step that lowers a node beyond an edge of the support polygon while the centre of mass stays,
-    /// if the next step would bring the centre of mass near that edge. False if there is nothing to place.
+    /// if the next step would bring the centre of mass near that edge. Returns false if there is no node to place.
     fn place_node(&mut self, stride: [f64; 2]) -> bool {
         let (unit, foothold) = (self.truss.unit, self.settings.foothold);
         let contacts = support_polygon::contacts(self.truss, &self.x);
@@ -417,6 +421,7 @@ impl Rollout<'_> {
         Err(first.unwrap_or(StepError::NotConverged(Vec::new())))
     }
 
+    /// Returns the positions after a step under a relaxation, and keeps its warm start.
     fn attempt(
         &mut self,
         relaxation: &Relaxation,
@@ -489,6 +494,7 @@ impl Rollout<'_> {
         }
     }
 
+    /// Adds a move and its duration.
     fn push(&mut self, step: Move) {
         self.travel.duration += self.settings.time_law.duration(self.truss, &self.x, &step);
         self.travel.moves.push(step);

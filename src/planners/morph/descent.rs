@@ -14,7 +14,7 @@ use crate::units::{Dimension, quantity};
 use nalgebra::UnitQuaternion;
 use std::f64::consts::TAU;
 
-/// Attempts at a step, each with a quarter of the displacement, until the descent counts as stuck.
+/// The number of attempts at a step, each with a quarter of the displacement before, until the descent is stuck.
 const ATTEMPTS: usize = 4;
 
 /// The settings of `morph`. Lengths in "units" are multiples of the mean strut length at the start.
@@ -22,13 +22,13 @@ const ATTEMPTS: usize = 4;
 pub struct Settings {
     /// The greatest number of steps. 300: fits improve little beyond.
     pub steps_max: usize,
-    /// The descent is done when both distances, of the target from the surface and of the surface from the
-    /// target, are below this as root mean squares, m. 20 mm.
+    /// The root mean square distance, of the target from the surface and of the surface from the target, m, up to which
+    /// both have to come for the descent to be done. 20 mm.
     pub tolerance: f64,
-    /// Random orientations of the target that are screened beside its own. 0: the orientation is the
+    /// The number of random orientations of the target that are screened besides its own. 0: the orientation is the
     /// user's.
     pub orientations: usize,
-    /// Steps for which an orientation is screened. 60: the order of fits rarely changes later.
+    /// The number of steps for which an orientation is screened. 60: the order of fits rarely changes later.
     pub screening_steps: usize,
     /// The seed of the random orientations.
     pub seed: u64,
@@ -37,10 +37,10 @@ pub struct Settings {
     pub sample_spacing: f64,
     /// The greatest displacement of a node in a step, units. 0.05: longer steps gain nothing.
     pub displacement_max: f64,
-    /// The weight of the squared strut lengths at the start and at the end of four fifths of the steps; it
-    /// falls geometrically in between. 3e-2 to 1e-6.
+    /// The weight of the mean squared strut length, relative to that of the mean squared distances, at the start and
+    /// from four fifths of the steps on; it falls geometrically in between. 3e-2 to 1e-6; both positive.
     pub springs: (f64, f64),
-    /// The weight of the squared displacements (Levenberg's damping). 1e-3.
+    /// The weight of the mean squared displacement, likewise (Levenberg's damping). 1e-3.
     pub damping: f64,
     /// The fraction of a squared distance that counts only across the surface (point to plane), so that
     /// points may slide along it. 0.9.
@@ -75,9 +75,9 @@ impl Default for Settings {
 pub enum End {
     /// The target is reached: both distances are within the tolerance.
     Done,
-    /// The steps allowed were made.
+    /// The steps allowed were made; the last may have come within the tolerance.
     Steps,
-    /// No step was found.
+    /// No step was found, not even a shortened one; the error is that of the longest.
     Stuck(StepError),
     /// The observer ended the search.
     Cancelled,
@@ -86,23 +86,25 @@ pub enum End {
 /// The motion that a descent found.
 #[derive(Clone, Debug)]
 pub struct Descent {
-    /// The positions of the nodes after every step, m, up to the one that fits best.
+    /// The positions of all nodes after every step, m, up to the step that fits best by [`Distance::both`]; empty if
+    /// none fits better than the start.
     pub steps: Vec<Vec<Vec3>>,
-    /// The distances at the start.
+    /// The distances at the start, with the target in its final orientation.
     pub start: Distance,
     /// The distances after the last of `steps`.
     pub distance: Distance,
-    /// The reason why there are no more steps.
+    /// The reason why the search ended, which may be some steps after the last of `steps`.
     pub end: End,
 }
 
 /// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the
-/// mean of the nodes. With orientations, each is screened for some steps, and the best is descended to.
+/// mean of the nodes. With orientations, each is screened for some steps, and the truss descends to the best. The truss
+/// must have nodes and struts.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///
 /// # Errors
-/// [`surface::Open`] if the truss has no outer surface of triangles.
+/// [`Open`](super::Open) if the truss has no outer surface of triangles.
 pub fn descend(
     truss: &Structure,
     start: &[Vec3],
@@ -143,6 +145,7 @@ struct Monitor<'a> {
 }
 
 impl Monitor<'_> {
+    /// Reports a step that is about to begin; returns false if the observer ends the search.
     fn should_continue(&mut self, step: usize, distance: &Distance, settings: &Settings) -> bool {
         self.least = self.least.min(distance.target_to_surface);
         let both = [distance.target_to_surface, self.least];
@@ -154,6 +157,8 @@ impl Monitor<'_> {
     }
 }
 
+/// Descends from `start` to the target by shortened Gauss-Newton steps until it is within the tolerance, stuck,
+/// cancelled or at the limit; keeps the steps up to the best fit.
 fn descend_to(
     truss: &Structure,
     start: &[Vec3],

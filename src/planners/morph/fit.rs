@@ -28,24 +28,24 @@ pub(super) struct Weights {
     pub damping: f64,
 }
 
-/// Distances between the outer surface of a truss and its target, m.
+/// The distances between the outer surface of a truss and its target, m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Distance {
-    /// The root mean square distance of the target from the surface.
+    /// The root mean square distance of the target's sample points from the surface, m.
     pub target_to_surface: f64,
-    /// The root mean square distance of the surface from the target.
+    /// The root mean square distance of sample points of the surface from the target, m.
     pub surface_to_target: f64,
-    /// The greatest distance in either direction (Hausdorff, at the samples).
+    /// The greatest distance of a sample point in either direction (Hausdorff distance, at the samples), m.
     pub worst: f64,
 }
 
 impl Distance {
-    /// Returns the root of the sum of both squares, m.
+    /// Returns the square root of the sum of the squares of the two root mean square distances, m.
     pub fn both(&self) -> f64 {
         libm::hypot(self.target_to_surface, self.surface_to_target)
     }
 
-    /// Returns true if both root mean squares are at most `tolerance`, m.
+    /// Returns true if both root mean square distances are at most `tolerance`, m.
     pub fn within(&self, tolerance: f64) -> bool {
         self.target_to_surface <= tolerance && self.surface_to_target <= tolerance
     }

@@ -50,7 +50,7 @@ use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::plan::Body;
 use std::fmt;
 
-/// The least number of points of a cloud that says something of a shape.
+/// The least number of points of a cloud that is a target.
 const POINTS_MIN: usize = 4;
 
 /// A truss and the shape that it has to take on.
@@ -58,7 +58,7 @@ const POINTS_MIN: usize = 4;
 pub struct Problem {
     /// The truss, in the world's frame.
     pub truss: TrussProblem,
-    /// The shape; it is moved so that its centroid is the mean of the nodes.
+    /// The shape, m; it is moved so that its centroid is the mean of the nodes at the start.
     pub target: TargetShape,
 }
 
@@ -76,11 +76,11 @@ pub enum TargetShape {
 pub struct Report {
     /// The distances between the outer surface and the target at the end.
     pub distance: Distance,
-    /// The distances at the start.
+    /// The distances at the start, with the target in its final orientation.
     pub start: Distance,
-    /// The reason why the motion ends; short of the tolerance unless it is [`End::Done`].
+    /// The reason why the motion ends; the tolerance is reached for certain if it is [`End::Done`].
     pub end: End,
-    /// `end` in words.
+    /// The reason why the motion ends in words, for a message.
     pub ended: String,
 }
 
@@ -89,11 +89,11 @@ pub struct Report {
 pub enum Refusal {
     /// The truss can't be planned for.
     Truss(InvalidTruss),
-    /// A corner or point of the target is farther away than [`EXTENT_MAX`].
+    /// A coordinate of a corner or point of the target is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar,
     /// The triangles of the target have no area.
     NoArea,
-    /// The cloud has too few points.
+    /// The cloud has fewer than four points.
     FewPoints {
         /// The number of points.
         points: usize,
@@ -128,7 +128,7 @@ impl std::error::Error for Refusal {}
 /// without gravity and ground.
 ///
 /// # Errors
-/// [`Refusal`] if there is nothing to begin with.
+/// [`Refusal`] if the truss or the target rules out any motion.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,

@@ -7,12 +7,14 @@ use std::collections::BTreeMap;
 /// The reason why a truss has no outer surface of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Open {
-    /// The edges of its hull that do not lie between two triangles, as pairs of nodes.
+    /// The edges of its convex hull that do not lie between exactly two triangles of struts, as pairs of indices of
+    /// nodes, the lesser first; empty if the hull has no such triangle.
     pub edges: Vec<(usize, usize)>,
 }
 
-/// Returns the outer triangles of struts, counter-clockwise as seen from outside: the boundary of the convex
-/// hull where struts triangulate it, else that of the union of the tetrahedra of struts.
+/// Returns the outer triangles of struts with the nodes at `x`, m, as indices of nodes, counter-clockwise as seen from
+/// outside: the boundary of the convex hull if struts triangulate it, else that of the union of the tetrahedra of
+/// struts.
 ///
 /// # Errors
 /// [`Open`] if neither boundary is closed.
@@ -98,13 +100,13 @@ fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
 /// The point of a surface closest to some point.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoint {
-    /// The number of the triangle that it lies on.
+    /// The index of the triangle that it lies on.
     pub triangle: usize,
-    /// Its barycentric coordinates there.
+    /// Its barycentric coordinates over the triangle's corners, which sum to 1.
     pub weights: [f64; 3],
-    /// The point, m.
+    /// Its position, m.
     pub at: Vec3,
-    /// The distance, m.
+    /// Its distance from the point that was asked for, m.
     pub distance: f64,
 }
 
@@ -117,6 +119,7 @@ pub struct Surface {
     balls: Vec<Ball>,
 }
 
+/// A bounding sphere of the tree, m.
 struct Ball {
     middle: Vec3,
     radius: f64,
@@ -174,8 +177,9 @@ impl Surface {
         &self.corners
     }
 
-    /// Returns the point of the surface closest to `p`, m; of triangles equally near the first. A triangle that
-    /// is known to be near may be given as a `guess` to prune the search. The surface must have a triangle.
+    /// Returns the point of the surface closest to `p`, m; of triangles equally near the first. The index of a
+    /// triangle that is known to be near may be given as a `guess` to prune the search. Panics if the surface has no
+    /// triangle, or none of that index.
     pub fn closest(&self, p: Vec3, guess: Option<usize>) -> ClosestPoint {
         let closest = |triangle: usize| {
             let weights = closest_weights(p, &self.corners[triangle]);

@@ -12,7 +12,7 @@ pub struct Target {
     pub points: Vec<Vec3>,
     /// The fraction of the surface that each point stands for; they add up to 1.
     pub fractions: Vec<f64>,
-    /// The surface; none of a cloud of points.
+    /// The surface; `None` for a cloud of points.
     pub surface: Option<Surface>,
 }
 
@@ -23,8 +23,9 @@ impl Target {
         Target { fractions: vec![fraction; points.len()], points, surface: None }
     }
 
-    /// Returns a target of triangles, m, with a sample point for about every square of side `spacing`, m. The
-    /// triangles must have area.
+    /// Returns a target of triangles, m, with a sample point for about every square of side `spacing`, m, and at
+    /// least one for each triangle; the spacing is widened so that there are not many more than 20 000. The triangles
+    /// together must have area.
     pub fn surface(triangles: Vec<[Vec3; 3]>, spacing: f64) -> Target {
         let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm() / 2.0;
         let whole: f64 = triangles.iter().map(area).sum();
@@ -46,7 +47,7 @@ impl Target {
         self.points.iter().zip(&self.fractions).map(|(p, fraction)| p * *fraction).sum()
     }
 
-    /// Returns the target with every point moved by a rigid motion.
+    /// Returns the target with every point moved by `motion`, which has to be rigid.
     pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Target {
         let surface = self.surface.as_ref();
         let surface =
@@ -55,8 +56,8 @@ impl Target {
         Target { points, fractions: self.fractions.clone(), surface }
     }
 
-    /// Returns the point of the target closest to `p`, m: of the surface, else of the sample points, of
-    /// which there must be one.
+    /// Returns the point of the target closest to `p`, m: of the surface, or of the sample points of a cloud. Panics
+    /// for a cloud without points.
     pub fn closest(&self, p: Vec3) -> Vec3 {
         match &self.surface {
             Some(surface) => surface.closest(p, None).at,

@@ -13,16 +13,17 @@ use crate::robot::{Assembly, State};
 use std::error::Error;
 use std::fmt;
 
-/// A robot in a state.
+/// A configuration of RoFI modules: a robot in a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Configuration<'a> {
     /// An assembly of RoFI modules of one pitch.
     pub robot: &'a Assembly,
-    /// Joint positions (rad), closed bonds, pose of the base in the world frame.
+    /// Its state: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub state: &'a State,
 }
 
 impl<'a> Configuration<'a> {
+    /// Returns the problem of unwinding the configuration into a snake.
     fn unwinding(&self, world: World) -> tosnake::Problem<'a> {
         tosnake::Problem { robot: self.robot, start: self.state, world }
     }
@@ -36,7 +37,7 @@ pub struct Problem<'a> {
     /// The goal, of as many modules as the start. Its modules have no identity: any of the start's may take
     /// the pose of any of the goal's.
     pub to: Configuration<'a>,
-    /// The world; see [`tosnake::Problem::world`].
+    /// The world of both halves; see [`tosnake::Problem::world`].
     pub world: World,
 }
 
@@ -52,24 +53,24 @@ pub struct Settings {
 /// Figures of a reconfiguration.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Figures of both halves together.
+    /// Figures of both halves together, without those of attempts under gravity that were not used.
     pub both: tosnake::Report,
-    /// Changes of the whole plan in order, for its provenance: names of modules of the goal that the start
-    /// has otherwise, and a program that was dropped.
+    /// The operations on plans by which the halves were joined, in order, for the plan's provenance: with names of
+    /// modules of the goal that the start has otherwise, and a program that was dropped.
     pub history: Vec<Change>,
     /// The judge's verdict on the plan under gravity; `None` without gravity, where any pose of the goal will
     /// do and the plan is not judged here.
     pub verdict: Option<Verdict>,
 }
 
-/// A reason for which there is no plan.
+/// The reason why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The start and the goal have different numbers of modules.
     ModuleCount {
-        /// Modules of the start.
+        /// The number of modules of the start.
         from: usize,
-        /// Modules of the goal.
+        /// The number of modules of the goal.
         to: usize,
     },
     /// The start can't be unwound.
@@ -78,10 +79,10 @@ pub enum Refusal {
     To(tosnake::Refusal),
     /// The two configurations unwind to different snakes.
     DifferentSnakes(OperationError),
-    /// No motion that unwinds the goal, of so many tried under gravity, is held where the start's snake is
-    /// and passes the judge.
+    /// Under gravity, no motion found that unwinds the goal is held at the same position in the snake as the start and
+    /// passes the judge.
     NotHeldAlike {
-        /// Ways to unwind the goal that were found.
+        /// The number of motions that unwind the goal that were found.
         unwound: usize,
     },
 }
@@ -110,11 +111,11 @@ impl Error for Refusal {}
 
 /// Plans the motion from one configuration of RoFI modules to another.
 ///
-/// In the solution, cause 0 is that of the first half and cause 1 that of the second. The goal is reached
-/// with the start's modules in the poses of its own.
+/// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
+/// are in the poses of the goal's. Under gravity the plan was verified by the judge.
 ///
 /// # Errors
-/// [`Refusal`]: either configuration can't be unwound, or the two halves do not fit.
+/// [`Refusal`]: the numbers of modules differ, either configuration can't be unwound, or the two halves do not fit.
 ///
 /// # Examples
 /// ```
@@ -150,7 +151,8 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before.
+/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before; see
+/// [`tosnake::plan_with_cache`] for the settings that the cache compares.
 ///
 /// # Errors
 /// As [`plan()`].
@@ -195,6 +197,7 @@ struct Half {
 }
 
 impl Search<'_> {
+    /// Searches for the steps of one half, unless the cache has them.
     fn unwind(&mut self, task: &tosnake::Task) -> Result<std::rc::Rc<StepSequence>, tosnake::Refusal> {
         task.search(&self.settings.search, self.cache, self.progress)
     }
@@ -258,6 +261,7 @@ fn whole(there: &Half, back: &Half) -> Result<Plan, Refusal> {
     joined(&there.plan, &reversed(&back.plan)).map_err(Refusal::DifferentSnakes)
 }
 
+/// Returns the solution of a whole plan, with the figures of its halves.
 fn solution(plan: Plan, there: &Half, back: &Half, verdict: Option<Verdict>) -> Solution<Report> {
     let (there, back) = (&there.report, &back.report);
     let both = tosnake::Report {

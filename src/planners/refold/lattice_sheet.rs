@@ -18,7 +18,7 @@ pub type Point = [i64; 2];
 /// The corners of a panel, counterclockwise: its side k runs from corner k to the next.
 pub type Corners = [Point; 3];
 
-/// A side of a panel: the panel and the number of the side.
+/// A side of a panel: the index of the panel and the number of the side, 0 to 2.
 pub type Side = (usize, usize);
 
 /// The number of states of a stroke that are sampled in each direction.
@@ -27,28 +27,28 @@ const SAMPLES: usize = 12;
 /// The numbers of panels of a fan: fewer do not close, and more need not fold.
 const FAN: [usize; 3] = [3, 4, 5];
 
-/// A change of one connection, with what folds for it.
+/// A stroke: the change of one connection, with the fan that folds for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// Connections that fold by the angle before the change, and open again after it; the one that is
-    /// undone does not open, and the one that is made does.
+    /// The connections that fold from level to `angle` before the change, and open again after it; the one that is
+    /// undone does not open, and the one that is made does. Empty if nothing folds.
     pub fold: Vec<[Side; 2]>,
-    /// The angle, rad; 0 where nothing folds.
+    /// The fold angle, rad, positive or negative for the side to which the fan folds; 0 if nothing folds.
     pub angle: f64,
     /// The connection that is made.
     pub make: [Side; 2],
     /// The connection that is undone.
     pub cut: [Side; 2],
-    /// The panels that then lie somewhere else, with their corners.
+    /// The panels that lie elsewhere after it, with their corners there.
     pub moved: Vec<(usize, Corners)>,
 }
 
-/// Returns the name of a cell, the sum of its corners.
+/// Returns the name of a cell of the lattice, the sum of its corners: different cells have different names.
 pub fn cell(corners: &Corners) -> Point {
     [0, 1].map(|k| corners.iter().map(|c| c[k]).sum())
 }
 
-/// Returns the cell across side `k`, its first side the common one.
+/// Returns the corners of the cell across side `k` (0 to 2), counterclockwise, so that its side 0 is the common one.
 pub fn across(corners: &Corners, k: usize) -> Corners {
     let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
     [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
@@ -61,30 +61,32 @@ fn turned(point: Point, about: Point, sixths: usize) -> Point {
     [about[0] + i, about[1] + j]
 }
 
-/// Returns a connection, whichever of its sides is named first.
+/// Returns the connection of two sides, the lesser first.
 pub fn bond(a: Side, b: Side) -> [Side; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// A sheet of panels in the plane.
+/// A sheet of panels on the triangular lattice, joined as a tree.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
     /// The corners of each panel.
     pub corners: Vec<Corners>,
-    /// The panel on each cell.
+    /// The panel on each cell that is covered, by the cell's name ([`cell`]).
     pub cells: BTreeMap<Point, usize>,
-    /// The connections: a tree.
+    /// The connections as by [`bond`]: a tree of the panels.
     pub bonds: BTreeSet<[Side; 2]>,
 }
 
 impl LatticeSheet {
-    /// Makes a sheet of panels on different cells, joined as a tree.
+    /// Makes a sheet of panels with these corners, which must be on different cells, joined by `bonds`, which must be a
+    /// tree of neighbours.
     pub fn new(corners: Vec<Corners>, bonds: BTreeSet<[Side; 2]>) -> LatticeSheet {
         let cells = corners.iter().enumerate().map(|(panel, corners)| (cell(corners), panel)).collect();
         LatticeSheet { corners, cells, bonds }
     }
 
-    /// Returns the side that lies at a side of a panel, if a panel does.
+    /// Returns the side of another panel that lies at a side of a panel, joined or not; `None` if the cell there is
+    /// free.
     pub fn beside(&self, (panel, side): Side) -> Option<Side> {
         let ahead = across(&self.corners[panel], side);
         let other = *self.cells.get(&cell(&ahead))?;
@@ -92,7 +94,7 @@ impl LatticeSheet {
         Some((other, side))
     }
 
-    /// Returns the sides of a panel that are joined, each with the side that it is joined to.
+    /// Returns the sides of a panel that are joined, in order, each with the side that it is joined to.
     pub fn joined(&self, panel: usize) -> impl Iterator<Item = (Side, Side)> + '_ {
         (0..3).filter_map(move |side| {
             let other = self.beside((panel, side))?;
@@ -100,7 +102,7 @@ impl LatticeSheet {
         })
     }
 
-    /// Returns the connections on the path between two panels.
+    /// Returns the connections on the path between two panels, that at `to` first; none for the same panel.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
         let mut queue = std::collections::VecDeque::from([from]);
@@ -137,11 +139,12 @@ impl LatticeSheet {
         fan
     }
 
+    /// Returns true if a side is joined to another.
     fn is_joined(&self, side: Side) -> bool {
         self.beside(side).is_some_and(|other| self.bonds.contains(&bond(side, other)))
     }
 
-    /// Returns the panels on one side of a connection.
+    /// Returns the panels that are connected with `from` without the connection `without`.
     fn part(&self, from: usize, without: &[Side; 2]) -> BTreeSet<usize> {
         let (mut part, mut stack) = (BTreeSet::from([from]), vec![from]);
         while let Some(panel) = stack.pop() {
@@ -154,8 +157,9 @@ impl LatticeSheet {
         part
     }
 
-    /// Returns every stroke that folds a fan and ends flat; where it divides the sheet, either part may be the one
-    /// that stays.
+    /// Returns every stroke that closes a fan of three to five panels whose outer sides are not joined, undoes one of
+    /// its connections, and leaves no two panels on one cell; since that divides the sheet, once for each part that
+    /// may move. Collisions on the way are not checked: see [`LatticeSheet::is_free`].
     pub fn pivots(&self) -> Vec<Stroke> {
         let mut found = Vec::new();
         for panel in 0..self.corners.len() {
@@ -195,22 +199,22 @@ impl LatticeSheet {
         }
     }
 
-    /// Returns the neighbouring sides that are not joined.
+    /// Returns the pairs of sides that lie at each other and are not joined, as by [`bond`], in order.
     pub fn open(&self) -> Vec<[Side; 2]> {
         let sides = (0..self.corners.len()).flat_map(|panel| (0..3).map(move |side| (panel, side)));
         let pairs = sides.filter_map(|own| Some([own, self.beside(own)?]));
         pairs.filter(|[a, b]| a < b && !self.bonds.contains(&[*a, *b])).collect()
     }
 
-    /// Returns the stroke that joins panels that lie side by side and undoes one of the connections of the ring that
-    /// this closes: that of least `worth`.
+    /// Returns the stroke without folding that joins two sides that lie at each other and undoes one of the
+    /// connections of the ring that this closes: that of least `worth`. Panics for two sides of one panel.
     pub fn change(&self, make: [Side; 2], worth: impl Fn(&[Side; 2]) -> usize) -> Stroke {
         let ring = self.path(make[0].0, make[1].0);
         let cut = ring.into_iter().min_by_key(|bond| worth(bond)).expect("a tree joins any two");
         Stroke { fold: Vec::new(), angle: 0.0, make, cut, moved: Vec::new() }
     }
 
-    /// Carries out a stroke.
+    /// Applies a stroke of this sheet: changes the connection, and puts the panels that move on their cells.
     pub fn apply(&mut self, stroke: &Stroke) {
         self.bonds.remove(&stroke.cut);
         self.bonds.insert(stroke.make);
@@ -223,7 +227,8 @@ impl LatticeSheet {
         }
     }
 
-    /// Returns true if no sample of a stroke shows a collision; `side`: the side of the panels, m.
+    /// Returns true if no sample of a stroke shows a collision, while the fan closes and opens again; `solids`: by
+    /// panel; `side`: the length of the panels' sides, m. The panels that touch where the fan is closed may.
     pub fn is_free(&self, stroke: &Stroke, solids: &Solids, side: f64) -> bool {
         if stroke.fold.is_empty() {
             return true;
@@ -265,6 +270,7 @@ impl LatticeSheet {
         poses
     }
 
+    /// Returns true if no two panels collide, of those that have moved; `touching`: pairs that may touch.
     fn is_apart(&self, poses: &[Pose], solids: &Solids, side: f64, touching: &[[usize; 2]]) -> bool {
         let places: Vec<Pose> = self
             .corners

@@ -16,21 +16,21 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// Sheets that are tried until one unfolds and folds without collision.
+/// The number of sheets that are tried until one unfolds and folds without collision.
 const SHEETS_TRIED: usize = 8;
 
-/// Sampled steps per panel in the search for an order.
+/// The number of sampled steps for each panel in the search for an order.
 const SAMPLES_PER_PANEL: usize = 32;
 
-/// Orders that are put before the judge for either shape.
+/// The number of orders that are put before the judge for either shape.
 const ORDERS_TRIED: usize = 2;
 
 /// Two shapes of as many equal panels.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The shape at the beginning: face k is panel k.
+    /// The shape at the beginning, m: face k is panel k.
     pub from: Target,
-    /// The shape at the end.
+    /// The shape at the end, m; its sides have the length of the first shape's.
     pub to: Target,
     /// The panels, all of one type and equilateral.
     pub panels: Panels,
@@ -39,11 +39,12 @@ pub struct Problem {
 /// The options of a search. The defaults are those of the function `refold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The time of each step, s; `None`: as long as the widest hinge needs.
+    /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle of
+    /// both shapes. Steps that close or open a fan in the plane take longer if their hinges need it.
     pub step: Option<f64>,
     /// The seed of choices among equals.
     pub seed: u64,
-    /// The greatest number of cells weighed; half of it goes into the lower bound.
+    /// The greatest number of cells weighed in the search for sheets, half of it for the lower bound.
     pub budget: u64,
     /// The options of the judge before which every plan goes.
     pub judge: plan::Settings,
@@ -62,9 +63,10 @@ pub struct Report {
     pub changes: usize,
     /// The lower bound on that number for all motions between the shapes.
     pub bound: usize,
-    /// The face of the second shape that each panel becomes.
+    /// For each panel, the face of the second shape that it becomes.
     pub becomes: Vec<usize>,
-    /// The energy of unfolding and folding with the leaves first, N·m.
+    /// The energy of unfolding and folding with the leaves first, whatever the orders taken, without the changes in the
+    /// plane, N·m.
     pub energy: f64,
     /// The layout of the first shape, rooted at its root.
     pub layout: Layout,
@@ -87,10 +89,10 @@ pub enum Refusal {
         /// The number of cells and connections in which the nearest two sheets differ; `None` where no two
         /// sheets were found.
         apart: Option<usize>,
-        /// The least number of changes of any motion.
+        /// The lower bound on the number of changes of any motion.
         bound: usize,
     },
-    /// The judge refuses every sheet that was found.
+    /// Every sheet that was found collides in the samples of its orders, or is refused by the judge.
     Collides,
     /// The connectors of panels that are joined have no hinge.
     NoHinge,
@@ -125,7 +127,7 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 /// Plans the motion from one shape to another: it unfolds, changes connections in the plane, and folds again,
-/// with as few changes as are found. All actions of the program have cause 0.
+/// with as few changes as are found, without gravity. All actions of the program have cause 0.
 ///
 /// # Errors
 /// A [`Refusal`]: shapes of different numbers of panels, or a search that ended without a motion that the
@@ -187,6 +189,7 @@ pub fn plan(
     Err(Refusal::Collides)
 }
 
+/// Returns the solution of a sheet that the judge has accepted, with its report.
 fn answer(solution: Solution<Judged>, sheet: Refolding, bound: usize, energy: f64) -> Solution<Report> {
     let Solution { body, program, report: Judged { actions, verdict } } = solution;
     let Refolding { from: layout, becomes, strokes, .. } = sheet;
@@ -302,7 +305,7 @@ impl Program<'_> {
             });
             series.push(Node::Parallel(moves.flatten().collect()));
         }
-        // Strokes in the plane; a hinge that is made comes behind all that there are.
+        // Strokes in the plane; a hinge that is made gets the index after all that there are.
         let bonds = &self.joined.assembly.bonds;
         let side = |port: PortRef| (port.module, port.port);
         let known = |i: usize| (bond(side(bonds[i].a), side(bonds[i].b)), self.joined.joints[i]);

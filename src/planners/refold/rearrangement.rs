@@ -13,19 +13,19 @@ use std::collections::{BTreeSet, BinaryHeap};
 /// The weight of a panel's distance to its cell (steps of the lattice): with more the search is greedier.
 const DISTANCE_WEIGHT: i64 = 2;
 
-/// The sheet at the end.
+/// The sheet to be reached, on the lattice of the start.
 #[derive(Clone, Debug)]
 pub struct Goal {
-    /// The cells that it covers.
+    /// The cells that it covers, each written as the sum of its corners ([`cell`]).
     pub cells: BTreeSet<Point>,
-    /// The pairs of cells that are joined, the lesser first: a tree.
+    /// The pairs of such cells whose panels are joined, the lesser first: a tree.
     pub bonds: BTreeSet<[Point; 2]>,
 }
 
 /// The panels, for collision samples.
 #[derive(Clone, Copy)]
 pub struct PanelSolids<'p> {
-    /// Their collision parts.
+    /// The collision parts of each panel.
     pub solids: &'p Solids,
     /// The length of their sides, m.
     pub side: f64,
@@ -39,13 +39,14 @@ pub fn pair(a: Point, b: Point) -> [Point; 2] {
 /// A state that was reached.
 struct Node {
     plane: LatticeSheet,
-    /// The state before, and what led on.
+    /// The index of the state before, and the stroke from there; `None` for the start.
     from: Option<(usize, Stroke)>,
     strokes: i64,
 }
 
-/// Searches strokes that change one sheet into the other, fewer than `most`; `steps`: the greatest number of states
-/// that are expanded. Returns the strokes and the sheet after them.
+/// Searches fewer than `most` strokes, free of collisions in their samples, that change one sheet into the other,
+/// over at most `steps` states taken from the queue. Returns the strokes and the sheet after them; `None` if none
+/// were found. No strokes are needed from a sheet that is the goal.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,
@@ -93,6 +94,7 @@ fn is_free(nodes: &mut [Node], at: usize, PanelSolids { solids, side }: PanelSol
     is_free
 }
 
+/// Returns the strokes that lead to a state, and its sheet.
 fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, LatticeSheet) {
     let mut strokes = Vec::new();
     let mut at = end;
@@ -104,11 +106,13 @@ fn series(mut nodes: Vec<Node>, end: usize) -> (Vec<Stroke>, LatticeSheet) {
     (strokes, nodes.swap_remove(end).plane)
 }
 
+/// Returns the pair of cells that a connection joins.
 fn joined(plane: &LatticeSheet, bond: &[Side; 2]) -> [Point; 2] {
     let [a, b] = bond.map(|side| cell(&plane.corners[side.0]));
     pair(a, b)
 }
 
+/// Returns the identity of a state: its pairs of joined cells, in order.
 fn state(plane: &LatticeSheet) -> Vec<[Point; 2]> {
     let mut bonds: Vec<[Point; 2]> = plane.bonds.iter().map(|bond| joined(plane, bond)).collect();
     bonds.sort_unstable();

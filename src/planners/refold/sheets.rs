@@ -22,31 +22,32 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The number of times that growth which is stuck takes panels away before it starts again.
 const RETREATS: usize = 200;
 
-/// Pairs of sheets that are tried, those first that have the most in common.
+/// The greatest number of pairs of sheets that are tried, those first that have the most in common.
 const TRIED: usize = 24;
 
-/// States that the search for one rearrangement goes on from, and times the panels for all.
+/// The greatest number of states that the search for one rearrangement expands.
 const STEPS_MAX: usize = 400;
+/// The greatest number of such states in all, times the number of panels.
 const STEPS_IN_ALL_MAX: usize = 100_000;
 
-/// Two layouts, and the strokes by which the sheet of the one becomes that of the other.
+/// Two layouts, and the strokes by which the flat sheet of the one becomes that of the other.
 #[derive(Clone, Debug)]
 pub struct Refolding {
     /// The layout of the first shape. Panels are numbered as its faces, and both layouts are rooted at the
     /// same panel.
     pub from: Layout,
-    /// The layout of the second shape.
+    /// The layout of the second shape, numbered as its own faces.
     pub to: Layout,
-    /// The face of the second shape that each panel becomes.
+    /// For each panel, the face of the second shape that it becomes.
     pub becomes: Vec<usize>,
-    /// The turn of each panel: its side k becomes the second shape's side (k + turn) mod 3.
+    /// For each panel, its turn (0 to 2): its side k becomes side (k + turn) mod 3 of that face.
     pub turns: Vec<usize>,
     /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
-    /// Returns the same sheets with both layouts rooted at another panel.
+    /// Returns the same sheets and strokes with both layouts rooted at another panel; `from` and `to`: the two shapes.
     pub fn rerooted(&self, from: &Target, to: &Target, panel: usize) -> Refolding {
         Refolding {
             from: self.from.rerooted(from, panel),
@@ -55,7 +56,7 @@ impl Refolding {
         }
     }
 
-    /// Returns the side of a panel that becomes a side of its face of the second shape.
+    /// Returns the side (0 to 2) of a panel that becomes the side `side` of its face of the second shape.
     pub fn side(&self, panel: usize, side: usize) -> usize {
         (side + 3 - self.turns[panel]) % 3
     }
@@ -64,20 +65,20 @@ impl Refolding {
 /// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The sheets found, all different: the fewest changes first, then the least cost.
+    /// The sheets found, at least one, all different: the fewest changes first, then the least cost.
     pub best: Vec<Refolding>,
-    /// The lower bound on the number of changes.
+    /// The lower bound on the number of connections that have to be made by any motion between the shapes.
     pub bound: usize,
 }
 
 /// The options of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The greatest number of cells weighed; half of it goes into the bound.
+    /// The greatest number of cells weighed, half of it for sheets and half for the bound.
     pub budget: u64,
     /// The seed of choices among equals.
     pub seed: u64,
-    /// The number of sheets that are kept.
+    /// The greatest number of sheets that are kept.
     pub kept: usize,
 }
 
@@ -86,7 +87,8 @@ pub struct Settings {
 pub enum NoRefolding {
     /// The shapes have different numbers of faces.
     Counts,
-    /// No series of strokes between sheets of the two was found.
+    /// No series of strokes between sheets of the two was found within the budget, or before the observer ended the
+    /// search.
     Budget {
         /// The number of cells and connections that only one of the two nearest sheets has; `None` where no
         /// two sheets were found.
@@ -97,10 +99,10 @@ pub enum NoRefolding {
 }
 
 /// Searches sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those
-/// with equally many changes; `solids`: by panel.
+/// with equally many changes; `solids`: by panel. All sides of both shapes must have one length.
 ///
 /// # Errors
-/// [`NoRefolding`] where the shapes differ in their number of faces, or no sheet was found.
+/// [`NoRefolding`] if the shapes differ in their number of faces, or no sheet was found.
 pub fn sheets(
     from: &Target,
     to: &Target,
@@ -174,11 +176,12 @@ struct Laid {
 }
 
 impl Laid {
+    /// Returns the cells that the sheet covers.
     fn cells(&self) -> BTreeSet<Cell> {
         self.corners.iter().map(cell).collect()
     }
 
-    /// Pairs of cells that are joined.
+    /// Returns the pairs of cells that are joined.
     fn joined<'l>(&'l self, target: &'l Target) -> impl Iterator<Item = [Cell; 2]> + 'l {
         self.hinges.iter().map(|hinge| {
             let [a, b] = target.hinges[*hinge].faces.map(|face| cell(&self.corners[face]));
@@ -196,6 +199,7 @@ impl Pair {
         stray + self.to.joined(to).filter(|pair| !joined.contains(pair)).count()
     }
 
+    /// Returns the refolding by fewer than `most` strokes between the two sheets; `None` if none is found.
     fn refolding(&self, from: &Target, to: &Target, panels: PanelSolids, most: usize) -> Option<Refolding> {
         let bonds = self.from.hinges.iter().map(|hinge| {
             let hinge = &from.hinges[*hinge];
@@ -225,8 +229,8 @@ impl Pair {
     }
 }
 
-/// Lays the rest of a shape around the faces that are laid out, on cells of the other's sheet where it
-/// can. `None` where it gets stuck.
+/// Lays the rest of a shape around the faces that are laid out, on cells of the other's sheet if possible. `None` if
+/// some face has no free cell.
 fn spread(
     target: &Target,
     mut corners: Vec<Option<Corners>>,
@@ -314,22 +318,26 @@ impl<'t> Sheet<'t> {
         }
     }
 
+    /// Puts the first panel on the sheet.
     fn begin(&mut self, face: usize, becomes: usize, turn: usize) {
         self.first = face;
         self.put(face, Placed { becomes, turn, corners: [[0, 0], [1, 0], [0, 1]], number: 0 });
     }
 
+    /// Puts the panel of a face of the first shape on the sheet.
     fn put(&mut self, face: usize, panel: Placed) {
         self.cells.insert(cell(&panel.corners), face);
         self.taken[panel.becomes] = true;
         self.placed[face] = Some(panel);
     }
 
+    /// Returns the panel of a face of the first shape, which must be on the sheet.
     fn panel(&self, face: usize) -> Placed {
         self.placed[face].expect("only panels on the sheet are asked for")
     }
 
-    /// Returns what lies across a side in a shape, if it is not on the sheet: the face, its side, the hinge.
+    /// Returns the face across a side in a shape, its side and the hinge; `None` at the boundary, and if the face is
+    /// `gone`, on the sheet already.
     fn beyond(target: &Target, face: usize, side: usize, gone: impl Fn(usize) -> bool) -> Option<[usize; 3]> {
         let index = target.sides[face][side]?;
         let hinge = &target.hinges[index];
@@ -338,18 +346,20 @@ impl<'t> Sheet<'t> {
         (!gone(other)).then_some([other, hinge.sides[end], index])
     }
 
+    /// Returns the face across a side in the first shape, as [`Sheet::beyond`] does.
     fn next_from(&self, face: usize, side: usize) -> Option<[usize; 3]> {
         Self::beyond(self.from, face, side, |other| self.placed[other].is_some())
     }
 
+    /// Returns the face across a side of a panel in the second shape, as [`Sheet::beyond`] does.
     fn next_to(&self, face: usize, side: usize) -> Option<[usize; 3]> {
         let panel = self.panel(face);
         Self::beyond(self.to, panel.becomes, (side + panel.turn) % 3, |other| self.taken[other])
     }
 
-    /// Adds panels until all are on the sheet; where it gets stuck it takes some of the last away, a
-    /// few times. The sheet with the most panels. `bias`: among equals the first placed neighbour (0),
-    /// the last (1), or any.
+    /// Adds panels until all are on the sheet; when none fits, it takes some of the last away, at most [`RETREATS`]
+    /// times. Returns the sheet with the most panels. `bias`: among equals the panel at the neighbour that was placed
+    /// first (0), or last (1), or any of them is added.
     fn grow(&mut self, random: &mut Random, bias: usize, left: &mut u64) -> Sheet<'t> {
         let mut retreats = RETREATS;
         let mut peak = self.clone();
@@ -383,18 +393,21 @@ impl<'t> Sheet<'t> {
         self.clone()
     }
 
+    /// Takes the last panel away.
     fn take_back(&mut self) {
         if let Some(Choice { face, becomes, corners, .. }) = self.grown.pop() {
             self.lift(face, becomes, &corners);
         }
     }
 
+    /// Takes a panel off the sheet.
     fn lift(&mut self, face: usize, becomes: usize, corners: &Corners) {
         self.placed[face] = None;
         self.taken[becomes] = false;
         self.cells.remove(&cell(corners));
     }
 
+    /// Returns the panels that may come next.
     fn choices(&self, left: &mut u64) -> Vec<Choice> {
         let mut found = Vec::new();
         let panels: Vec<usize> = self.cells.values().copied().collect();
@@ -431,8 +444,8 @@ impl<'t> Sheet<'t> {
         found
     }
 
-    /// Returns the panel across a side of `face` in the first shape, on the cell ahead, which in the second
-    /// shape is what lies across `side` of `other`; `shift` is the cell's side towards that.
+    /// Returns the panel across a side of `face` in the first shape, on the cell ahead, which in the second shape is
+    /// the face across `side` of `other`; `None` if that is on the sheet. `shift` is the cell's side towards `other`.
     fn joined(
         &self,
         face: usize,
@@ -452,7 +465,7 @@ impl<'t> Sheet<'t> {
         Some(Choice { face: new, becomes, turn, corners, hinges: [hinge, second], changes, after })
     }
 
-    /// Returns the rest of either shape laid around what they have in common.
+    /// Returns the sheets of both shapes, each laid out around the common panels; `None` if one can't be.
     fn pair(&self, random: &mut Random) -> Option<Pair> {
         let n = self.placed.len();
         let mut first = vec![None; n];
@@ -477,13 +490,14 @@ fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)
 }
 
-/// Returns true if so many pieces suffice; also true where the budget does not.
+/// Returns true if so many pieces suffice, and if the budget ends before that is known.
 fn can_do_with(from: &Target, to: &Target, pieces: usize, left: &mut u64) -> bool {
     let n = to.faces.len();
     let mut search = PieceSearch { sheet: Sheet::new(from, to), closed: vec![[false; 3]; n], left };
     search.begun(n, pieces)
 }
 
+/// The search for pieces that both shapes have in common.
 struct PieceSearch<'t, 'l> {
     sheet: Sheet<'t>,
     /// Sides of faces of the first shape across which no piece goes on.
@@ -492,7 +506,8 @@ struct PieceSearch<'t, 'l> {
 }
 
 impl PieceSearch<'_, '_> {
-    /// Begins a piece with the first face that is in none. As deep as there are sides.
+    /// Begins a piece with the first face that is in none; returns true if all faces get into pieces. The recursion
+    /// is as deep as there are sides.
     fn begun(&mut self, missing: usize, pieces: usize) -> bool {
         if missing == 0 || *self.left == 0 {
             return true;
@@ -519,7 +534,7 @@ impl PieceSearch<'_, '_> {
         false
     }
 
-    /// Returns the hinge across a side of a panel, if both shapes may go on there.
+    /// Returns the panel across a side of a panel in both shapes; `None` if they do not both go on there.
     fn choice(&self, face: usize, side: usize) -> Option<Choice> {
         let ahead = across(&self.sheet.panel(face).corners, side);
         if self.closed[face][side] || self.sheet.cells.contains_key(&cell(&ahead)) {
@@ -543,7 +558,8 @@ impl PieceSearch<'_, '_> {
         first.max(second) <= pieces
     }
 
-    /// Goes on with the first hinge that both shapes have: over it, or never over it.
+    /// Goes on with the first hinge that both shapes have, over it or never over it; returns true if all faces get into
+    /// pieces.
     fn grown(&mut self, missing: usize, pieces: usize) -> bool {
         crate::interrupt::checkpoint();
         if !self.can_reach(pieces) {
@@ -573,7 +589,7 @@ impl PieceSearch<'_, '_> {
     }
 }
 
-/// Choices among few: the remainder prefers none noticeably.
+/// Random choices among few, by the remainder, whose bias is negligible for so few.
 struct Random(SplitMix64);
 
 impl Random {

@@ -8,9 +8,10 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment;
 
-/// Returns the constraints on lengths, angles, loops and the given pairs of struts that are violated
-/// somewhere between x and y, each with the shortfall, m. A distance may fall short of `truss.clearance` by
-/// `margin`, m, never by more; where it is computed, half the margin is asked for, so that advancement ends.
+/// Returns the constraints on lengths, angles, loops and the given pairs of struts that are violated somewhere
+/// between x and y, each with the shortfall, m. A distance may fall short of `truss.clearance` by `margin`, m, and by
+/// the error of [`segment_segment`] where struts are at an angle of less than 3.2e-5 rad (that angle times the
+/// shorter length), never by more; where it is computed, half the margin is asked for, so that advancement ends.
 pub(super) fn violations(
     truss: &Structure,
     x: &[Vec3],
@@ -37,8 +38,8 @@ pub(super) fn violations(
     lengths.chain(clearances).chain(angles).chain(loops).collect()
 }
 
-/// Returns the shortfall (units) of the angle of two struts that share a node, if there is one. The
-/// direction of an arm turns no faster than the speed of its end over its least length.
+/// Returns the shortfall of the angle of two struts that share a node, times the unit, m; `None` if there is none;
+/// `margin`: rad. The direction of an arm turns no faster than the speed of its end over its least length.
 fn angle_shortfall(
     truss: &Structure,
     x: &[Vec3],
@@ -91,7 +92,7 @@ fn shortest((a, b): (Vec3, Vec3), (c, d): (Vec3, Vec3)) -> f64 {
     (from + change * t.clamp(0.0, 1.0)).norm()
 }
 
-/// Returns the shortfall of the distance of two struts, m, if there is one. Projected on the direction in
+/// Returns the shortfall of the distance of two struts, m; `None` if there is none. Projected on the direction in
 /// which they are nearest, each end approaches each end of the other at a constant rate: until the first of
 /// them uses up the distance, the struts keep it.
 fn clearance_shortfall(

@@ -22,10 +22,12 @@ pub(super) struct NeighbourList {
     now: Vec<Vec3>,
 }
 
+/// A pair of struts of the list.
 #[derive(Clone, Debug)]
 struct Pair {
     struts: (usize, usize),
-    /// A lower bound on the distance, m, and true if it is the present distance exactly.
+    /// A lower bound on the distance, m, and true if it is the present distance, but for the error of
+    /// [`segment_segment`] with nearly parallel struts.
     apart: f64,
     exact: bool,
     /// The unit vector from the second strut's closest point to the first's; valid where `exact`.
@@ -98,6 +100,7 @@ fn reach(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<f64> {
     truss.struts.iter().map(|&(a, b)| moved[a].max(moved[b])).collect()
 }
 
+/// Returns the greatest displacement of a node relative to the mean of all, m.
 fn farthest(x: &[Vec3], y: &[Vec3]) -> f64 {
     moved(x, y).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! Margins of a configuration: how much each limit leaves.
+//! Margins of a configuration: the distances of its values from their limits.
 
 use super::broad_phase;
 use super::constraint::Constraint;
@@ -8,9 +8,9 @@ use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::plan::Margins;
 
-/// Returns the least margin of each kind of limit at the positions `x` of the nodes, m; none of kinds that
-/// the truss does not have, and none of distances that are more than twice the clearance. `stands` says
-/// that the truss stands on the ground, so that its static stability margin counts.
+/// Returns the least margin of each kind of limit at the positions `x` of the nodes, m: `None` for kinds that
+/// the truss does not have, and for distances of which none is at most twice the clearance. `stands`: true if
+/// the truss stands on the ground, so that its static stability margin counts; `None` for one on fewer than two nodes.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
     let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);

@@ -7,10 +7,10 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Surroundings, TrussLimits};
 
-/// One piece of a motion of all nodes.
+/// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Move {
-    /// Every node moves linearly, to these positions, m.
+    /// Every node moves at constant velocity, to these positions, m.
     Linear(Vec<Vec3>),
     /// The whole truss topples over an edge as a rigid body.
     Roll(Roll),
@@ -32,8 +32,8 @@ impl Default for TimeLaw {
 }
 
 impl TimeLaw {
-    /// Returns the least duration, s, in which the struts can make a move from `x`, without rounding up to
-    /// the shortest.
+    /// Returns the least duration (s) of a move from `x` (m): that in which the speed of the struts suffices, or of a
+    /// roll its angle divided by `roll_speed`. It is not rounded up to `step_duration_min`.
     pub fn duration(&self, truss: &Structure, x: &[Vec3], step: &Move) -> f64 {
         match step {
             Move::Linear(y) => truss.rates(x, y).fold(0.0, f64::max) / truss.speed,
@@ -50,7 +50,8 @@ pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
     }
 }
 
-/// Returns the length of the path of the centre of mass over the ground, m, heights left out.
+/// Returns the length of the path of the centre of mass over the ground, m, by the straight lines between the ends of
+/// moves from `start` (m), heights left out.
 pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> f64 {
     let mut x = start.to_vec();
     let mut distance = 0.0;
@@ -63,9 +64,9 @@ pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> 
     distance
 }
 
-/// Returns the moves from `start` as node paths: each move in the least time that the struts allow, with the
-/// margins of its end. `stands` as for [`margins`]. The strut is number 0 of the plan's library, and all
-/// causes are 0.
+/// Returns the moves from `start` (m) as node paths: each move in the least time that the struts allow, but no less
+/// than the law's shortest, with the margins of its end. `stands` as for [`margins`]. The strut has index 0 in the
+/// plan's library, and all causes are 0.
 pub fn node_paths(
     problem: &TrussProblem,
     truss: &Structure,

@@ -1,5 +1,5 @@
-//! The part of a problem that `morph` and `locomote` share: a truss, where its nodes are, its limits, and
-//! what is around it.
+//! The part of a problem that `morph` and `locomote` share: a truss, the positions of its nodes, its limits, and
+//! its surroundings.
 
 use super::constraint::Constraint;
 use super::step::StepError;
@@ -13,12 +13,13 @@ use crate::units::{Dimension, quantity};
 use std::f64::consts::FRAC_PI_3;
 use std::fmt;
 
-/// Nodes of the largest truss whose rigidity can be limited: the eigenvalues of a larger one take minutes.
+/// The number of nodes of the largest truss whose rigidity can be limited: the eigenvalues of a larger one take
+/// minutes.
 pub const RIGIDITY_NODES_MAX: usize = 200;
 /// The least angle between struts is limited below this, rad: three struts that make a triangle can't all
 /// be farther apart in angle.
 const ANGLE_LIMIT_MAX: f64 = FRAC_PI_3;
-/// Constraints that are named in the reason why a search ended.
+/// The greatest number of constraints that are named in the reason why a search ended.
 const CONSTRAINTS_REPORTED_MAX: usize = 4;
 
 /// A truss of struts of one kind, in the world's frame.
@@ -26,75 +27,75 @@ const CONSTRAINTS_REPORTED_MAX: usize = 4;
 pub struct TrussProblem {
     /// The kind of all struts: range of length, speed, clearance.
     pub strut: Strut,
-    /// A name for each node, for messages and the plan.
+    /// A name for each node, for messages and the plan; as many as `nodes`.
     pub node_names: Vec<String>,
     /// The position of each node at the start, m.
     pub nodes: Vec<Vec3>,
-    /// The two nodes of each strut.
+    /// The two nodes of each strut, as indices in `nodes`.
     pub struts: Vec<(usize, usize)>,
     /// Limits of the shape beside those of the struts.
     pub limits: Limits,
     /// Solids that struts keep their clearance from, each a union of shapes.
     pub obstacles: Vec<Vec<Placed>>,
-    /// The ground; flat at height 0 where there is none.
+    /// The ground; `None` for flat ground at height 0.
     pub terrain: Option<HeightField>,
 }
 
-/// The reason why a truss can't be planned for. Struts and obstacles are named for the user; obstacles count
-/// from 0.
+/// The reason why a truss can't be planned for. Indices count from 0: struts as in [`TrussProblem::struts`],
+/// obstacles as in [`TrussProblem::obstacles`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum InvalidTruss {
     /// There are not as many names as nodes, or no struts.
     Incomplete,
-    /// A strut (its number) joins a node to itself, to no node, or to one at the same position.
+    /// A strut joins a node to itself, to an index that is no node, or to a node at the same position.
     Degenerate {
-        /// The number of the strut.
+        /// The index of the strut.
         strut: usize,
     },
-    /// A node is farther away than [`EXTENT_MAX`].
+    /// A coordinate of a node is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar {
         /// The name of the node.
         node: String,
     },
-    /// The shapes of an obstacle enclose no volume.
+    /// A shape of an obstacle is not sound, or at a pose that is not.
     NotSolid {
-        /// The number of the obstacle.
+        /// The index of the obstacle.
         obstacle: usize,
         /// The fault of its shapes.
         why: Unsound,
     },
-    /// The limit of the angle between struts is not in [0, π/3).
+    /// The limit of the angle between struts is not in [0, π/3) rad.
     AngleLimit,
-    /// The limit of the singular values is negative.
+    /// The limit of the singular values is negative or not a number.
     RigidityLimit,
-    /// The rigidity of a truss of so many nodes takes too long to limit.
+    /// Rigidity is limited, and there are more than [`RIGIDITY_NODES_MAX`] nodes.
     RigidityNodes {
         /// The number of nodes.
         nodes: usize,
     },
     /// A loop has fewer than two struts.
     ShortLoop,
-    /// A strut begins nearer to an obstacle than its clearance.
+    /// At the start a strut is nearer to an obstacle than its clearance.
     NearObstacle {
         /// The name of the strut.
         strut: String,
-        /// The number of the obstacle.
+        /// The index of the obstacle.
         obstacle: usize,
         /// The clearance, m.
         clearance: f64,
     },
-    /// A strut begins below the ground.
+    /// At the start a strut is deeper in uneven ground than `depth_max`.
     BelowGround {
         /// The name of the strut.
         strut: String,
-        /// Its depth, m.
+        /// Its greatest depth, m.
         depth: f64,
         /// The depth allowed, m.
         depth_max: f64,
     },
-    /// The truss begins inside an obstacle.
+    /// At the start a node is inside an obstacle.
     InsideObstacle {
-        /// The number of the obstacle.
+        /// The index of the obstacle.
         obstacle: usize,
     },
 }
@@ -134,17 +135,17 @@ impl fmt::Display for InvalidTruss {
 impl std::error::Error for InvalidTruss {}
 
 impl TrussProblem {
-    /// Returns the name of a strut, from the names of its nodes: `a -- b`.
+    /// Returns the name of a strut, given by its index, from the names of its nodes: `a -- b`.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.node_names[a], self.node_names[b])
     }
 
     /// Returns the truss with its limits and surroundings. Struts may be half their clearance below uneven
-    /// ground: nodes are taken to be thicker by that much.
+    /// ground: nodes are taken to be thicker by that much. Panics if a limit names a strut that is not there.
     ///
     /// # Errors
-    /// [`InvalidTruss`], but for the three about where the truss begins.
+    /// [`InvalidTruss`], but for the three about the start, which [`TrussProblem::check_start`] finds.
     pub fn structure(&self, tolerances: Tolerances) -> Result<Structure, InvalidTruss> {
         self.check()?;
         let mut solids = Vec::with_capacity(self.obstacles.len());
@@ -159,7 +160,7 @@ impl TrussProblem {
         Ok(truss.with_limits(&self.nodes, self.limits.clone()).with_surroundings(surroundings))
     }
 
-    /// Checks graph and limits.
+    /// Checks graph, positions and limits.
     fn check(&self) -> Result<(), InvalidTruss> {
         if self.node_names.len() != self.nodes.len() || self.struts.is_empty() {
             return Err(InvalidTruss::Incomplete);
@@ -188,10 +189,12 @@ impl TrussProblem {
         Ok(())
     }
 
-    /// Checks that the truss with its nodes at `x`, m, is free of obstacles and not below the ground.
+    /// Checks that the truss with its nodes at `x`, m, is free of obstacles and its struts are not below uneven ground;
+    /// flat ground is not checked.
     ///
     /// # Errors
-    /// [`InvalidTruss::NearObstacle`], [`InvalidTruss::BelowGround`] or [`InvalidTruss::InsideObstacle`].
+    /// [`InvalidTruss::NearObstacle`], [`InvalidTruss::BelowGround`] or [`InvalidTruss::InsideObstacle`];
+    /// [`InvalidTruss::NotSolid`] if [`TrussProblem::structure`] was not asked before.
     pub fn check_start(&self, truss: &Structure, x: &[Vec3]) -> Result<(), InvalidTruss> {
         let around = &truss.surroundings;
         for index in 0..truss.struts.len() {
@@ -219,31 +222,31 @@ impl TrussProblem {
         Ok(())
     }
 
-    /// Returns in words why there was no step: the constraints that blocked it, obstacles and ground first,
-    /// for of a truss's own struts many are at some limit.
+    /// Returns the reason why there was no step in words: up to four constraints that blocked it, those of obstacles
+    /// and uneven ground first, for of a truss's own struts many are at some limit.
     pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
         let (why, constraints) = match error {
             StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),
             StepError::NotConverged(constraints) => ("no step was found that keeps all limits", constraints),
         };
-        let mut told: Vec<String> = Vec::new();
+        let mut reasons: Vec<String> = Vec::new();
         let outer = |constraint: &&Constraint| {
             matches!(constraint, Constraint::ObstacleClearance(..) | Constraint::StrutHeight(..))
         };
         let own = constraints.iter().filter(|constraint| !outer(constraint));
         for constraint in constraints.iter().filter(outer).chain(own) {
             let words = self.explain_constraint(truss, *constraint);
-            if !told.contains(&words) {
-                told.push(words);
+            if !reasons.contains(&words) {
+                reasons.push(words);
             }
         }
-        let more = told.len().saturating_sub(CONSTRAINTS_REPORTED_MAX);
-        told.truncate(CONSTRAINTS_REPORTED_MAX);
+        let more = reasons.len().saturating_sub(CONSTRAINTS_REPORTED_MAX);
+        reasons.truncate(CONSTRAINTS_REPORTED_MAX);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        if told.is_empty() { why.to_string() } else { format!("{why}: {}{more}", told.join(", ")) }
+        if reasons.is_empty() { why.to_string() } else { format!("{why}: {}{more}", reasons.join(", ")) }
     }
 
-    /// Returns in words that a constraint is active.
+    /// Returns an active constraint in words, such as `a -- b is at its least length`.
     pub fn explain_constraint(&self, truss: &Structure, constraint: Constraint) -> String {
         let strut = |k: usize| self.strut_name(k);
         match constraint {

@@ -9,7 +9,7 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
-/// Dimension of the rigid motions of the whole truss: singular values of R that are always zero.
+/// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
 const RIGID: usize = 6;
 
 /// A singular value of the rigidity matrix with its singular vectors: over the struts (left) and over the

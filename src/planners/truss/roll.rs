@@ -8,13 +8,13 @@ use super::support_polygon::{self, contacts};
 use crate::geometry::Vec3;
 use std::f64::consts::TAU;
 
-/// Rolls in a row until a truss that still topples counts as one that never rests.
+/// The number of rolls in a row after which a truss that still topples counts as one that never rests.
 pub(in crate::planners) const ROLLS_MAX: usize = 50;
 
 /// A rigid rotation about the line through two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roll {
-    /// The nodes that stay; the axis points from the first to the second.
+    /// The indices of the two nodes on the axis, which stay; the axis points from the first to the second.
     pub edge: (usize, usize),
     /// The angle by the right-hand rule, rad.
     pub angle: f64,
@@ -47,6 +47,7 @@ pub(in crate::planners) fn over(truss: &Structure, x: &[Vec3], edge: (usize, usi
     Some(Roll { edge, angle })
 }
 
+/// Returns the axis of a roll over an edge.
 fn axis(x: &[Vec3], edge: (usize, usize)) -> Axis {
     Axis { origin: x[edge.0], along: (x[edge.1] - x[edge.0]).normalize() }
 }
@@ -61,9 +62,9 @@ pub(in crate::planners) fn blocked(truss: &Structure, x: &[Vec3], roll: Roll) ->
 pub(in crate::planners) enum Equilibrium {
     /// The centre of mass is inside the support polygon.
     Stable,
-    /// It topples, by this roll.
+    /// The truss topples by this roll.
     Topples(Roll),
-    /// It stands on one node, this one.
+    /// The truss stands on the node of this index alone.
     OnOneNode(usize),
 }
 
@@ -80,8 +81,9 @@ pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<
     }
 }
 
-/// Returns the positions of the nodes, m, once the truss has come to rest on the ground after it is let go
-/// with its lowest nodes there; quasi-statically, without inertia. `None` if it never rests.
+/// Returns the positions of the nodes, m, once the truss has come to rest: it is put down with its lowest nodes on the
+/// ground, then rolls over edges of its support polygon until it is statically stable. Quasi-static, without inertia;
+/// obstacles do not count. `None` if it never rests, or nothing of it meets the ground any more.
 pub fn settled(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
     let mut x = x.to_vec();
     for _ in 0..ROLLS_MAX {
@@ -97,7 +99,7 @@ pub fn settled(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
 }
 
 /// Returns the positions after toppling over one node, in the direction of the centre of mass: a roll about
-/// a horizontal axis through the node.
+/// a horizontal axis through the node; `None` if no other node comes down.
 fn toppled_over_node(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<Vec3>> {
     let arm = truss.centre_of_mass(x) - x[node];
     let aside = Vec3::new(-arm.y, arm.x, 0.0);

@@ -6,7 +6,7 @@ use super::structure::Structure;
 use crate::geometry::{Vec3, pose::turned};
 use std::f64::consts::TAU;
 
-/// Samples of one advancement; a rotation that needs more counts as blocked, a node as landed.
+/// The greatest number of samples of one advancement; a rotation that needs more counts as blocked, a node as landed.
 const ADVANCEMENT_STEPS_MAX: usize = 20_000;
 
 /// A directed line; rotations about it are by the right-hand rule.
@@ -101,6 +101,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
+    /// Returns the ends of the strut, m, once it has rotated by `done` (rad, not negative).
     fn ends_at(&self, done: f64) -> (Vec3, Vec3) {
         let rotate = self.axis.rotation(done * self.angle.signum());
         (rotate(self.ends.0), rotate(self.ends.1))
@@ -124,7 +125,7 @@ impl Sweep<'_> {
         false
     }
 
-    /// Returns the sample point of the strut that gets too far below uneven ground, if one does.
+    /// Returns the sample point of the strut that gets too far below uneven ground; `None` if none does.
     fn ground_contact(&self, truss: &Structure) -> Option<usize> {
         let terrain = truss.surroundings.terrain.as_ref()?;
         let rate = self.radius * libm::hypot(1.0, truss.surroundings.slope_max);

@@ -19,19 +19,21 @@ use crate::optimize::{QuadraticProgram, Row, Unsolved};
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-/// Quadratic programs solved for one step.
+/// The greatest number of quadratic programs solved for one step.
 const ROUNDS_MAX: usize = 40;
-/// Singular values of the rigidity matrix that are constrained: the least often come several together.
+/// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
 const MODES: usize = 4;
 
-/// The cost `½ uᵀ H u + c·u + Σ |a·u|` over the displacements u of the nodes, three coordinates for each.
+/// The cost `½ uᵀ H u + c·u + Σ |a·u|` over the displacements u of the nodes (m), of which node k has the coordinates
+/// 3k to 3k + 2. Costs have no unit of their own: only their ratios count.
 #[derive(Clone, Debug, Default)]
 pub struct QuadraticCost {
-    /// H as (row, column, value), on and above the diagonal only; repeated entries add up.
+    /// H as (row, column, value), on and above the diagonal only; repeated entries add up. It must be positive
+    /// semidefinite.
     pub hessian: Vec<(usize, usize, f64)>,
-    /// The vector c.
+    /// The vector c, one entry for each coordinate.
     pub linear: Vec<f64>,
-    /// The vectors a, sparse, whose products with u count by their absolute values.
+    /// The vectors a, each as (coordinate, value), whose products with u count by their absolute values.
     pub absolutes: Vec<Vec<(usize, f64)>>,
 }
 
@@ -43,17 +45,17 @@ pub struct StepProblem<'a> {
     pub x: &'a [Vec3],
     /// The cost of displacements.
     pub cost: &'a QuadraticCost,
-    /// Nodes that stay where they are.
+    /// Nodes that keep their positions.
     pub pinned: &'a [usize],
-    /// The displacement of the centre of mass along some axes (0 to 2), m.
+    /// The displacement of the centre of mass (m) along some axes (0 to 2); along the others it is free.
     pub centre_of_mass: &'a [(usize, f64)],
-    /// True if nodes and struts must not get below the ground.
+    /// True if nodes, and struts over uneven ground, must not get below the ground.
     pub ground: bool,
-    /// The greatest displacement of a node, m: a longer step is shortened as a whole.
+    /// The greatest displacement of a node, m: a longer step is shortened as a whole; infinite for no limit.
     pub displacement_max: f64,
 }
 
-/// The reason why there is no step, with the constraints that had rows when it was given up.
+/// The reason why there is no step, with the constraints that had rows in the last quadratic program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepError {
     /// The rows contradict each other.
@@ -62,19 +64,22 @@ pub enum StepError {
     NotConverged(Vec<Constraint>),
 }
 
-/// The starting point that one step hands on to the next.
+/// The data that one step hands on to the next step of the same truss, so that it needs fewer rounds. The first step
+/// begins with the default.
 #[derive(Clone, Debug, Default)]
 pub struct WarmStart {
     /// The constraints that were nearly active at the end of the step.
     pub active: Vec<Constraint>,
+    /// The pairs of struts that may come near.
     neighbours: Option<NeighbourList>,
 }
 
-/// Returns the positions of the nodes after one step, m. Every constraint holds there, and while the nodes
-/// move there linearly.
+/// Returns the positions of the nodes after one step, m. Every constraint holds there up to the tolerance `rounding`,
+/// and all but the rigidity hold while the nodes move there linearly, clearances and angles up to the tolerance
+/// `clearance_margin` ([`Structure::tightened`] makes up for it).
 ///
 /// # Errors
-/// [`StepError`] if no step is found; `warm_start` is then of no use and should be replaced.
+/// [`StepError`] if no step is found; the active constraints of `warm_start` are then of no use.
 pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
     let StepProblem { truss, .. } = *problem;
     let tolerances = &truss.tolerances;
@@ -116,7 +121,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
     Err(StepError::NotConverged(rows.constraints()))
 }
 
-/// The quadratic program of a step, with the value that each constraint is asked for.
+/// The quadratic program of a step, with the value that its row asks of each constraint.
 struct Rows<'a> {
     problem: &'a StepProblem<'a>,
     columns: &'a [Option<usize>],
@@ -127,7 +132,7 @@ struct Rows<'a> {
 
 /// A constraint in the program; values in m.
 struct Asked {
-    /// The number of its row; none if no free node changes it.
+    /// The index of its row; `None` if no free node changes it.
     row: Option<usize>,
     /// The value at the start of the step.
     value: f64,
@@ -234,6 +239,7 @@ impl<'a> Rows<'a> {
         }
     }
 
+    /// Lowers the value that a constraint is asked for.
     fn loosen(&mut self, constraint: Constraint, by: f64) {
         if !self.known.contains_key(&constraint) {
             self.add(constraint, 0.0);
@@ -241,11 +247,13 @@ impl<'a> Rows<'a> {
         self.add(constraint, -by);
     }
 
+    /// Returns the constraints that have rows.
     fn constraints(&self) -> Vec<Constraint> {
         self.known.keys().copied().collect()
     }
 }
 
+/// Returns true if the angle between two struts is so small that their closest points jump from end to end.
 fn nearly_parallel(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> bool {
     let along = |strut: usize| {
         let (a, b) = truss.segment(x, strut);
@@ -254,7 +262,7 @@ fn nearly_parallel(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> bool {
     along(i).cross(&along(j)).norm() < truss.tolerances.parallel_sine
 }
 
-/// Returns the first column of each node in the program; none for pinned nodes.
+/// Returns the first column of each node in the program; `None` for pinned nodes.
 fn columns(problem: &StepProblem) -> Vec<Option<usize>> {
     let mut next = 0;
     let mut column = |node: usize| {

@@ -1,18 +1,17 @@
-//! A truss as its planners see it: the graph of nodes and struts, and what the struts allow.
+//! A truss as its planners see it: the graph of nodes and struts, and its limits.
 
 use super::surroundings::Surroundings;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::Strut;
 
-/// A truss of linear actuators: its graph, the limits of its struts and of its shape, and what is around
-/// it. The positions of its nodes are no part of it; functions take them as `x`, m, in the world's frame,
-/// one for each node.
+/// A truss of linear actuators: its graph, the limits of its struts and of its shape, and its surroundings. The
+/// positions of its nodes are no part of it; functions take them as `x`, m, in the world's frame, one for each node.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// The number of nodes.
     pub nodes: usize,
-    /// The two nodes of each strut.
+    /// The indices of the two nodes of each strut.
     pub struts: Vec<(usize, usize)>,
     /// The least and the greatest length of each strut, m.
     pub lengths: Vec<(f64, f64)>,
@@ -28,9 +27,9 @@ pub struct Structure {
     pub limits: Limits,
     /// The range of the sum of lengths of each of `limits.loops`, m.
     pub loop_ranges: Vec<(f64, f64)>,
-    /// Pairs of struts that share a node, the lower first; empty unless their angles are limited.
+    /// Pairs of struts that share a node, the lesser index first; empty unless their angles are limited.
     pub corners: Vec<(usize, usize)>,
-    /// Obstacles and terrain.
+    /// The obstacles and the terrain.
     pub surroundings: Surroundings,
     /// The tolerances of all computations on this truss.
     pub tolerances: Tolerances,
@@ -41,18 +40,19 @@ pub struct Structure {
 pub struct Limits {
     /// The least angle between struts that share a node, rad, below π/3; 0 for no limit.
     pub angle: f64,
-    /// The least that the smallest singular value of the rigidity matrix (rows of unit vectors) that
-    /// belongs to no rigid motion may be after every step; 0 for no limit.
+    /// The lower limit after every step on the smallest singular value of the rigidity matrix (rows of unit vectors)
+    /// that belongs to no rigid motion, without unit; 0 for no limit.
     pub rigidity: f64,
-    /// Struts that keep their length at the start: they failed, or have no motor.
+    /// Indices of struts that keep their length at the start: they failed, or have no motor.
     pub locked: Vec<usize>,
-    /// Sets of struts made of one tube or cable: the sum of the lengths of each set stays.
+    /// Sets of struts (indices) made of one tube or cable: the sum of the lengths of each set stays.
     pub loops: Vec<Vec<usize>>,
 }
 
 impl Structure {
     /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits,
-    /// obstacles or terrain. Every strut must join two different nodes of `start`.
+    /// obstacles or terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is
+    /// no node panics.
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
         let mut mass_fractions = vec![0.0; start.len()];
         for &(a, b) in struts {
@@ -76,8 +76,8 @@ impl Structure {
         }
     }
 
-    /// Returns the truss under `limits` too. Locked struts and loops keep the lengths that they have at
-    /// `start` up to the tolerance `locked_slack`.
+    /// Returns the truss under `limits` in place of those that it has. Locked struts and loops keep the lengths that
+    /// they have at `start`, m, up to the tolerance `locked_slack`. Panics for a strut that is not there.
     pub fn with_limits(mut self, start: &[Vec3], limits: Limits) -> Structure {
         let slack = self.tolerances.locked_slack * self.unit;
         for &strut in &limits.locked {
@@ -95,7 +95,7 @@ impl Structure {
         self
     }
 
-    /// Returns the truss among obstacles and on terrain.
+    /// Returns the truss in these surroundings, in place of those that it has.
     pub fn with_surroundings(mut self, surroundings: Surroundings) -> Structure {
         self.surroundings = surroundings;
         self
@@ -110,12 +110,13 @@ impl Structure {
         truss
     }
 
-    /// Returns the sum of the lengths of a loop, m.
+    /// Returns the sum of the lengths of the loop at `index` in [`Limits::loops`], m.
     pub fn loop_length(&self, x: &[Vec3], index: usize) -> f64 {
         self.limits.loops[index].iter().map(|&strut| self.length(x, strut)).sum()
     }
 
-    /// Returns the node that two struts share, and the other end of the first and of the second.
+    /// Returns the node that two struts share, and the other end of the first and of the second, as indices of nodes.
+    /// The struts must share a node.
     pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         match (a == c, a == d, b == c) {
@@ -138,13 +139,13 @@ impl Structure {
         (x[a], x[b])
     }
 
-    /// Returns true if two struts have a node in common.
+    /// Returns true if two struts, given by their indices, have a node in common.
     pub fn share_node(&self, i: usize, j: usize) -> bool {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         a == c || a == d || b == c || b == d
     }
 
-    /// Returns the centre of mass, m.
+    /// Returns the centre of mass, m, of a truss whose struts have equal masses, half at either end.
     pub fn centre_of_mass(&self, x: &[Vec3]) -> Vec3 {
         x.iter().zip(&self.mass_fractions).map(|(p, fraction)| p * *fraction).sum()
     }

@@ -4,7 +4,7 @@
 use super::structure::Structure;
 use crate::geometry::Vec3;
 
-/// Returns the nodes on the ground: those at most `contact_height` above it.
+/// Returns the nodes on the ground, in ascending order: those at most `contact_height` above it.
 pub(in crate::planners) fn contacts(truss: &Structure, x: &[Vec3]) -> Vec<usize> {
     let height = truss.tolerances.contact_height * truss.unit;
     (0..truss.nodes).filter(|&node| truss.surroundings.height(x[node]) <= height).collect()

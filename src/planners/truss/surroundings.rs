@@ -22,19 +22,19 @@ const DISC: [[f64; 2]; 9] = [
 pub struct Surroundings {
     /// The convex parts of all obstacles, each with the index of its obstacle.
     pub parts: Vec<(usize, Part)>,
-    /// The ground; a plane at height 0 where there is none.
+    /// The ground; `None` for a plane at height 0.
     pub terrain: Option<HeightField>,
     /// The depth to which struts may be below the ground that nodes stand on, m: nodes are thicker.
     /// Planners leave the tolerance `ground_margin` of it unused.
     pub sink_depth: f64,
-    /// The greatest slope of the terrain, rise over run.
+    /// The greatest slope of the terrain, rise over run; 0 without terrain.
     pub slope_max: f64,
-    /// The greatest height of the terrain, m.
+    /// The greatest height of the terrain, m; 0 without terrain.
     pub height_max: f64,
 }
 
 impl Surroundings {
-    /// Returns the surroundings of these obstacles and terrain; `sink_depth` in metres.
+    /// Prepares obstacles and terrain, both in the world's frame; `sink_depth`: m.
     pub fn new(obstacles: &[Solid], terrain: Option<HeightField>, sink_depth: f64) -> Surroundings {
         let parts = obstacles.iter().enumerate();
         let slope_max = terrain.as_ref().map_or(0.0, HeightField::steepest);
@@ -55,14 +55,14 @@ impl Surroundings {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
 
-    /// Returns the gradient of [`height`](Surroundings::height) over the point.
+    /// Returns the gradient of [`height`](Surroundings::height) over the point, without unit; its z component is 1.
     pub fn height_gradient(&self, p: Vec3) -> Vec3 {
         let slope = self.terrain.as_ref().map_or([0.0; 2], |terrain| terrain.slope(p.x, p.y));
         Vec3::new(-slope[0], -slope[1], 1.0)
     }
 
-    /// Returns the rise of the ground from one point to another, m, each height averaged over a disc of the
-    /// given radius, m.
+    /// Returns the rise of the ground from one point (x, y) to another, m, each height averaged over a disc of the
+    /// given radius, m; 0 without terrain.
     pub fn ground_rise(&self, from: [f64; 2], to: [f64; 2], radius: f64) -> f64 {
         let Some(terrain) = &self.terrain else { return 0.0 };
         let at = |place: [f64; 2]| {
@@ -73,13 +73,15 @@ impl Surroundings {
         at(to) - at(from)
     }
 
-    /// Returns the signed distance between a strut and a part, m, and the direction from the strut to it;
-    /// distances beyond `enough` may be returned too small, but not below `enough`.
+    /// Returns the signed distance between a strut, given by its ends (m), and the part at index `part`, with its
+    /// direction, as [`segment_part`] does; distances beyond `enough` (m) may be returned too small, but not below
+    /// `enough`.
     pub fn signed_distance(&self, strut: (Vec3, Vec3), part: usize, enough: f64) -> SignedDistance {
         segment_part(strut, &self.parts[part].1, enough)
     }
 
-    /// Returns false if the bounding spheres of a strut and a part are farther apart than `reach`, m.
+    /// Returns false if the bounding spheres of a strut, given by its ends (m), and of the part at index `part` are
+    /// farther apart than `reach`, m.
     pub fn may_collide(&self, (a, b): (Vec3, Vec3), part: usize, reach: f64) -> bool {
         let part = &self.parts[part].1;
         ((a + b) / 2.0 - part.centre).norm() - (b - a).norm() / 2.0 - part.radius <= reach

@@ -5,10 +5,10 @@
 /// make the planners independent of the size of the truss.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// A constraint counts as violated when its value is below minus this many units. 1e-10: far above
+    /// The value below 0, in units, from which a constraint counts as violated. 1e-10: far above
     /// the rounding of doubles, far below what the judge allows.
     pub rounding: f64,
-    /// Added to the clearance (units) and to the least angle (rad) during planning, so that conservative
+    /// The margin added to the clearance (units) and to the least angle (rad) during planning, so that conservative
     /// advancement between the ends of a step ends after finitely many samples. 2e-4: two samples for
     /// most pairs, and nothing of the clearance lost that matters.
     pub clearance_margin: f64,
@@ -19,7 +19,7 @@ pub struct Tolerances {
     /// that second-order terms are overtaken. 1.5: the livelock of the paper's Algorithm 1 ends in two or
     /// three rounds.
     pub row_gain: f64,
-    /// Constraints with a value below this many units stay in the active set for the next step. 0.02:
+    /// The value, in units, below which a constraint stays in the active set for the next step. 0.02:
     /// a little less than half a step.
     pub active_band: f64,
     /// The residual of the rows that the quadratic program is solved to, units. 1e-9.
@@ -27,8 +27,8 @@ pub struct Tolerances {
     /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole
     /// step. 0.02: smaller fractions would ask for rows far beyond reach.
     pub step_fraction_min: f64,
-    /// Two struts whose angle has a smaller sine get a row for each end beside the one for their closest
-    /// points, which jump from end to end. 0.1.
+    /// The sine of the angle between two struts below which they get a row for each end besides the one for their
+    /// closest points, which jump from end to end. 0.1.
     pub parallel_sine: f64,
     /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines, so a
     /// strut that turns gets shorter during the step. 2e-3.
@@ -36,26 +36,26 @@ pub struct Tolerances {
     /// The part of the depth to which struts may be below uneven ground that planners leave unused,
     /// units. 1e-4: the judge samples elsewhere.
     pub ground_margin: f64,
-    /// Nodes at most this high above the ground are contacts, units. 1e-4.
+    /// The height above the ground, units, up to which nodes are contacts. 1e-4.
     pub contact_height: f64,
     /// The truss is statically stable if its centre of mass is farther inside the support polygon than
     /// this, units. 1e-9.
     pub stability_margin: f64,
-    /// Rotations by less than this are none, rad. 1e-9.
+    /// The least angle of a rotation, rad; a touchdown at a lesser one counts as a whole turn later. 1e-9.
     pub rotation_min: f64,
-    /// Nodes nearer than this to the axis of a rotation stay where they are, units. 1e-9.
+    /// The distance from the axis of a rotation, units, up to which a node does not move. 1e-9.
     pub on_axis: f64,
-    /// A falling node at most this high above the ground has landed, units. 1e-11: far below
+    /// The height above the ground, units, up to which a falling node has landed. 1e-11: far below
     /// `contact_height`, so that it counts as a contact.
     pub touchdown_tol: f64,
-    /// A node that starts on the ground has left it when it is higher than this, units. 2e-4: above
+    /// The height above the ground, units, from which a node that started on it has left it. 2e-4: above
     /// `contact_height`.
     pub liftoff_height: f64,
     /// The part of the clearance from obstacles that may be missing during a roll, units. 1e-4: so that
     /// conservative advancement ends.
     pub roll_clearance_margin: f64,
-    /// Nodes at most this far beyond the plane of a face lie on it, units; and tetrahedra of at most this
-    /// volume (cubic units) are flat. 1e-6.
+    /// The distance beyond the plane of a face, units, up to which nodes lie on it; and six times the volume, cubic
+    /// units, up to which tetrahedra are flat. 1e-6.
     pub coplanar: f64,
 }
 
