@@ -21,6 +21,7 @@ impl Run<'_> {
         self.judge(action).map_err(|reason| Refusal::at(action.cause, reason))
     }
 
+    /// Carries out an action's command, by its kind.
     fn judge(&mut self, action: &Action) -> Result<Begun, Reason> {
         let cause = action.cause;
         match &action.command {
@@ -57,6 +58,7 @@ impl Run<'_> {
         }
     }
 
+    /// Begins a move: the joint brakes if it moves, then goes from rest to rest; returns the time at which it ends.
     fn begin_move(
         &mut self,
         action: &Action,
@@ -123,6 +125,7 @@ impl Run<'_> {
         Ok(tick_after(given) - spent)
     }
 
+    /// Begins a spin of a stated duration; returns the time at which it ends.
     fn begin_spin_for(
         &mut self,
         action: &Action,
@@ -138,6 +141,7 @@ impl Run<'_> {
         self.give(action, joint, pieces)
     }
 
+    /// Begins a spin without end.
     fn begin_spin(&mut self, action: &Action, joint: JointId, speed: f64) -> Result<(), Reason> {
         let able = self.able(joint)?;
         finite("a speed", speed)?;
@@ -150,6 +154,8 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Begins the cubics through keyframes, which must begin at time 0 where the joint is; returns the time at which
+    /// they end.
     fn begin_follow(
         &mut self,
         action: &Action,
@@ -208,10 +214,12 @@ impl Run<'_> {
         }
     }
 
+    /// Returns the path name of a joint.
     fn name(&self, joint: JointId) -> String {
         self.facts[joint.0 as usize].name.clone()
     }
 
+    /// Docks two ports: closes the same bond as before, or a new one with its hinge.
     fn dock(&mut self, a: PortRef, b: PortRef, cause: CauseId) -> Result<(), Reason> {
         let joints: Vec<f64> = self.motions.iter().map(|m| m.position(self.now)).collect();
         let (bond, hinge) = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
@@ -234,6 +242,7 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Undocks the bond at a port.
     fn undock(&mut self, port: PortRef, cause: CauseId) -> Result<(), Reason> {
         let bond = docking::bond_at(&self.robot, &self.holds, port)
             .ok_or_else(|| Reason::PortFree { port: self.robot.port_name(port) })?;
@@ -243,10 +252,12 @@ impl Run<'_> {
     }
 }
 
+/// Refuses a number that is not finite.
 fn finite(what: &'static str, value: f64) -> Result<(), Reason> {
     if value.is_finite() { Ok(()) } else { Err(Reason::BadNumber { what, value }) }
 }
 
+/// Refuses a number that is negative or not finite.
 fn at_least_zero(what: &'static str, value: f64) -> Result<(), Reason> {
     if value >= 0.0 && value.is_finite() { Ok(()) } else { Err(Reason::BadNumber { what, value }) }
 }

@@ -8,7 +8,7 @@ use crate::plan::time::tick_after;
 use crate::plan::{Compare, Condition, Signal, polynomial};
 use crate::robot::{Assembly, PortRef};
 
-/// Deepest nesting of a condition.
+/// The deepest nesting of a condition.
 pub(super) const DEPTH_MAX: usize = 64;
 
 /// The motion that a condition is judged on.
@@ -21,7 +21,8 @@ pub(super) struct View<'a> {
     pub(super) began: f64,
 }
 
-/// Returns the first tick in `t0..=t1` (`t1` may be infinite) from which on the condition holds.
+/// Returns the first tick in `t0..=t1` (s, `t1` may be infinite) from which on the condition holds; `None` if there is
+/// none.
 pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
     if holds(condition, view, t0) {
         return Some(t0);
@@ -56,7 +57,7 @@ pub(super) fn depth(condition: &Condition) -> usize {
     deepest
 }
 
-/// Returns the conditions that a condition is made of.
+/// Returns the one or two conditions that a condition combines; none for a simple one.
 fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     let (a, b) = match condition {
         Condition::And(a, b) | Condition::Or(a, b) => (Some(&**a), Some(&**b)),
@@ -105,6 +106,7 @@ fn bonds_of<'a>(view: &'a View, port: PortRef) -> impl Iterator<Item = PortRef> 
     })
 }
 
+/// Returns the value of a signal at an instant, just after it for a speed: s, rad or m, rad/s or m/s.
 fn value_at(signal: Signal, view: &View, t: f64) -> f64 {
     match signal {
         Signal::Elapsed => t - view.began,
@@ -127,6 +129,7 @@ fn add_breaks(condition: &Condition, view: &View, t0: f64, t1: f64, breaks: &mut
     parts(condition).for_each(|part| add_breaks(part, view, t0, t1, breaks));
 }
 
+/// Returns the pieces of a signal over `t0..t1`.
 fn pieces(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<SignalPiece> {
     let pieces = |joint: crate::robot::JointId| view.motions[joint.0 as usize].pieces(t0, t1);
     match signal {

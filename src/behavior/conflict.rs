@@ -17,36 +17,37 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Two commands to one joint at one time, in order of cause.
+/// A conflict: two commands to one joint, neither of which comes before the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Conflict {
-    /// The cause that comes first in the source.
+    /// The lesser cause of the two commands; equal to `second` where a command runs beside itself.
     pub first: CauseId,
-    /// The other cause.
+    /// The greater cause of the two commands.
     pub second: CauseId,
     /// The joint that both command.
     pub joint: JointId,
 }
 
-/// The conflicts of a program: where it commands one controller to hold two positions at one time
-/// (Definition IV.5).
+/// The conflicts of a program, which commands one controller to hold two positions at one time (Definition IV.5).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conflicts {
-    /// Different setpoints: an error. Each pair of causes once.
+    /// The conflicts with different setpoints, each pair of causes once, with the first joint found. There is one if
+    /// any two commands contradict each other, but not every such pair is listed.
     pub errors: Vec<Conflict>,
-    /// Equal setpoints: a warning. Each pair of causes once.
+    /// The conflicts with equal setpoints, which are harmless, each pair of causes once; not every such pair is
+    /// listed.
     pub warnings: Vec<Conflict>,
-    /// `true` where more than [`PAIRS_MAX`] pairs of a kind were found, and the rest dropped.
+    /// True if more than [`PAIRS_MAX`] pairs of a kind were found, of which the rest was dropped.
     pub more: bool,
-    /// Nodes visited and table entries handled: the measure of the work.
+    /// The number of nodes visited and table entries handled, a measure of the work.
     pub work: usize,
 }
 
 /// The greatest number of pairs that are reported of each kind.
 pub const PAIRS_MAX: usize = 100;
 
-/// Returns the conflicts of a program, found on its graph without running it, in time linear in the size
-/// of the graph.
+/// Returns the conflicts of a program, found on its graph without running it. The work grows as n log n with the n
+/// nodes of a tree; if nodes are shared, with the number of joints times that of distinct edges.
 pub fn conflicts(program: &Arc<Node>) -> Conflicts {
     let graph = Graph::of(program);
     let mut search = Search { found: Conflicts::default(), seen: BTreeSet::new() };
@@ -79,6 +80,7 @@ struct Commanded<'a> {
     other: Option<&'a Action>,
 }
 
+/// The search for conflicts.
 struct Search {
     found: Conflicts,
     /// The pairs found already, with true where their setpoints are equal.
@@ -86,6 +88,7 @@ struct Search {
 }
 
 impl Search {
+    /// Returns the table of a node from those of its children, and reports the conflicts between them.
     fn table<'a>(&mut self, node: &'a Node, below: Vec<(usize, Rc<Table<'a>>)>) -> Rc<Table<'a>> {
         self.found.work += 1 + below.len();
         if matches!(node, Node::Repeat { times: 0, .. }) {
@@ -110,6 +113,7 @@ impl Search {
         table
     }
 
+    /// Returns two tables merged; those of parallel branches are compared.
     fn merged<'a>(&mut self, a: Rc<Table<'a>>, b: Rc<Table<'a>>, parallel: bool) -> Rc<Table<'a>> {
         let (mut large, small) = if a.len() >= b.len() { (a, b) } else { (b, a) };
         if small.is_empty() {
@@ -144,6 +148,7 @@ impl Search {
         }
     }
 
+    /// Reports a conflict, once for each pair of causes.
     fn report(&mut self, joint: JointId, a: &Action, b: &Action, equal: bool) {
         let (first, second) = (a.cause.min(b.cause), a.cause.max(b.cause));
         let list = if equal { &mut self.found.warnings } else { &mut self.found.errors };
@@ -160,13 +165,13 @@ impl Search {
 }
 
 impl<'a> Commanded<'a> {
-    /// Returns one of the commands whose setpoint differs from that of the action given.
+    /// Returns one of the commands whose setpoint differs from that of the action given; `None` if neither does.
     fn unlike(&self, action: &Action) -> Option<&'a Action> {
         [Some(self.one), self.other].into_iter().flatten().find(|a| !same(&a.command, &action.command))
     }
 }
 
-/// Returns the joint that a command sets a setpoint for.
+/// Returns the joint that a command sets a setpoint for; `None` if it commands none.
 fn commanded(command: &Command) -> Option<JointId> {
     match command {
         Command::Move { joint, .. } | Command::Spin { joint, .. } | Command::Follow { joint, .. } => {

@@ -1,8 +1,8 @@
 //! Cycles: behaviours shifted round their cycle, and stretched to a duration.
 //!
-//! The body is run by itself, beginning where the joints are. For a phase it is run twice: the second
-//! time round it goes from where the first ended, which for a cycle is what every further round will
-//! do. That round, begun at the shift and wrapped round its end, is the phase.
+//! The body is run by itself, beginning at the positions of the joints. For a phase it is run twice: the second
+//! round begins where the first ended, as every further round of a cycle will. That round, begun at the shift and
+//! wrapped round its end, is the phase.
 
 use super::law::{self, MotionLimits, Piece};
 use super::motion::Motion;
@@ -29,6 +29,7 @@ impl Run<'_> {
         }
     }
 
+    /// Begins a stretch: the body's own run, scaled in time to the duration; returns the time at which it ends.
     fn begin_stretch(&mut self, body: &Arc<Node>, duration: f64, cause: CauseId) -> Result<f64, Refusal> {
         if !(duration >= 0.0 && duration.is_finite()) {
             return Err(Refusal::at(cause, Reason::BadNumber { what: "a duration", value: duration }));
@@ -85,6 +86,7 @@ impl Run<'_> {
             .ok_or_else(|| Refusal::at(cause, Reason::NoSpeed { joint: facts.name.clone() }))
     }
 
+    /// Begins one round at the time `start`; returns the time at which it ends.
     fn begin_round(&mut self, round: &Round, start: f64, cause: CauseId) -> Result<f64, Refusal> {
         for moved in &round.tracks {
             let motion = &self.motions[moved.joint.0 as usize];
@@ -155,7 +157,7 @@ impl Run<'_> {
         Ok(played)
     }
 
-    /// Gives a joint the segments of a track, which begins at `start`.
+    /// Appends the segments of a track, which begins at `start`, to the joint's motion.
     fn splice(&mut self, track: &Track, start: f64, cause: CauseId) -> Result<(), Refusal> {
         self.count_segments(track.segments.len())?;
         let motion = &mut self.motions[track.joint.0 as usize];
@@ -173,6 +175,7 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Returns the present positions of all joints, rad or m.
     fn positions(&self) -> Vec<f64> {
         self.motions.iter().map(|m| m.position(self.now)).collect()
     }
@@ -227,7 +230,7 @@ fn absolute_joints(body: &Arc<Node>) -> BTreeSet<JointId> {
     absolute.collect()
 }
 
-/// Returns the part of a behaviour that cannot be shifted or scaled, if there is one.
+/// Returns the part of a behaviour that cannot be shifted or scaled, in words; `None` if there is none.
 fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
     Graph::of(body).actions().find_map(|Action { command, until, timeout, .. }| match command {
         _ if until.is_some() => Some("a condition"),

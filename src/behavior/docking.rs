@@ -7,7 +7,7 @@ use crate::geometry::pose::turned;
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use std::f64::consts::{PI, TAU};
 
-/// Returns the index of the bond that holds at a port.
+/// Returns the index of the bond that holds at a port; `None` if the port is free.
 pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option<usize> {
     (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
 }

@@ -7,8 +7,9 @@ use super::tolerances::TOLERANCES;
 use crate::plan::{Failure, Plan, Track, Tracks};
 use crate::units::{Dimension, quantity};
 
-/// Schedules the program of a plan anew and returns a failure that says where the motion differs from
-/// the plan's tracks. Returns `None` where they are the same, and for a plan without a program.
+/// Schedules the program of a plan anew and compares the result with the plan's tracks. Returns a failure that names
+/// the first difference, a conflict of the program, or the reason why it can't be scheduled; `None` if they are the
+/// same, and for a plan without a program or without tracks.
 pub fn unfaithful(plan: &Plan) -> Option<Failure> {
     let (Some(program), Some(tracks)) = (&plan.program, plan.body.tracks()) else { return None };
     let joints: Vec<_> = tracks.robot.joints().collect();
@@ -38,6 +39,7 @@ pub fn unfaithful(plan: &Plan) -> Option<Failure> {
     differs(&played.tracks, tracks).map(Failure::form)
 }
 
+/// Returns the first difference of two motions in words; `None` if they are the same up to rounding.
 fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
     if (made.duration - stated.duration).abs() > TOLERANCES.faithful {
         let time = |t| quantity(t, Dimension::TIME);

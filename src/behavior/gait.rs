@@ -3,9 +3,10 @@
 use crate::plan::{CauseId, Node};
 use std::sync::Arc;
 
-/// Returns behaviours that run side by side for `times` rounds of `period` seconds, each begun at its own
-/// phase (0..1) of its cycle. All are brought to their beginnings before the first round, so that the
-/// rounds begin together.
+/// Returns a gait: behaviours that run side by side for `times` rounds of `period` seconds. `bodies`: each cyclic
+/// behaviour with the phase (0 to 1) of its cycle at which it begins. All are brought to their beginnings before the
+/// first round, so that the rounds begin together. Nothing is checked here: [`schedule`](super::schedule()) refuses
+/// bad numbers and behaviours that are not cyclic. `cause`: that of the nodes that are added.
 pub fn cycle(bodies: &[(Arc<Node>, f64)], period: f64, times: u64, cause: CauseId) -> Node {
     let stretched =
         |body: &Arc<Node>| Arc::new(Node::Stretch { body: body.clone(), duration: period, cause });

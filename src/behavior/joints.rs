@@ -1,34 +1,35 @@
-//! Joints as behaviours see them: what each can be commanded to do.
+//! Joints as behaviours see them: their limits, and the reasons why some take no commands.
 
 use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
 
 /// A joint with the limits that hold for it, its motors' included. Radians or metres.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct JointFacts {
-    /// Path name, such as `leg[2].m[0].tilt`.
+    /// The path name, such as `leg[2].m[0].tilt`.
     pub(super) name: String,
     /// The module or the bond that the joint belongs to.
     pub(super) owner: JointOwner,
-    /// The reason why it takes no commands, if it takes none.
+    /// The reason why it takes no commands; `None` if it takes them.
     pub(super) uncommandable: Option<Uncommandable>,
     /// `true` for a joint that moves along its axis, in metres.
     pub(super) prismatic: bool,
-    /// Lowest and highest position; `None` is a continuous joint.
+    /// The lowest and the highest position; `None` for a continuous joint.
     pub(super) range: Option<(f64, f64)>,
-    /// Greatest speed when it moves alone: its own limit and those of the motors that drive it.
+    /// The greatest speed when it moves alone, by its own limit and those of the motors that drive it; `None` for no
+    /// limit.
     pub(super) speed: Option<f64>,
-    /// Greatest acceleration when it moves alone.
+    /// The greatest acceleration when it moves alone, likewise.
     pub(super) acceleration: Option<f64>,
 }
 
 /// The reason why a joint takes no commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uncommandable {
-    /// It has no motor.
+    /// The joint has no motor.
     Passive,
-    /// It follows other joints.
+    /// The joint follows other joints.
     Mimic,
-    /// It does not move.
+    /// The joint does not move.
     Fixed,
 }
 
@@ -44,6 +45,7 @@ pub(super) fn facts(robot: &Assembly) -> Vec<JointFacts> {
     robot.joints().map(of).collect()
 }
 
+/// Returns the facts about a joint of a module.
 fn of_module(robot: &Assembly, module: usize, joint: usize) -> JointFacts {
     let owner = JointOwner::Module { module, joint };
     let kind = robot.module_type(module);
@@ -58,6 +60,7 @@ fn of_module(robot: &Assembly, module: usize, joint: usize) -> JointFacts {
     made(robot.joint_name(owner), owner, uncommandable, declared.kind == JointKind::Prismatic, limits)
 }
 
+/// Returns the facts about a joint under its limits.
 fn made(
     name: String,
     owner: JointOwner,
@@ -81,6 +84,7 @@ fn with_motors(kind: &ModuleType, joint: usize) -> Limits {
     limits
 }
 
+/// Returns the lesser of a joint's own limit and that of a motor which turns `factor` times as fast as the joint.
 fn tighter(own: Option<f64>, motor: Option<f64>, factor: f64) -> Option<f64> {
     let motor = motor.map(|limit| limit / factor.abs());
     match (own, motor) {

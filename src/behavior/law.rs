@@ -4,16 +4,16 @@
 use crate::plan::Profile;
 use crate::plan::time::{tick_after, tick_near};
 
-/// A piece of motion that lasts `duration` seconds; control points are positions.
+/// A piece of a trajectory: a polynomial over its duration whose control points are positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The duration, s.
     pub duration: f64,
-    /// Control points in Bernstein form, rad or m.
+    /// The control points in Bernstein form, spread over the duration, rad or m; one more than the degree.
     pub control: Vec<f64>,
 }
 
-/// The greatest speed and acceleration of a joint.
+/// The greatest speed and acceleration of a joint, both positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionLimits {
     /// The greatest speed, rad/s or m/s; `None`: no limit.
@@ -22,15 +22,15 @@ pub struct MotionLimits {
     pub acceleration: Option<f64>,
 }
 
-/// The peak speed of the quintic law over one unit in one second: 15/8.
+/// The peak speed of the quintic law ([`Profile::Smooth`]) over 1 rad in 1 s, rad/s: 15/8.
 pub const SMOOTH_SPEED: f64 = 1.875;
-/// The peak acceleration of the quintic law over one unit in one second: 10/√3.
+/// The peak acceleration of the quintic law over 1 rad in 1 s, rad/s²: 10/√3.
 pub const SMOOTH_ACCELERATION: f64 = 5.773_502_691_896_258;
-/// The part of a trapezoid that each ramp takes where no acceleration limit says it.
+/// The part of a trapezoid's duration that each ramp takes if no acceleration limit determines it.
 pub const RAMP: f64 = 0.25;
 
-/// Returns the least duration of a move by `distance` (rad or m) from rest to rest, s; `None` where no
-/// limit bounds it.
+/// Returns the least duration of a move by `distance` (rad or m, either sign) from rest to rest under the limits
+/// `able`, s; `None` if no limit bounds it. [`Profile::Linear`] knows no acceleration limit. 0 for no distance.
 pub fn least_duration(profile: Profile, distance: f64, able: MotionLimits) -> Option<f64> {
     let distance = distance.abs();
     if distance == 0.0 {
@@ -52,6 +52,7 @@ pub fn least_duration(profile: Profile, distance: f64, able: MotionLimits) -> Op
     }
 }
 
+/// Returns the greater of two durations; `None` is none.
 fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a.max(b)),
@@ -59,8 +60,10 @@ fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-/// Returns the motion from rest at `from` to rest at `to` in `duration` seconds, a whole number of ticks.
-/// The ramps of a trapezoid are as short as the acceleration allows.
+/// Returns the motion from rest at `from` to rest at `to` (rad or m) in `duration` seconds, which must be a whole
+/// number of ticks. The ramps of a trapezoid are as short as the acceleration in `able` allows, and [`RAMP`] of the
+/// duration each without a limit; other profiles do not depend on `able`. Limits are not checked: see
+/// [`least_duration`].
 pub fn rest_to_rest(profile: Profile, from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     match profile {
         Profile::Smooth => vec![Piece { duration, control: vec![from, from, from, to, to, to] }],
@@ -69,6 +72,7 @@ pub fn rest_to_rest(profile: Profile, from: f64, to: f64, duration: f64, able: M
     }
 }
 
+/// Returns the trapezoid: a ramp, constant speed, and a ramp, rounded to ticks.
 fn trapezoid(from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     let ramp = tick_near(ramp((to - from).abs(), duration, able));
     let cruise = duration - 2.0 * ramp;
@@ -83,8 +87,8 @@ fn trapezoid(from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece
     pieces
 }
 
-/// Returns the duration `r` of each ramp of a trapezoid, s: `a·r·(T-r) = distance`, or a fixed part of the
-/// time.
+/// Returns the duration `r` of each ramp of a trapezoid of duration `T`, s, from `a·r·(T-r) = distance` with the
+/// greatest acceleration `a`; without a limit a fixed part of `T`.
 fn ramp(distance: f64, duration: f64, able: MotionLimits) -> f64 {
     let Some(a) = able.acceleration else { return duration * RAMP };
     let square = duration * duration - 4.0 * distance / a;
@@ -92,8 +96,9 @@ fn ramp(distance: f64, duration: f64, able: MotionLimits) -> f64 {
     (duration - libm::sqrt(square.max(0.0))) / 2.0
 }
 
-/// Returns the change from one speed to another at the greatest acceleration, from a position; `None`
-/// where no acceleration limit is stated: then speed may jump.
+/// Returns the change from `speed` to `to_speed` (rad/s or m/s) at the greatest acceleration, from the position `from`
+/// (rad or m); its duration is rounded up to a tick. `None` if the speeds are equal, and if no acceleration limit is
+/// stated, so that the speed may jump.
 pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: MotionLimits) -> Option<Piece> {
     let duration = tick_after((to_speed - speed).abs() / able.acceleration?);
     let middle = from + speed * duration / 2.0;
@@ -101,8 +106,9 @@ pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: MotionLimits) -
         .then(|| Piece { duration, control: vec![from, middle, middle + to_speed * duration / 2.0] })
 }
 
-/// Returns a motion at `speed` for `duration` seconds, then rest: with ramps within that time where an
-/// acceleration limit is stated, beginning at the speed that the joint has.
+/// Returns a motion at `speed` (rad/s or m/s) for `duration` seconds, then rest, from the position `from` (rad or m).
+/// If an acceleration limit is stated, it begins at the speed that the joint has, `at_speed`, with ramps within that
+/// time, and a duration too short for the speed lowers it; otherwise the speed jumps.
 pub fn spin(from: f64, at_speed: f64, speed: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     let Some(a) = able.acceleration else {
         return vec![Piece { duration, control: vec![from, from + speed * duration] }];
@@ -125,7 +131,8 @@ pub fn spin(from: f64, at_speed: f64, speed: f64, duration: f64, able: MotionLim
     pieces
 }
 
-/// Returns the cubic Hermite pieces through keyframes (s, rad or m, rad/s or m/s).
+/// Returns the cubic Hermite pieces through keyframes, each a time (s), a position (rad or m) and a speed (rad/s or
+/// m/s), in order of time; times are rounded to ticks. One piece less than there are keyframes.
 pub fn cubic_pieces(keyframes: &[[f64; 3]]) -> Vec<Piece> {
     let piece = |w: &[[f64; 3]]| {
         let duration = tick_near(w[1][0]) - tick_near(w[0][0]);

@@ -1,5 +1,5 @@
-//! The check of a program's commands without running it: targets outside ranges, speeds that
-//! no motor reaches, joints that take no commands, ports that do not mate.
+//! The check of a program's commands against the limits of the joints, without running it: targets outside ranges,
+//! speeds that no motor reaches, joints that take no commands, ports that do not mate.
 
 use super::condition;
 use super::docking::mate;
@@ -10,10 +10,10 @@ use crate::plan::{Action, CauseId, Command, Node, Target, polynomial};
 use crate::robot::{Assembly, JointId};
 use std::sync::Arc;
 
-/// A command that asks for what the robot cannot do.
+/// An issue: a command asks for more than the robot can do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Issue {
-    /// The command of the source that this comes from.
+    /// The cause of the command.
     pub cause: CauseId,
     /// The argument of the command that is at fault.
     pub part: Part,
@@ -21,31 +21,31 @@ pub struct Issue {
     pub kind: IssueKind,
 }
 
-/// An argument of a command.
+/// An argument of a command or of its action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// The joint.
+    /// The joint that is commanded.
     Joint,
-    /// The end of a move.
+    /// The position at which a move ends.
     Target,
     /// The speed of a spin.
     Speed,
-    /// The duration.
+    /// The duration of a move, a spin or a wait.
     Duration,
-    /// The timeout.
+    /// The timeout of the action.
     Timeout,
-    /// The followed function.
+    /// The keyframes of the followed function.
     Keyframes,
-    /// The condition.
+    /// The condition with which the action ends.
     Until,
-    /// The ports to dock.
+    /// The two ports to dock.
     Ports,
 }
 
 /// The demand of a command that cannot be met, in SI units; joints and ports by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum IssueKind {
-    /// The position is outside the joint's range.
+    /// A position, the target of a move or that of a keyframe, is outside the joint's range.
     OutOfRange {
         /// The path name of the joint.
         joint: String,
@@ -56,18 +56,18 @@ pub enum IssueKind {
         /// `true` for a joint that moves along its axis, in metres.
         prismatic: bool,
     },
-    /// The speed is more than the joint, or a motor that drives it, can do.
+    /// A speed, of a spin or between keyframes, is more than the joint or a motor that drives it can do.
     TooFast {
         /// The path name of the joint.
         joint: String,
-        /// The speed, rad/s or m/s.
+        /// The speed, rad/s or m/s; negative in the direction of lower positions.
         speed: f64,
         /// The greatest speed, rad/s or m/s.
         limit: f64,
         /// `true` for a joint that moves along its axis, in metres.
         prismatic: bool,
     },
-    /// The duration is shorter than the joint's limits allow, s.
+    /// The duration of a move is shorter than the joint's limits allow.
     TooShort {
         /// The path name of the joint.
         joint: String,
@@ -83,22 +83,24 @@ pub enum IssueKind {
         /// The reason.
         why: Uncommandable,
     },
-    /// The connectors do not mate.
+    /// The connectors of the ports to dock do not mate, or both ports are of one module.
     NoMate {
         /// The path name of the first port.
         a: String,
         /// The path name of the second port.
         b: String,
     },
-    /// The number is not finite, is negative, or is out of order.
+    /// A number is not finite or is negative where it must not be, or a condition is nested too deep.
     BadNumber {
-        /// The number.
+        /// The number, in SI units; of a condition the greatest depth.
         value: f64,
     },
 }
 
-/// Returns the issues of every action, each action once, in order of the graph. `tol` is the part by which a
-/// limit may be exceeded: rounding, see [`Settings`](super::Settings).
+/// Returns the issues of every action in order of the graph, each action once however often it is repeated. The
+/// durations of moves to a position are not checked, since they depend on the position before: see
+/// [`schedule`](super::schedule()). `tol` is the part of a limit or range by which it may be exceeded: rounding, see
+/// [`Settings`](super::Settings).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     let facts = facts(robot);
     let mut found = Vec::new();
@@ -109,6 +111,7 @@ pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     found
 }
 
+/// The check of one action.
 struct Judge<'a> {
     robot: &'a Assembly,
     facts: &'a [JointFacts],
@@ -118,6 +121,7 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
+    /// Checks timeout, condition and command.
     fn action(&mut self) {
         if let Some(timeout) = self.action.timeout {
             self.at_least_zero(Part::Timeout, timeout);

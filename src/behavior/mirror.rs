@@ -1,9 +1,9 @@
 //! Mirror images of behaviours: for every joint the one on the other side of the robot, and the sign of
 //! its positions there.
 //!
-//! Found from geometry alone, with every joint at zero: the plane goes through the middle of the
-//! robot's centres of mass, parallel to two axes of the base's frame; the image of a joint is the
-//! joint of its type whose child link and axis are where the mirror puts them.
+//! They are found from geometry alone, with every joint at zero: the plane goes through the mean of the centres of mass
+//! of the links that joints move, parallel to two axes of the base's frame; the image of a joint is the joint of its
+//! type whose child link and axis are at the mirrored positions.
 
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
@@ -12,7 +12,7 @@ use crate::plan::{Action, Command, Condition, Node, Signal, Target};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Kinematics};
 use std::sync::Arc;
 
-/// A plane through the middle of the robot, along two axes of the base's frame.
+/// A mirror plane through the middle of the robot, along two axes of the base's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
     /// The plane along x and y: left stays left, up becomes down.
@@ -26,7 +26,7 @@ pub enum Plane {
 /// The reason why a behaviour has no mirror image.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorError {
-    /// No joint is where the mirror puts this one (path name).
+    /// No joint is the mirror image of this one, given by its path name.
     Joint(String),
     /// Docking has no mirror image.
     Docking,
@@ -41,10 +41,11 @@ impl std::fmt::Display for MirrorError {
     }
 }
 
-/// Returns the mirror image of a behaviour; `holds` has a flag for every bond of the robot.
+/// Returns the mirror image of a behaviour: every command and condition for the image of its joint, with the sign of
+/// its positions there. `holds`: for every bond of the robot, true if it is closed.
 ///
 /// # Errors
-/// Refuses a joint without an image, and behaviours that dock or undock.
+/// [`MirrorError`] for a joint without an image, and for behaviours that dock, undock or test for bonds.
 pub fn mirrored(
     robot: &Assembly,
     holds: &[bool],
@@ -60,8 +61,9 @@ pub fn mirrored(
     rewritten(program, |action| mirrored_action(action, &image))
 }
 
-/// Returns the image of every joint with 1 or -1, by which its positions are multiplied; `None` for a
-/// joint without an image.
+/// Returns the image of every joint, by joint, with 1 or -1, by which its positions are multiplied; `None` for a
+/// joint without an image, which hinges of bonds and fixed joints never have. A joint may be its own image. `holds`:
+/// for every bond of the robot, true if it is closed.
 pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
     let marks = marks(robot, holds);
     let centre =
@@ -79,13 +81,14 @@ pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(Joi
 struct Mark {
     kind: usize,
     prismatic: bool,
-    /// Centre of mass of the link that it moves.
+    /// The centre of mass of the link that it moves, m.
     centre: Vec3,
-    /// The point of the axis nearest to that.
+    /// The point of the axis nearest to that, m.
     foot: Vec3,
     axis: Vec3,
 }
 
+/// Returns the mark of every joint, by joint; `None` for hinges of bonds and fixed joints.
 fn marks(robot: &Assembly, holds: &[bool]) -> Vec<Option<Mark>> {
     let kinematics = Kinematics::new(robot, holds, robot.base);
     let count = robot.joints().count();
@@ -114,22 +117,25 @@ fn marks(robot: &Assembly, holds: &[bool]) -> Vec<Option<Mark>> {
     robot.joints().map(mark).collect()
 }
 
+/// A mirror: a plane by a point and its unit normal, in the frame of the base.
 struct Mirror {
     centre: Vec3,
     normal: Vec3,
 }
 
 impl Mirror {
+    /// Returns the mirror image of a point, m.
     fn point(&self, p: Vec3) -> Vec3 {
         self.centre + self.direction(p - self.centre)
     }
 
+    /// Returns the mirror image of a direction.
     fn direction(&self, v: Vec3) -> Vec3 {
         v - self.normal * (2.0 * v.dot(&self.normal))
     }
 
     /// Returns the nearest joint of the same type at the mirrored position of this one, with the sign of its
-    /// motion.
+    /// motion; `None` if none is near enough.
     fn image(&self, mark: &Mark, marks: &[Option<Mark>]) -> Option<(JointId, f64)> {
         let (centre, foot) = (self.point(mark.centre), self.point(mark.foot));
         // A right-handed turn about an axis is a left-handed turn about the axis in the mirror.
@@ -149,6 +155,7 @@ impl Mirror {
 
 type Image<'a> = &'a dyn Fn(JointId) -> Result<(JointId, f64), MirrorError>;
 
+/// Returns the mirror image of an action.
 fn mirrored_action(action: &Action, image: Image) -> Result<Action, MirrorError> {
     let mut new = action.clone();
     match &mut new.command {
@@ -180,6 +187,7 @@ fn mirrored_action(action: &Action, image: Image) -> Result<Action, MirrorError>
     Ok(new)
 }
 
+/// Returns the mirror image of a condition.
 fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, MirrorError> {
     let boxed = |c: &Condition| mirrored_condition(c, image).map(Box::new);
     Ok(match condition {

@@ -1,8 +1,8 @@
 //! Behaviours: series-parallel action graphs (Definition IV.3 and Section V-B of the
-//! compositional-design paper), and how they become plans.
+//! compositional-design paper), and their scheduling, which makes plans of them.
 //!
-//! [`schedule`] runs a behaviour undisturbed and writes down the motion of every joint. Before that,
-//! [`issues`] finds what asks for more than a joint can do, and [`conflicts`] what commands one joint
+//! [`schedule`] runs a behaviour undisturbed and records the trajectory of every joint. Before that,
+//! [`issues`] finds commands that ask for more than a joint can do, and [`conflicts`] those that command one joint
 //! twice at one time (Definition IV.5), both without running anything. [`gait`] composes cyclic
 //! behaviours, [`mirror`] reflects them, and [`unfaithful`] compares a plan's program with its motion.
 #![allow(non_snake_case)]

@@ -8,15 +8,15 @@ use std::collections::VecDeque;
 /// The past and the commanded future of a joint's position.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    /// Past segments: nothing can change them.
+    /// The past segments, which nothing can change.
     pub(super) past: Vec<Segment>,
-    /// Present and coming segments, in order.
+    /// The present and coming segments, in order.
     ahead: VecDeque<Segment>,
-    /// Turning without end once `ahead` is over.
+    /// The spin without end that follows `ahead`; `None` without one.
     turning: Option<Turning>,
     /// The position after `ahead`, rad or m.
     rest: f64,
-    /// The command in force.
+    /// The command in force with its cause; `None` if there is none.
     pub(super) command: Option<(Command, CauseId)>,
 }
 
@@ -30,6 +30,7 @@ pub(super) struct Turning {
 }
 
 impl Motion {
+    /// Returns the motion of a joint that stays at a position, rad or m.
     pub(super) fn at_rest(position: f64) -> Motion {
         Motion { past: vec![], ahead: VecDeque::new(), turning: None, rest: position, command: None }
     }
@@ -52,7 +53,8 @@ impl Motion {
         }
     }
 
-    /// Drops all that is to come after `now`. Returns position and speed at `now`.
+    /// Drops all segments after `now` and the command in force. Returns the position (rad or m) and the speed just
+    /// before `now` (rad/s or m/s).
     pub(super) fn cut(&mut self, now: f64) -> (f64, f64) {
         let position = self.position(now);
         let speed = self.speed_before(now);
@@ -85,12 +87,13 @@ impl Motion {
         }
     }
 
+    /// Returns true if a segment ends at `now`.
     fn joins(&self, now: f64) -> bool {
         self.ahead.iter().chain(self.past.last()).any(|s| s.end == now)
     }
 
-    /// Appends pieces that begin at `start`, where the motion so far has ended. Pieces that stay
-    /// where they are leave nothing but time.
+    /// Appends pieces that begin at `start`, where the motion so far has ended; pieces without motion only take time.
+    /// Returns the time at which the last piece ends.
     pub(super) fn append(&mut self, start: f64, pieces: Vec<Piece>, cause: CauseId) -> f64 {
         let mut now = start;
         for Piece { duration, mut control } in pieces.into_iter().filter(|p| p.duration > 0.0) {
@@ -107,16 +110,18 @@ impl Motion {
         now
     }
 
-    /// Lets the joint turn without end from `since` on, when what was appended is over.
+    /// Lets the joint turn without end at `speed` (rad/s or m/s) from the time `since` on, at which the appended
+    /// pieces are over.
     pub(super) fn turn(&mut self, since: f64, speed: f64, cause: CauseId) {
         self.turning = Some(Turning { since, from: self.rest, speed, cause });
     }
 
+    /// Returns the spin without end; `None` without one.
     pub(super) fn turning(&self) -> Option<Turning> {
         self.turning
     }
 
-    /// Returns the time at which the last commanded piece ends; `None` at rest.
+    /// Returns the time at which the last present or coming segment ends; `None` if there is none.
     pub(super) fn ends(&self) -> Option<f64> {
         self.ahead.back().map(|s| s.end)
     }
@@ -181,6 +186,7 @@ impl SignalPiece {
 }
 
 impl Turning {
+    /// Returns the position at a time, rad or m.
     fn at(&self, t: f64) -> f64 {
         self.from + self.speed * (t - self.since)
     }

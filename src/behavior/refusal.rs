@@ -1,4 +1,4 @@
-//! Refusals of scheduling: why a behaviour is no plan, and which action is to blame.
+//! Refusals of scheduling: the reason why a behaviour is no plan, and the action to blame.
 
 use super::joints::Uncommandable;
 use crate::plan::CauseId;
@@ -7,13 +7,13 @@ use crate::units::{Dimension, quantity};
 /// The refusal of a behaviour that cannot be carried out, or whose schedule exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// The action to blame; `None` where it is the behaviour as a whole.
+    /// The cause of the action to blame; `None` if the behaviour as a whole is.
     pub cause: Option<CauseId>,
     /// The reason.
     pub reason: Reason,
 }
 
-/// The reason of a refusal. SI units; joints and ports by path name.
+/// The reason of a refusal, in SI units; joints and ports are named by their paths, such as `leg[2].m[0].tilt`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// The joint takes no commands.
@@ -23,16 +23,17 @@ pub enum Reason {
         /// The reason.
         why: Uncommandable,
     },
-    /// No limit says how fast the joint is, so the action needs a duration.
+    /// No limit bounds the least duration of the move, so the action needs a stated one.
     NoSpeed {
         /// The path name of the joint.
         joint: String,
     },
-    /// A duration, speed, target or keyframe that is not finite, is negative, or is out of order.
+    /// A duration, speed, target, phase or keyframe is not finite, is negative where it must not be, or is out of range
+    /// or order.
     BadNumber {
-        /// The meaning of the number.
+        /// The meaning of the number, such as `a duration`.
         what: &'static str,
-        /// The number.
+        /// The number, in SI units.
         value: f64,
     },
     /// The followed function does not begin where the joint is.
@@ -48,82 +49,82 @@ pub enum Reason {
     NoTimeToStop {
         /// The path name of the joint.
         joint: String,
-        /// The time to stop, s.
+        /// The time that stopping takes, s.
         needed: f64,
-        /// The duration, s.
+        /// The stated duration of the move, s.
         given: f64,
     },
     /// The plan would end while the joint still turns.
     StillTurning {
         /// The path name of the joint.
         joint: String,
-        /// The speed, rad/s or m/s.
+        /// The speed at which it turns, rad/s or m/s.
         speed: f64,
     },
-    /// The condition never holds in the undisturbed run.
+    /// The condition of an action without timeout never holds in the undisturbed run.
     NeverHolds,
     /// The behaviour aborts in the undisturbed run.
     Aborted {
         /// The message of `abort`.
         message: String,
-        /// The time, s.
+        /// The time at which it aborts, s from the start of the run.
         time: f64,
     },
-    /// The port is taken.
+    /// A port to be docked has a bond.
     PortTaken {
         /// The path name of the port.
         port: String,
         /// The path name of the port that is docked to it.
         by: String,
     },
-    /// Nothing is docked at the port.
+    /// A port to be undocked has no bond.
     PortFree {
         /// The path name of the port.
         port: String,
     },
-    /// The connectors do not mate.
+    /// The connectors of two ports to be docked do not mate, or both ports are of one module.
     NoMate {
         /// The path name of the first port.
         a: String,
         /// The path name of the second port.
         b: String,
     },
-    /// The two ports are on parts of the robot that nothing connects.
+    /// Two ports to be docked are on parts of the robot that no bonds connect.
     Apart {
         /// The path name of the first port.
         a: String,
         /// The path name of the second port.
         b: String,
     },
-    /// A phase or stretch contains an action that can't be shifted or scaled.
+    /// A phase or stretch contains a part that can't be shifted or scaled.
     NotCyclic {
-        /// The part that cannot be shifted or scaled.
+        /// The part in words, such as `docking`.
         what: &'static str,
     },
-    /// A piece of motion shorter than a tick of time.
+    /// A piece of the motion is shorter than a tick of time.
     TooShort,
-    /// A limit was reached.
+    /// A limit of the schedule is exceeded.
     Limit {
-        /// The things that are counted.
+        /// The things that are counted in words, such as `actions`.
         what: &'static str,
-        /// The most there may be.
+        /// The greatest number of them.
         limit: u64,
     },
 }
 
 impl Refusal {
-    /// Returns the refusal of an action.
+    /// Returns the refusal for which the action of this cause is to blame.
     pub fn at(cause: CauseId, reason: Reason) -> Refusal {
         Refusal { cause: Some(cause), reason }
     }
 
-    /// Returns the refusal of a behaviour as a whole.
+    /// Returns the refusal for which no single action is to blame.
     pub fn whole(reason: Reason) -> Refusal {
         Refusal { cause: None, reason }
     }
 }
 
-/// In words, with plain SI numbers; whoever knows the user's units may say it better.
+/// The reason in words, with plain SI numbers; a caller who knows the user's units may say it better.
 impl std::fmt::Display for Reason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -163,6 +164,7 @@ impl std::fmt::Display for Reason {
     }
 }
 
+/// Returns a time as text.
 fn time(seconds: f64) -> String {
     quantity(seconds, Dimension::TIME)
 }

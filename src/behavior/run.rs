@@ -1,4 +1,5 @@
-//! The run of a program: frames for what has begun, a queue for what will end.
+//! The run of a program (discrete-event simulation): frames for the nodes that have begun, a queue of the times at
+//! which actions end.
 
 use super::condition::{self, View};
 use super::joints::JointFacts;
@@ -18,7 +19,7 @@ pub(super) struct Run<'a> {
     pub(super) robot: Arc<Assembly>,
     pub(super) facts: Vec<JointFacts>,
     pub(super) motions: Vec<Motion>,
-    /// Positions at the start, joints of new bonds included.
+    /// The positions at the start, joints of new bonds included, rad or m.
     pub(super) start: Vec<f64>,
     /// True, by bond, if it holds.
     pub(super) holds: Vec<bool>,
@@ -48,9 +49,9 @@ pub(super) struct Run<'a> {
 pub(super) struct Played {
     pub(super) robot: Arc<Assembly>,
     pub(super) tracks: Vec<Track>,
-    /// Positions at the start.
+    /// The positions at the start, rad or m.
     pub(super) joints: Vec<f64>,
-    /// Positions at the end.
+    /// The positions at the end, rad or m.
     pub(super) end: Vec<f64>,
     pub(super) docks: Vec<DockingEvent>,
     pub(super) duration: f64,
@@ -60,12 +61,15 @@ pub(super) struct Played {
     pub(super) steps: u64,
 }
 
+/// A task at the present instant.
 enum Task<'a> {
+    /// A node begins; it completes to the frame of this index.
     Begin(&'a Arc<Node>, Option<usize>),
     /// One child of the frame has completed; `None`: the whole program has.
     Complete(Option<usize>),
 }
 
+/// A node with children that has begun; its parent is the index of a frame, `None` for the whole program.
 struct Frame<'a> {
     parent: Option<usize>,
     kind: FrameKind<'a>,
@@ -89,12 +93,14 @@ struct Active<'a> {
     holds: Option<(JointId, CauseId)>,
 }
 
+/// The kind of an event.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum EventKind {
     End,
     Timeout,
 }
 
+/// An event: an action ends or times out.
 struct Event {
     time: f64,
     number: u64,
@@ -122,6 +128,7 @@ impl PartialEq for Event {
 impl Eq for Event {}
 
 impl<'a> Run<'a> {
+    /// Sets up the run of a robot with these motions of its joints.
     pub(super) fn new(
         robot: Arc<Assembly>,
         facts: Vec<JointFacts>,
@@ -175,6 +182,7 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Begins a node.
     fn begin(&mut self, node: &'a Arc<Node>, parent: Option<usize>) -> Result<(), Refusal> {
         self.count_step()?;
         match &**node {
@@ -214,6 +222,7 @@ impl<'a> Run<'a> {
         self.tasks.push(Task::Complete(Some(frame)));
     }
 
+    /// Opens a frame; returns its index.
     fn open(&mut self, parent: Option<usize>, kind: FrameKind<'a>) -> usize {
         let frame = Frame { parent, kind };
         if let Some(index) = self.free.pop() {
@@ -254,6 +263,7 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Begins an action: gives its command, and posts its end and its timeout.
     fn begin_action(&mut self, action: &'a Action, parent: Option<usize>) -> Result<(), Refusal> {
         let (end, holds) = self.command(action)?;
         let timeout = self.timeout_of(action)?;
@@ -272,6 +282,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Returns the time at which an action times out, s; `None` without timeout.
     fn timeout_of(&self, action: &Action) -> Result<Option<f64>, Refusal> {
         let Some(timeout) = action.timeout else { return Ok(None) };
         if !(timeout >= 0.0 && timeout.is_finite()) {
@@ -280,6 +291,7 @@ impl<'a> Run<'a> {
         Ok(Some(self.now + tick_after(timeout)))
     }
 
+    /// Adds an active action that ends at a time, if it is known; returns its slot.
     fn activate(&mut self, mut active: Active<'a>, end: Option<f64>) -> usize {
         self.events += 1;
         active.generation = self.events;
@@ -329,6 +341,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Drops the next events as long as they are those of actions that have ended.
     fn drop_void_events(&mut self) {
         let void = |e: &Event| self.active[e.slot].as_ref().is_none_or(|a| a.generation != e.generation);
         while self.queue.peek().is_some_and(void) {
@@ -336,7 +349,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Returns the action whose condition holds first, not after `horizon`; of equals the one begun first.
+    /// Returns the slot of the action whose condition holds first, not after `horizon` (s), with that time; of equals
+    /// the one begun first; `None` if no condition holds by then.
     fn first_condition(&mut self, horizon: f64) -> Option<(usize, f64)> {
         if self.waiting.is_empty() {
             return None;
@@ -358,6 +372,7 @@ impl<'a> Run<'a> {
         best
     }
 
+    /// Refuses a run that takes longer than plans may.
     fn within_time(&self) -> Result<(), Refusal> {
         limit(self.now as u64, DURATION_MAX as u64 - 1, "seconds")
     }
@@ -375,6 +390,7 @@ impl<'a> Run<'a> {
         self.tasks.push(Task::Complete(active.parent));
     }
 
+    /// Ends an action whose timeout has come, and goes on as it says.
     fn time_out(&mut self, slot: usize) -> Result<(), Refusal> {
         let active = self.leave(slot);
         self.hold(&active);
@@ -390,20 +406,22 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Removes an action from its slot.
     fn leave(&mut self, slot: usize) -> Active<'a> {
         self.waiting.retain(|s| *s != slot);
         self.idle.push(slot);
         self.active[slot].take().expect("only what is active ends")
     }
 
+    /// Brings the joint of an action that ends early to rest, unless another command has taken it over.
     fn hold(&mut self, active: &Active) {
-        // Unless another command has taken the joint over.
         let Some((joint, cause)) = active.holds else { return };
         if self.motions[joint.0 as usize].command.as_ref().is_some_and(|(_, c)| *c == cause) {
             self.stop(joint, cause);
         }
     }
 
+    /// Returns the result of the run; refuses a joint that still turns.
     fn finish(self) -> Result<Played, Refusal> {
         let mut duration = self.now;
         for (motion, facts) in self.motions.iter().zip(&self.facts) {
@@ -432,17 +450,20 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// Counts a node that is entered.
     fn count_step(&mut self) -> Result<(), Refusal> {
         self.steps += 1;
         limit(self.steps, self.settings.steps_max, "steps")
     }
 
+    /// Counts pieces of motion.
     pub(super) fn count_segments(&mut self, more: usize) -> Result<(), Refusal> {
         self.segments += more as u64;
         limit(self.segments, self.settings.segments_max, "pieces of motion")
     }
 }
 
+/// Refuses a value above its limit.
 pub(super) fn limit(value: u64, max: u64, what: &'static str) -> Result<(), Refusal> {
     if value > max { Err(Refusal::whole(Reason::Limit { what, limit: max })) } else { Ok(()) }
 }

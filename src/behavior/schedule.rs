@@ -18,37 +18,39 @@ use std::sync::Arc;
 /// A behaviour to be scheduled, and the state of the robot that it begins in.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The robot, with the bonds that exist at the start.
+    /// The robot, with the bonds that its start state knows, closed or open.
     pub robot: Assembly,
-    /// The state that the behaviour begins in, at rest.
+    /// The state that the behaviour begins in, at rest: one position (rad or m) for every joint, one flag for every
+    /// bond.
     pub start: State,
-    /// The behaviour.
+    /// The behaviour, a series-parallel graph of actions.
     pub program: Arc<Node>,
-    /// Handed on to the tracks: who set the start pose.
+    /// The causes of start positions, each with its joint, which become those of the tracks.
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The cause of each bond: (bond, cause).
+    /// The causes of bonds, each with the index of its bond, which become those of the tracks.
     pub bond_causes: Vec<(usize, CauseId)>,
-    /// Limits and tolerances.
+    /// The limits and tolerances of scheduling.
     pub settings: Settings,
 }
 
-/// Limits and tolerances of scheduling.
+/// The limits and tolerances of scheduling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The most actions that are executed, repetitions included.
+    /// The greatest number of actions that are executed, repetitions included, in each run of a behaviour or of a
+    /// cycle's body. 5 million.
     pub actions_max: u64,
-    /// The most segments of all tracks together.
+    /// The greatest number of pieces of motion of all joints together. 10 million.
     pub segments_max: u64,
-    /// The most nodes that are entered, empty ones included.
+    /// The greatest number of nodes that are entered, empty ones included. 50 million.
     pub steps_max: u64,
-    /// The deepest nesting of a program.
+    /// The deepest nesting of a program. 1000.
     pub depth_max: u64,
-    /// The deepest nesting of phases and stretches in each other.
+    /// The deepest nesting of phases, approaches and stretches in each other. 8.
     pub cycles_max: u64,
-    /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m:
-    /// what rounding explains and cannot be seen.
+    /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m. 1e-6:
+    /// rounding, which can't be seen.
     pub tol_begin: f64,
-    /// The part of the least time by which a stated duration may be shorter: rounding.
+    /// The part of the least duration by which a stated one may be shorter. 1e-9: rounding.
     pub tol_duration: f64,
 }
 
@@ -73,13 +75,13 @@ pub struct Scheduled {
     pub tracks: Tracks,
     /// The behaviour itself, which a robot executes.
     pub program: Program,
-    /// The parts of the motion that are excused from a check.
+    /// The intervals of the motion that are excused from a check of the judge.
     pub exemptions: Vec<Exemption>,
-    /// `true` where times depend on what sensors would say: then they are those of the undisturbed run.
+    /// True if times depend on sensors or timeouts: they are those of the undisturbed run.
     pub nominal: bool,
-    /// Actions executed, repetitions included.
+    /// The number of actions executed, repetitions included.
     pub actions: u64,
-    /// Stated durations that are shorter than the joints' limits allow.
+    /// Stated durations that are shorter than the joints' limits allow, at most one for each cause.
     pub issues: Vec<Issue>,
 }
 
@@ -87,8 +89,8 @@ pub struct Scheduled {
 /// here: see [`conflicts`](super::conflicts).
 ///
 /// # Errors
-/// A [`Refusal`] with the action to blame, where a command cannot be carried out, a condition never
-/// holds, or a limit of the settings is reached.
+/// A [`Refusal`] with the action to blame, if a command cannot be carried out, a condition never
+/// holds, the behaviour aborts, a joint still turns at the end, or a limit of the settings is exceeded.
 ///
 /// # Panics
 /// Panics unless the start has one position for every joint and one flag for every bond.

@@ -1,4 +1,4 @@
-//! The tolerances of scheduling, all in one place.
+//! The tolerances and thresholds of scheduling.
 
 /// The tolerances with which behaviours are scheduled and transformed; those that a caller may set are in
 /// [`Settings`](super::Settings).

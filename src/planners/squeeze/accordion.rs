@@ -5,7 +5,8 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` at site `i`, to a column along
+/// y.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
@@ -22,6 +23,7 @@ pub(super) fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Resul
     Some(of_height(limits, count, height))
 }
 
+/// Returns the motion through an array of this height.
 fn of_height(limits: PlanLimits, count: u64, height: u64) -> Result<Motion, Refusal> {
     let array = Array::new(count, height);
     let row = |i: u64| CellState::whole([i as i64, 0, 0]);
@@ -44,6 +46,7 @@ pub(super) fn places_in_column(count: u64) -> Vec<u64> {
     (0..count).map(|i| array.index(i) as u64).collect()
 }
 
+/// Returns the square root, rounded.
 fn rounded_root(count: u64) -> u64 {
     libm::round(libm::sqrt(count as f64)) as u64
 }

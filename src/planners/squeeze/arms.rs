@@ -12,7 +12,8 @@ use super::motion::{Builder, Motion, PlanLimits};
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// Returns the motion from a row along x, cell `i` at `i`, to a column along y. Takes at least four cells.
+/// Returns the motion from a row of `count` cells along x, at least four, with cell `i` at site `i`, to a column
+/// along y. Cells must shrink to half their size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
@@ -45,6 +46,7 @@ pub fn arms(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     Ok(builder.motion())
 }
 
+/// The arms of a row of `count` cells.
 #[derive(Clone, Copy)]
 struct Arms {
     count: u64,
@@ -54,7 +56,7 @@ struct Arms {
 struct Part {
     /// The level from the middle outwards; 0 is the middle.
     level: i64,
-    /// -1 to the left, 1 to the right; 0 for a lone cell in the middle.
+    /// The side: -1 to the left, 1 to the right; 0 for a lone cell in the middle.
     side: i64,
 }
 

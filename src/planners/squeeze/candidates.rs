@@ -96,6 +96,7 @@ fn flat_only(shape: &Shape) -> bool {
     (0..3).any(|axis| shape.is_flat_across(axis))
 }
 
+/// The conditions under which candidates are made.
 struct Context {
     limits: PlanLimits,
     /// True if a cell can contract to half its size or less.
@@ -110,6 +111,7 @@ fn axes(x: usize, y: usize) -> [usize; 3] {
     [x, y, 3 - x - y]
 }
 
+/// Returns the motion from one shape to the row, by `turn` to another row if there is one, and on to the other shape.
 fn joined(start: &Candidate, turn: Option<&Motion>, end: &Candidate) -> Candidate {
     // A motion that rests has no method of its own.
     let method = match (start.motion.transitions.is_empty(), end.motion.transitions.is_empty()) {

@@ -1,12 +1,12 @@
 //! Sets of cells in closed form: arithmetic progressions of cell numbers with nested counters, on which
 //! positions are affine.
 
-/// The state of a cell at an instant, in quarters of its size, the grid of all constructions.
+/// The state of a cell at an instant, in quarters of its full size, the grid of all constructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CellState {
-    /// The centre, quarters of a cell.
+    /// The centre, in quarters of the full size.
     pub center: [i64; 3],
-    /// The sides, quarters of a cell.
+    /// The lengths of the sides, in quarters of the full size.
     pub size: [i64; 3],
 }
 
@@ -14,23 +14,24 @@ pub struct CellState {
 pub(super) const WHOLE: i64 = 4;
 
 impl CellState {
-    /// Returns the state of a cell of full size at a lattice site.
+    /// Returns the state of a cell of full size at a lattice site, in cell sizes: its lowest corner is there.
     pub fn whole(place: [i64; 3]) -> CellState {
         CellState { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
     }
 }
 
-/// The cells numbered `first + Σ stride·k`, each counter `k` in 0..count.
+/// The set of the cells with the numbers `first + Σ stride·k`, for each counter `k` in 0..count.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Domain {
     /// The number of the first cell.
     pub first: u64,
-    /// Count and stride, outermost first.
+    /// The count and the stride of each counter, outermost first.
     pub counters: Vec<(u64, i64)>,
 }
 
 impl Domain {
-    /// Returns the domain with counters of one value left out; `None` if it has no cell.
+    /// Returns the domain of these counters, each (count, stride), without those of one value; `None` if it has no
+    /// cell.
     pub fn new(first: u64, counters: &[(u64, i64)]) -> Option<Domain> {
         let counters: Vec<(u64, i64)> = counters.iter().copied().filter(|(count, _)| *count != 1).collect();
         counters.iter().all(|(count, _)| *count > 0).then_some(Domain { first, counters })

@@ -18,7 +18,8 @@ use super::ranks;
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` at site `i`, to a column along
+/// y. Cells must shrink to half their size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
@@ -55,6 +56,7 @@ fn whole(i: u64, k: u32) -> CellState {
     CellState::whole([(i >> k) as i64, row(i, k) as i64, 0])
 }
 
+/// Returns the state in which rows are squeezed to half their length.
 fn squeezed(i: u64, k: u32) -> CellState {
     let mut state = whole(i, k);
     state.center[0] = HALF * (i >> k) as i64 + QUARTER;
@@ -62,10 +64,12 @@ fn squeezed(i: u64, k: u32) -> CellState {
     state
 }
 
+/// Returns the state in which the cells of rows of one cell have their full size again.
 fn widened(i: u64, k: u32, lone: u64) -> CellState {
     if i < lone { whole(i, k) } else { squeezed(i, k) }
 }
 
+/// Returns the state in which of each box one cell is in the upper half and the other in the lower.
 fn contracted(i: u64, k: u32, lone: u64) -> CellState {
     let mut state = widened(i, k, lone);
     if i >= lone {

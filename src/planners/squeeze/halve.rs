@@ -9,8 +9,9 @@ use super::motion::{Motion, PlanLimits};
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// Returns the motion from a box to another whose sides, in cells, differ by powers of two; `None` if they do
-/// not.
+/// Returns the motion from a box with the sides `from` along x, y, z, in cells, to one with the sides `to`; `None`
+/// unless they have as many cells and each pair of sides differs by a power of two. Cells are numbered along x first,
+/// then y.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
@@ -30,7 +31,8 @@ pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<
     Some(motion.into_motion(limits, &numbers))
 }
 
-/// Returns the sides halved and doubled in each fold, the longest and the shortest first.
+/// Returns the sides halved and doubled in each fold, the longest and the shortest first; `None` unless folds lead from
+/// the one box to the other.
 fn folds(from: [u64; 3], to: [u64; 3]) -> Option<Vec<(usize, usize)>> {
     let (mut sides, mut folds) = (from, Vec::new());
     let powers = (0..3).all(|k| {

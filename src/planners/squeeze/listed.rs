@@ -65,6 +65,7 @@ impl Listed {
 /// Lines of the grid to a cell: eighths hold half of three quarters.
 const LINES: i64 = 8;
 
+/// Returns the cells as cubes on the judge's grid of [`LINES`] lines to a cell.
 fn cubes(states: &[CellState]) -> Vec<Cube> {
     let cube = |state: &CellState| Cube {
         lo: [0, 1, 2].map(|axis| 2 * state.center[axis] - state.size[axis]),

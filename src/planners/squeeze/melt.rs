@@ -21,7 +21,8 @@ const X: usize = 0;
 const CONTRACT: [&str; 3] = ["swap x-contract", "swap y-contract", "swap z-contract"];
 const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 
-/// Returns the motion from a connected set of cells to a row along x, in which cell `name(i)` is at `i`.
+/// Returns the motion from a connected set of cells at these lattice sites, at least one, to a row along x, in which
+/// the cell at site `i` has the number `name(i)`, which must be a permutation. Cells must shrink to half their size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if cells do not melt.
@@ -67,15 +68,17 @@ struct Node {
     split: usize,
 }
 
+/// The tree of boxes, with the row that has grown from it.
 struct Tree {
     boxes: BTreeMap<Place, Node>,
-    /// Boxes with the root first: what is nearer goes first.
+    /// The boxes in the order in which they pass cells on, the root first, then those nearer to it.
     order: Vec<Place>,
     root: Place,
-    /// The cells of the row from behind the root on.
+    /// The cells of the row outside the tree, that next to the root first.
     row: Vec<usize>,
 }
 
+/// Returns a position moved by a step along an axis.
 fn moved(place: Place, axis: usize, step: i64) -> Place {
     let mut place = place;
     place[axis] += step;
@@ -122,7 +125,8 @@ impl Tree {
         swapped || passed
     }
 
-    /// Appends a swap (Lemma 3) of the pairs that have to go on along an axis, so that they are split along it.
+    /// Appends a swap (Lemma 3) of the pairs that have to go on along an axis, so that they are split along it; returns
+    /// true if there were any.
     fn swap(&mut self, motion: &mut Listed, axis: usize) -> bool {
         let turning: Vec<Place> = self
             .boxes
@@ -164,7 +168,8 @@ impl Tree {
         true
     }
 
-    /// Appends a pass of leaves and halves along an axis, each as far as boxes in line have room.
+    /// Appends a pass of leaves and halves along an axis, each as far as boxes in line have room; returns true if any
+    /// moved.
     fn pass(&mut self, motion: &mut Listed, axis: usize) -> bool {
         let mut used: BTreeSet<Place> = BTreeSet::new();
         let mut goals: BTreeMap<usize, CellState> = BTreeMap::new();

@@ -60,39 +60,41 @@ use crate::plan::Ratio;
 use crate::robot::Cell;
 use std::fmt;
 
-/// A construction of motions between shapes.
+/// A method: a construction of motions between shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// The fastest that the model allows.
+    /// Any of the others: the fastest that the model allows.
     #[default]
     Auto,
     /// Rows fold up and unroll, boxes unroll: cells keep their size.
     Accordion,
-    /// The paper's, mended: boxes whose sides differ by powers of two, and rows of any length.
+    /// The paper's, mended: boxes whose sides differ by powers of two, and rows of any length to columns.
     Fold,
-    /// A row shears to a column in one stage.
+    /// A row shears to a column in one go.
     Shear,
     /// A row of at least four cells to a column: its halves turn up, and merge.
     Arms,
-    /// Any connected sets in planes, rows merging two by two.
+    /// Any connected sets of cells in planes, whose rows merge two by two.
     Merge,
-    /// Any connected sets, in space too, one cell after another.
+    /// Any connected sets of at most 400 cells, in space too, one cell after another.
     Melt,
 }
 
 /// The model of angular momentum, which decides which motions are allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ModelChoice {
-    /// Zero angular momentum where such a motion is known; else all but the shear, which turns most.
+    /// Zero angular momentum if a motion without any is known for the shapes; otherwise any motion, but the shear,
+    /// which turns the robot most, only if [`Method::Shear`] is asked for.
     #[default]
     Auto,
-    /// Zero angular momentum at all times: a free robot does not turn.
+    /// Zero angular momentum at all times: a free robot does not turn. [`Refusal::Unbalanced`] if no such motion is
+    /// known.
     Balanced,
-    /// The paper's: translational forces only, and any angular momentum.
+    /// The paper's model: translational forces only, and any angular momentum.
     Paper,
 }
 
-/// A norm of accelerations.
+/// The norm of a cell's acceleration that its force bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Norm {
     /// The greatest component along an axis.
@@ -105,18 +107,18 @@ pub enum Norm {
 /// Two shapes of lattice cells of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// The kind of all cells; number 0 of the plan's library.
+    /// The kind of all cells; index 0 in the plan's library.
     pub cell: Cell,
-    /// The positions of the cells at the start, in cell sizes.
+    /// The lattice sites of the cells at the start, in cell sizes: all different, and connected over faces.
     pub start: Vec<[i64; 3]>,
-    /// The positions of the cells at the end, as many, up to a translation.
+    /// The lattice sites of the cells at the end, likewise, as many, up to a translation.
     pub goal: Vec<[i64; 3]>,
 }
 
 /// The settings of `squeeze`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// The construction. Auto: the fastest that the model allows.
+    /// The method. Auto: the fastest that the model allows.
     pub method: Method,
     /// The model of angular momentum. Auto.
     pub model: ModelChoice,
@@ -131,15 +133,15 @@ pub struct Settings {
 /// The figures of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// A lower bound on the duration of any motion between the shapes, s.
+    /// A lower bound on the duration of any motion between the shapes under the same limits, s.
     pub lower_bound: f64,
-    /// The method that was taken.
+    /// The method that was taken; never [`Method::Auto`].
     pub method: Method,
-    /// True if the angular momentum stays zero.
+    /// True if the angular momentum stays zero throughout.
     pub balanced: bool,
-    /// The reason for the method, in words.
+    /// The reason for the method in words, for a message.
     pub why: String,
-    /// The name and duration (s) of each stage.
+    /// The name and duration (s) of each stage, in order.
     pub stages: Vec<(String, f64)>,
 }
 
@@ -148,38 +150,38 @@ pub struct Report {
 pub enum Refusal {
     /// The shapes differ in their number of cells.
     Counts {
-        /// Cells at the start.
+        /// The number of cells at the start.
         from: usize,
-        /// Cells at the end.
+        /// The number of cells at the end.
         to: usize,
     },
-    /// The cells do not shrink to half their size, as the method needs.
+    /// The cells do not shrink to half their size, as every method but the accordion needs.
     Stiff {
-        /// The part of their size that they shrink to.
+        /// The least size of a cell, as a part of its full size.
         smallest: Ratio,
     },
     /// A shape is neither flat nor a box, and has too many cells to melt.
     Solid {
-        /// True if it is the start.
+        /// True if the start is such a shape; false if only the goal is.
         first: bool,
-        /// The number of cells that melt at most.
+        /// The greatest number of cells that melt.
         most: usize,
     },
-    /// The method is for other shapes.
+    /// The method that was asked for does not apply to these shapes.
     Method {
         /// The method that was asked for.
         method: Method,
     },
-    /// No motion is known that keeps the angular momentum at zero.
+    /// The model asks for zero angular momentum, and no motion of the method is known that keeps it.
     Unbalanced {
         /// The method that was asked for.
         method: Method,
     },
-    /// A number does not fit 64 bits.
+    /// A number of the plan, which is exact, does not fit 64 bits.
     TooLarge,
     /// The observer ended the search before there was a plan.
     Cancelled,
-    /// The construction did not come out right: a defect of the planner.
+    /// The construction failed for this reason, which is a defect of the planner and not of the problem.
     Defect(String),
 }
 
@@ -223,7 +225,7 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Method {
-    /// Returns the word for it in programs.
+    /// Returns the word for the method in programs, such as `accordion`.
     pub fn name(self) -> &'static str {
         match self {
             Method::Auto => "auto",

@@ -4,12 +4,14 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
 
-/// A motion of a lattice robot: configurations of all cells with the transitions between them.
+/// A motion of a lattice robot: configurations of all cells with the transitions between them. Lengths are in cell
+/// sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1.
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// The number of cells.
     pub count: u64,
-    /// The configurations about the centre of mass, one more than there are transitions.
+    /// The configurations as arithmetic runs, in cell sizes relative to the centre of mass, which rests; one more than
+    /// there are transitions.
     pub configurations: Vec<Vec<Run>>,
     /// The transitions from each configuration to the next.
     pub transitions: Vec<Transition>,
@@ -20,9 +22,9 @@ pub struct Motion {
 pub struct Transition {
     /// The name of the stage.
     pub name: &'static str,
-    /// The square of its duration, in units of time squared.
+    /// The square of its duration, in squared units of time.
     pub time_squared: Ratio,
-    /// The time law.
+    /// The time law of the progress of all cells.
     pub law: Law,
     /// True if the angular momentum stays zero.
     pub balanced: bool,
@@ -31,19 +33,19 @@ pub struct Transition {
 /// The velocity profile of a stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Profile {
-    /// Constant acceleration for half the time, constant deceleration for the other, as in the paper.
+    /// Constant acceleration for half the time, constant deceleration for the other half, as in the paper.
     #[default]
     BangBang,
-    /// A ramp, an interval of constant speed where the speed limit is active, and a ramp: the least time.
+    /// A ramp, an interval of constant speed if the speed limit is active, and a ramp: the least time.
     Trapezoid,
 }
 
 /// The limits that all motions are planned under.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanLimits {
-    /// The limits of a cell, in units.
+    /// The limits of a cell, in cell sizes and units of time ([`Motion`]).
     pub cell: CellLimits,
-    /// The velocity profile.
+    /// The velocity profile of all stages.
     pub profile: Profile,
     /// True if the Euclidean norm of an acceleration is bounded, not only its component along each axis.
     pub euclidean: bool,
@@ -52,11 +54,11 @@ pub struct PlanLimits {
 /// The data that a motion needs to become the body of a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanHeader {
-    /// The cell's index in the library.
+    /// The index of the kind of cell in the plan's library.
     pub cell: usize,
     /// The unit of time, s.
     pub time_unit: f64,
-    /// The limits of a cell, in units.
+    /// The limits of a cell, in cell sizes and units of time.
     pub limits: CellLimits,
     /// The model that the plan is judged under.
     pub model: Model,
@@ -95,8 +97,8 @@ impl<'a> Builder<'a> {
     }
 
     /// Appends a stage that takes each cell to `place`. On the domains both the last state and the next must be
-    /// affine; `relative_displacement` is the greatest distance (in quarters, along an axis) by which two cells move against
-    /// each other that stay in contact. A stage in which nothing moves is left out.
+    /// affine; `relative_displacement` is the greatest distance (in quarters, along an axis) by which two cells move
+    /// against each other that stay in contact. A stage in which nothing moves is left out.
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit.
@@ -199,6 +201,7 @@ fn least_time(
     Some((coasting.times(Ratio(4, 1))?, Law::BangBang))
 }
 
+/// Returns the sum of two numbers; `None` if it does not fit.
 fn plus(a: Ratio, b: Ratio) -> Option<Ratio> {
     let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
     Ratio::new(product(a.0, b.1).checked_add(product(b.0, a.1))?, product(a.1, b.1))
@@ -212,6 +215,7 @@ struct Affine {
 }
 
 impl Affine {
+    /// Returns the affine function that `place` is on a domain.
     fn of(domain: &Domain, place: &dyn Fn(u64) -> CellState) -> Affine {
         let first = place(domain.first);
         let step = |&(_, stride): &(u64, i64)| {
@@ -280,6 +284,7 @@ impl Displacements {
         Ratio::new(root, whole * ROOT_PARTS)
     }
 
+    /// Computes the displacements of a stage, relative to the centre of mass, and its angular momentum.
     fn of(
         domains: &[Domain],
         count: u64,
@@ -343,7 +348,8 @@ impl Displacements {
 }
 
 impl Motion {
-    /// Returns the motion of no transitions at a configuration.
+    /// Returns the motion of no transitions at a configuration of `count` cells: `place` returns the state of a cell
+    /// by its number and must be affine on each of the domains, which together hold each cell once.
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit.
@@ -351,7 +357,7 @@ impl Motion {
         Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
     }
 
-    /// Returns the motion from the end to the start, time laws reversed.
+    /// Returns the motion from the end to the start, with the time laws reversed.
     pub fn reversed(mut self) -> Motion {
         self.configurations.reverse();
         self.transitions.reverse();
@@ -359,14 +365,14 @@ impl Motion {
         self
     }
 
-    /// Returns this motion, then another that begins where it ends.
+    /// Returns this motion, then another of as many cells, whose first configuration must be this one's last.
     pub fn then(mut self, next: Motion) -> Motion {
         self.configurations.extend(next.configurations.into_iter().skip(1));
         self.transitions.extend(next.transitions);
         self
     }
 
-    /// Returns the motion with its axes permuted: what was along axis `k` is along `to[k]`.
+    /// Returns the motion with its axes permuted: axis `k` (0 to 2) becomes axis `to[k]`.
     pub fn turned(mut self, to: [usize; 3]) -> Motion {
         let turn = |ratios: [Ratio; 3]| {
             let mut turned = ratios;
@@ -381,7 +387,7 @@ impl Motion {
         self
     }
 
-    /// Returns the motion as the body of a plan; its one cause is 0.
+    /// Returns the motion as the body of a plan, whose stages all have cause 0.
     pub fn into_stages(self, header: PlanHeader) -> Stages {
         let mut configurations = self.configurations.into_iter();
         let start = configurations.next().unwrap_or_default();
@@ -403,7 +409,7 @@ impl Motion {
         }
     }
 
-    /// Returns the duration, in units of time.
+    /// Returns the duration of all transitions together, in units of time.
     pub fn duration(&self) -> f64 {
         self.transitions
             .iter()

@@ -17,8 +17,9 @@ const X: usize = 0;
 const Y: usize = 1;
 const Z: usize = 2;
 
-/// Returns the motion from a connected set of cells in the plane of x and y to a row along x, in which cell
-/// `name(i)` is at `i`.
+/// Returns the motion from a connected set of cells at these lattice sites (x, y), at least one, to a row along x, in
+/// which the cell at site `i` has the number `name(i)`, which must be a permutation. Cells must shrink to half their
+/// size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
@@ -44,7 +45,7 @@ type Stacks = BTreeMap<(i64, i64), Vec<usize>>;
 #[derive(Clone, Copy)]
 struct Merging {
     level: i64,
-    /// Its partner is there.
+    /// True if the other row has a cell at the same column and level.
     paired: bool,
     /// True if it goes to the lower half of a pair.
     below: bool,
@@ -145,11 +146,11 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
     /// A cell's part in the hairpin of its column.
     #[derive(Clone, Copy, Default)]
     struct Pin {
-        /// The level of the box of two levels.
+        /// The index of the box of two levels that it is in.
         level: i64,
-        /// The last of an odd column, which stays whole.
+        /// True for the last cell of an odd column, which stays whole.
         alone: bool,
-        /// Goes to the left half.
+        /// True if it goes to the left half.
         left: bool,
     }
     let mut pins = vec![Pin::default(); count];

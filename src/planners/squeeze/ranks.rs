@@ -34,6 +34,7 @@ struct Run {
 /// The stride and difference of indices of each bit, innermost first.
 type Bits = Vec<(u64, i64)>;
 
+/// Returns domains on which the indices in the column are affine.
 fn parts(places: &[i64], folds: u32, lone: u64) -> Vec<Domain> {
     let half = 1 << (folds - 1);
     // The ends of the column are counted in multiples of this: on the bits below, indices are affine.

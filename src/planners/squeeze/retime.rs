@@ -1,4 +1,5 @@
-//! Retiming: stages slowed down so that no contact carries more than its limit. The geometry stays.
+//! Retiming (time scaling of a trajectory): stages slowed down so that no contact carries more than its limit. The
+//! geometry stays.
 
 use super::Refusal;
 use crate::plan::lattice::peak_forces;

@@ -12,11 +12,12 @@ use crate::planners::{Progress, Solution};
 use crate::robot::Cell;
 use crate::units::{Dimension, quantity};
 
-/// Squared speeds beyond this, in units, are as good as none: no plan reaches them.
+/// The greatest squared speed limit, in units: no plan reaches greater ones.
 const SPEED_SQUARED_MAX: f64 = 1e6;
 
 /// Plans a motion from one shape to the other: the fastest candidate that the model allows. The body is lattice
-/// stages, in exact rational numbers of cells and units of time.
+/// stages, in exact rational numbers of cells and units of time. If `progress` ends the search, the result is the
+/// fastest candidate so far.
 ///
 /// # Errors
 /// [`Refusal`], of which [`Refusal::Defect`] is a failure of the planner, not of the problem.
@@ -57,6 +58,7 @@ struct Units {
 }
 
 impl Units {
+    /// Computes the units of a kind of cell, and its limits in them as short rational numbers, to the safe side.
     fn of(cell: &Cell, settings: &Settings) -> Result<Units, Refusal> {
         let time = libm::sqrt(cell.size * cell.mass / cell.force);
         let unit_speed = cell.size / time;

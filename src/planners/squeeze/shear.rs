@@ -6,7 +6,8 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row along x, cell `i` at `i`, to a column along y.
+/// Returns the motion from a row of `count` cells along x, with cell `i` at site `i`, to a column along y, likewise.
+/// Cells must shrink to half their size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.

@@ -1,4 +1,4 @@
-//! The tolerances of lattice planning: everything else is computed in whole numbers.
+//! The tolerances and thresholds of lattice planning, in which all else is computed in whole numbers.
 
 /// The tolerances with which `squeeze` computes.
 pub(super) struct Tolerances {

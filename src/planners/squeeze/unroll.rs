@@ -5,7 +5,8 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a box with `sides` along x, y, z, in cells, to a row along y, cell `i` at `i`.
+/// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which
+/// cell `i` is at site `i`.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit.
