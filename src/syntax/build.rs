@@ -18,6 +18,10 @@ pub(super) struct Builder<'t> {
     pub(super) comments: &'t [Comment],
     /// The offset in the whole text of the piece being built.
     pub(super) base: usize,
+    /// By how much the first word of the piece is longer than the misspelt one in the file.
+    pub(super) longer: usize,
+    /// The start of all spans.
+    pub(super) least: usize,
     /// The end of all spans: text behind it was added so that the piece can be parsed.
     pub(super) limit: usize,
     /// The offset of a hole that stands for a value that could not be parsed.
@@ -44,6 +48,8 @@ impl<'t> Builder<'t> {
             read,
             comments,
             base: 0,
+            longer: 0,
+            least: 0,
             limit: text.len(),
             faulty_value: None,
             diagnostics: Vec::new(),
@@ -63,8 +69,12 @@ impl<'t> Builder<'t> {
 
     /// Returns a range of the piece being built as a span of the file.
     pub(super) fn at(&self, start: usize, end: usize) -> Span {
-        let (start, end) = (self.base + start, self.base + end);
-        whole_characters(self.text, Span::new(self.file, start.min(self.limit), end.min(self.limit)))
+        whole_characters(self.text, Span::new(self.file, self.offset(start), self.offset(end)))
+    }
+
+    /// Returns an offset in the piece being built as one in the file.
+    fn offset(&self, offset: usize) -> usize {
+        (self.base + offset).saturating_sub(self.longer).max(self.least).min(self.limit)
     }
 
     /// Adds an error, and returns it so that hints can be added.

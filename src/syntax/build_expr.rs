@@ -182,8 +182,15 @@ impl Builder<'_> {
         left: &Expr,
     ) -> bool {
         match text {
-            "&&" => drop(self.error(code::SYNTAX, "modl writes `and` for `&&`", span)),
-            "||" => drop(self.error(code::SYNTAX, "modl writes `or` for `||`", span)),
+            "&&" | "||" | "<>" | "**" => {
+                let here = match text {
+                    "&&" => "and",
+                    "||" => "or",
+                    "<>" => "!=",
+                    _ => "^",
+                };
+                self.error(code::SYNTAX, format!("modl writes `{here}` for `{text}`"), span);
+            }
             _ => {}
         }
         let strength = infix(text).1;
@@ -497,7 +504,7 @@ fn infix(text: &str) -> (Infix, u8) {
         "or" | "||" => (Or, power::OR),
         "and" | "&&" => (And, power::AND),
         "==" => (Eq, power::COMPARISON),
-        "!=" => (Ne, power::COMPARISON),
+        "!=" | "<>" => (Ne, power::COMPARISON),
         "<" => (Lt, power::COMPARISON),
         "<=" => (Le, power::COMPARISON),
         ">" => (Gt, power::COMPARISON),

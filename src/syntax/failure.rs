@@ -8,6 +8,7 @@ use super::words;
 use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Code, Diagnostic, FileId, Span, code};
+use std::cell::Cell;
 
 /// The kind of body that a faulty piece is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,10 +54,24 @@ pub(super) struct Mistake<'t> {
     pub(super) found: usize,
     failure: &'t Failure,
     pub(super) place: BodyKind,
-    in_text: bool,
+    pub(super) in_text: bool,
+    /// The misspelt keyword, once that explains the mistake.
+    misspelt: Cell<Option<Misspelt>>,
 }
 
-/// Returns the diagnostic for a piece `text` that begins at offset `base` of the `whole` text.
+/// A keyword that is misspelt in a program.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Misspelt {
+    /// The offset of the word in the file.
+    pub(super) start: usize,
+    /// The offset behind it.
+    pub(super) end: usize,
+    /// The keyword that was most likely meant.
+    pub(super) meant: &'static str,
+}
+
+/// Returns the diagnostic for a piece `text` that begins at offset `base` of the `whole` text, and the
+/// misspelt keyword if that is what is wrong.
 pub(super) fn explain(
     failure: &Failure,
     text: &str,
@@ -64,7 +79,7 @@ pub(super) fn explain(
     place: BodyKind,
     whole: &str,
     file: FileId,
-) -> Diagnostic {
+) -> (Diagnostic, Option<Misspelt>) {
     let mut tokens = tokens(text, 0..text.len());
     let mut in_text = false;
     let mut found = tokens.iter().position(|token| token.end > failure.at).unwrap_or(tokens.len());
@@ -87,8 +102,9 @@ pub(super) fn explain(
     {
         found -= 1;
     }
-    let mistake = Mistake { text, base, file, tokens, found, failure, place, in_text };
-    mistake.explain(whole)
+    let mistake =
+        Mistake { text, base, file, tokens, found, failure, place, in_text, misspelt: Cell::new(None) };
+    (mistake.explain(whole), mistake.misspelt.get())
 }
 
 /// Returns the tokens in the `{ }` of a text that holds the offset `at`.
@@ -105,6 +121,8 @@ impl Mistake<'_> {
             return explain::too_deep(self.span_of(0), "this");
         }
         None.or_else(|| self.later())
+            .or_else(|| self.name_of_test())
+            .or_else(|| self.assignment())
             .or_else(|| self.first_word())
             .or_else(|| self.inner_word())
             .or_else(|| self.connection())
@@ -112,7 +130,8 @@ impl Mistake<'_> {
             .or_else(|| self.foreign_mark())
             .or_else(|| self.turned_condition())
             .or_else(|| self.built_in_braces())
-            .or_else(|| self.changed_in_place())
+            .or_else(|| self.with_without_braces())
+            .or_else(|| self.bare_comprehension())
             .or_else(|| self.wrong_mark())
             .or_else(|| self.brace_literal())
             .or_else(|| self.line_start())
@@ -141,7 +160,7 @@ impl Mistake<'_> {
     }
 
     /// Returns the span of a token, or the empty span behind the last one.
-    fn span_of(&self, index: usize) -> Span {
+    pub(super) fn span_of(&self, index: usize) -> Span {
         let (start, end) = match (self.tokens.get(index), self.tokens.last()) {
             (Some(token), _) => (token.start, token.end),
             (None, Some(last)) => (last.end, last.end),
@@ -211,7 +230,7 @@ impl Mistake<'_> {
             return None;
         }
         let may_be_expression = matches!(self.place, BodyKind::Items | BodyKind::Statements);
-        if may_be_expression && self.kind_of(1) != Some(TokenKind::Word) {
+        if may_be_expression && !self.two_words() {
             return None;
         }
         let message = match elsewhere(first) {
@@ -232,24 +251,48 @@ impl Mistake<'_> {
         }
         let meant = suggest(first, self.place.keywords().iter().copied());
         Some(match meant {
-            Some(meant) if elsewhere(first).is_none() => diagnostic.hint(format!("`{meant}`?")),
+            Some(meant) if elsewhere(first).is_none() => {
+                self.note_misspelt(0, meant);
+                diagnostic.hint(format!("`{meant}`?"))
+            }
             _ if may_be_expression => diagnostic,
             _ => diagnostic.hint(format!("here stand {}", listed(self.place.keywords()))),
         })
     }
 
-    /// Explains a misspelt keyword behind a complete expression.
+    /// Returns true if the piece begins with two words, or with a word and a text, as no expression does.
+    fn two_words(&self) -> bool {
+        let apart = self.tokens.len() > 1 && self.tokens[0].end < self.tokens[1].start;
+        match self.kind_of(1) {
+            Some(TokenKind::Word) => true,
+            Some(TokenKind::Text { .. }) => apart && !self.begins_line(),
+            _ => false,
+        }
+    }
+
+    /// Records that a token is a misspelt keyword.
+    fn note_misspelt(&self, index: usize, meant: &'static str) {
+        let span = self.span_of(index);
+        self.misspelt.set(Some(Misspelt { start: span.start as usize, end: span.end as usize, meant }));
+    }
+
+    /// Explains a misspelt keyword behind a complete expression or clause.
     fn inner_word(&self) -> Option<Diagnostic> {
         let found = self.found();
         let is_word = self.kind_of(self.found) == Some(TokenKind::Word);
-        if !is_word || !self.wants_operator() || self.in_text || words::is_reserved(found) {
+        if !is_word || self.in_text || words::is_reserved(found) {
+            return None;
+        }
+        let meant = suggest(found, self.place.keywords().iter().copied());
+        if !self.wants_operator() && !meant.is_some_and(|meant| self.wants(meant)) {
             return None;
         }
         if let Some(instead) = foreign::instead(found).or_else(|| foreign::instead(self.before())) {
             let diagnostic = self.error(format!("`{found}` cannot stand here"));
             return diagnostic.map(|diagnostic| diagnostic.hint(instead));
         }
-        let meant = suggest(found, self.place.keywords().iter().copied())?;
+        let meant = meant?;
+        self.note_misspelt(self.found, meant);
         let message = format!("`{found}` does not begin {}", self.place.name());
         self.error(message).map(|diagnostic| diagnostic.hint(format!("`{meant}`?")))
     }
@@ -285,62 +328,6 @@ impl Mistake<'_> {
             self.error(format!("`{found}` is a reserved word and cannot be a name"))
                 .expect("an error was made")
                 .hint(format!("the reserved words are {}", listed(words::RESERVED)))
-        })
-    }
-
-    /// Explains notation of other languages.
-    fn foreign_mark(&self) -> Option<Diagnostic> {
-        let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
-        let hint = match (self.before(), self.found()) {
-            (_, ":") if self.wants("{") && self.token_text(0) == "for" => return self.loop_with_colon(),
-            (_, ":") if self.wants("{") => "a body stands in braces: `{ ... }`",
-            ("fn" | "behavior", _) if self.token_text(0) == "record" && self.wants(":") => {
-                "a record has only fields; a function takes it: `fn name(it: Name) = ...`"
-            }
-            (_, "in") if self.wants_operator() && self.token_text(0) != "for" => {
-                "whether a list holds something is `contains(list, item)`"
-            }
-            ("+" | "-" | "*" | "/", "=") if follows => {
-                "a value never changes: `let name = ...` gives a new one"
-            }
-            ("*", "*") if follows => "a power is written `x^2`",
-            (_, ":") if self.wants("]") => "a part of a list is `slice(list, 1..3)`",
-            ("f", text) if follows && text.starts_with('"') => {
-                "every text takes values in: `\"... {value}\"`, without `f`"
-            }
-            (word, _) if self.found == 1 && !self.begins_line() && !self.wants_expression() => {
-                foreign::instead(word).filter(|_| self.kind_of(0) == Some(TokenKind::Word))?
-            }
-            _ => return None,
-        };
-        self.error(format!("`{}` cannot stand here", self.found())).map(|diagnostic| diagnostic.hint(hint))
-    }
-
-    /// Explains `for i in range(3):`.
-    fn loop_with_colon(&self) -> Option<Diagnostic> {
-        let words: Vec<&str> = (1..self.found).map(|i| self.token_text(i)).collect();
-        let each = match words.as_slice() {
-            [name, "in", "range", "(", end, ")"] => format!("{name} in 0..{end}"),
-            [name, "in", "range", "(", from, ",", to, ")"] => format!("{name} in {from}..{to}"),
-            _ => "i in 0..4".to_owned(),
-        };
-        self.error("`:` cannot stand here")
-            .map(|diagnostic| diagnostic.hint(format!("a body stands in braces: `for {each} {{ ... }}`")))
-    }
-
-    /// Explains `a if c else b`.
-    fn turned_condition(&self) -> Option<Diagnostic> {
-        let behind = (1..self.found).rev().find(|&i| self.token_text(i) == "if")?;
-        let value = matches!(
-            self.kind_of(behind - 1),
-            Some(TokenKind::Word | TokenKind::Number | TokenKind::Text { .. } | TokenKind::Close)
-        );
-        let branches = (behind..self.found).any(|i| self.token_text(i) == "else");
-        let named = words::is_reserved(self.token_text(behind - 1));
-        (value && branches && !named && self.wants("{")).then(|| {
-            Diagnostic::error(code::SYNTAX, "the value of a condition stands behind it, in `{ }`")
-                .label(self.span_of(behind), "")
-                .hint("write `if c { a } else { b }`")
         })
     }
 

@@ -163,8 +163,9 @@ impl<'t> Lexer<'t> {
     }
 
     fn operator(&mut self) -> TokenKind {
-        const LONG: [&[u8]; 14] = [
-            b"<->", b"...", b"--", b"->", b"++", b"..", b"=>", b"==", b"!=", b"<=", b">=", b"&&", b"||", b"^",
+        const LONG: [&[u8]; 15] = [
+            b"<->", b"...", b"--", b"->", b"++", b"..", b"=>", b"==", b"!=", b"<=", b">=", b"&&", b"||",
+            b"**", b"<>",
         ];
         let rest = &self.bytes[self.at..];
         self.at += LONG.iter().find(|long| rest.starts_with(long)).map_or(1, |long| long.len());

@@ -13,6 +13,7 @@ mod build_types;
 mod characters;
 mod explain;
 mod failure;
+mod habits;
 mod lex;
 mod outline;
 mod parse;

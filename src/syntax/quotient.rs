@@ -10,11 +10,39 @@ use crate::source::{Diagnostic, Span, code};
 /// The greatest length of a divisor, in bytes.
 const DIVISOR_MAX: usize = 60;
 
-/// Returns a warning if a comment behind an operand of an integer expression looks like its divisor: `n //
-/// 2`, or `(n // k)`, whose bracket is in the comment.
+/// A comment that looks like a divisor.
+#[derive(Debug)]
+pub(super) struct Quotient {
+    /// The comment.
+    pub(super) comment: Span,
+    /// True if the comment holds a bracket that closes one before it.
+    pub(super) swallows: bool,
+    hint: String,
+}
+
+impl Quotient {
+    /// Returns the warning that part of the line is skipped.
+    pub(super) fn warning(self) -> Diagnostic {
+        Diagnostic::warning(code::COMMENT_DIVIDES, "`//` begins a comment, it does not divide")
+            .label(self.comment, "all of this is skipped")
+            .hint(self.hint)
+    }
+
+    /// Returns the error that a bracket is never closed, because the one that should is in the comment.
+    pub(super) fn unclosed(self, bracket: char, at: Span) -> Diagnostic {
+        let message = format!("this `{bracket}` is never closed: `//` begins a comment");
+        Diagnostic::error(code::UNCLOSED, message)
+            .label(at, "")
+            .label(self.comment, "all of this is skipped")
+            .hint(self.hint)
+    }
+}
+
+/// Returns the quotient that is meant if a comment behind an operand of an integer expression looks like its
+/// divisor: `n // 2`, or `(n // k)`, whose bracket is in the comment.
 ///
 /// `before` is the token before the comment on its line.
-pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> Option<Diagnostic> {
+pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> Option<Quotient> {
     let line = source[..before.start].rfind('\n').map_or(0, |at| at + 1);
     let ahead = &source[line..before.end];
     let divisor = source[comment.start + 2..comment.end].trim();
@@ -28,18 +56,35 @@ pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> 
         TokenKind::Close => !source[..before.end].ends_with('}'),
         _ => false,
     };
-    let divides = operand && (is_divisor(divisor) || swallows_a_bracket(ahead, divisor));
-    divides.then(|| {
-        Diagnostic::warning(code::COMMENT_DIVIDES, "`//` begins a comment, it does not divide")
-            .label(span, "all of this is skipped")
-            .hint(hint(divisor))
-    })
+    let swallows = operand && swallows_a_bracket(ahead, divisor);
+    let hint = hint(dividend(ahead), divisor);
+    (swallows || operand && is_divisor(divisor)).then_some(Quotient { comment: span, swallows, hint })
 }
 
 /// Returns the hint that proposes `div`.
-fn hint(divisor: &str) -> String {
+fn hint(dividend: &str, divisor: &str) -> String {
     let end = divisor.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(divisor.len());
-    format!("the whole quotient is `div(a, {})`; `/` divides", &divisor[..end])
+    format!("the whole quotient is `div({dividend}, {})`; `/` divides", &divisor[..end])
+}
+
+/// Returns the name or number at the end of a line, with the names before its dots; `a` if the operand is
+/// larger than that.
+fn dividend(ahead: &str) -> &str {
+    let tokens = tokens(ahead, 0..ahead.len());
+    let text = |token: &Token| &ahead[token.start..token.end];
+    let is_name = |token: &Token| matches!(token.kind, TokenKind::Word | TokenKind::Number);
+    let Some(mut first) = tokens.len().checked_sub(1).filter(|&last| is_name(&tokens[last])) else {
+        return "a";
+    };
+    while first >= 2 && text(&tokens[first - 1]) == "." && is_name(&tokens[first - 2]) {
+        first -= 2;
+    }
+    // Behind these the operand is a product, or the end of a path with calls.
+    let before = first.checked_sub(1).map_or("", |before| text(&tokens[before]));
+    match before {
+        "*" | "/" | "%" | "^" | "." | "-" => "a",
+        _ => &ahead[tokens[first].start..],
+    }
 }
 
 /// Returns true if a text is an integer, perhaps followed by more of an expression.

@@ -32,31 +32,13 @@ impl Mistake<'_> {
             .map(|d| d.hint(format!("write `{name}({fields})`")))
     }
 
-    /// Explains `d.bend = 40deg`, and `with` without its braces.
-    pub(super) fn changed_in_place(&self) -> Option<Diagnostic> {
-        let found = self.found();
-        if self.before() == "with" && self.wants("{") {
-            return self
-                .error("what `with` changes stands in braces")
-                .map(|d| d.hint("a changed copy of a record is written `d with { bend: 40deg }`"));
-        }
-        let member = self.found >= 3
-            && self.token_text(self.found - 2) == "."
-            && (0..self.found).all(|i| {
-                matches!(self.kind_of(i), Some(TokenKind::Word | TokenKind::Number))
-                    || matches!(self.token_text(i), "." | "[" | "]")
-            });
-        let statement = matches!(self.place, BodyKind::Items | BodyKind::Statements);
-        if found != "=" || !member || !statement || !self.wants_operator() {
+    /// Explains `with` without its braces.
+    pub(super) fn with_without_braces(&self) -> Option<Diagnostic> {
+        if self.before() != "with" || !self.wants("{") {
             return None;
         }
-        let owner = &self.text[self.tokens[0].start..self.tokens[self.found - 3].end];
-        let field = self.before();
-        self.error(format!("`{owner}.{field}` can't be changed: a value never changes")).map(|d| {
-            d.hint(format!(
-                "a copy of a record with another `{field}` is `{owner} with {{ {field}: ... }}`; where a joint begins, a `config` says: `set {owner}.{field} = ...`"
-            ))
-        })
+        self.error("what `with` changes stands in braces")
+            .map(|d| d.hint("a changed copy of a record is written `d with { bend: 40deg }`"))
     }
 
     /// Explains `{ a: 1 }`, or `{` in place of an expression.

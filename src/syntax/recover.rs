@@ -3,7 +3,7 @@
 
 use super::ast::*;
 use super::build::{Builder, whole_characters};
-use super::failure::{BodyKind, explain};
+use super::failure::{BodyKind, Misspelt, explain};
 use super::lex::{Lexer, Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, Node, Rule, failure, nodes};
 use super::scan::{Fault, Scan};
@@ -126,7 +126,7 @@ impl<'t> Parser<'t> {
     /// Parses a faulty item: its head, and its body piece by piece.
     fn faulty_item(&mut self, range: Range<usize>) -> Item {
         if self.begins_with(&range, &["if", "for"]) {
-            let statement: Stmt = self.faulty_clause(range);
+            let statement: Stmt = self.faulty_clauses(range).pop().expect("a piece gives a clause");
             return Item { span: statement.span, doc: None, kind: ItemKind::Statement(statement) };
         }
         let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
@@ -139,10 +139,27 @@ impl<'t> Parser<'t> {
                 self.fill_item(&mut item, body.clone());
                 return item;
             }
-            self.explain(Rule::chunk, &header, &(range.start..body.start - 1), BodyKind::Items);
-            return self.error_item(range);
+            let head = range.start..body.start - 1;
+            let misspelt = self.explain(Rule::chunk, &header, &head, BodyKind::Items);
+            let mended = misspelt.and_then(|word| {
+                self.with_keyword(word, &header, &range, |this, text, start| this.parsed_item(text, start))
+            });
+            return match mended {
+                Some(mut item) => {
+                    self.fill_item(&mut item, body.clone());
+                    item
+                }
+                None => self.error_item(range),
+            };
         }
-        self.explain_item(&range);
+        let misspelt = self.explain_item(&range);
+        let text = self.scan.text[range.clone()].to_string();
+        let mended = misspelt.and_then(|word| {
+            self.with_keyword(word, &text, &range, |this, text, start| this.parsed_item(text, start))
+        });
+        if let Some(item) = mended {
+            return item;
+        }
         self.with_faulty_value(&range, |this, text, start| this.parsed_item(text, start))
             .unwrap_or_else(|| self.error_item(range))
     }
@@ -193,13 +210,33 @@ impl<'t> Parser<'t> {
     }
 
     /// Explains a faulty item at the innermost faulty piece.
-    fn explain_item(&mut self, range: &Range<usize>) {
+    fn explain_item(&mut self, range: &Range<usize>) -> Option<Misspelt> {
         if let Some(value) = self.block_value(range) {
             drop(self.body::<Stmt>(value));
-            return;
+            return None;
         }
         let text = self.scan.text[range.clone()].to_string();
-        self.explain(Rule::chunk, &text, range, BodyKind::Items);
+        self.explain(Rule::chunk, &text, range, BodyKind::Items)
+    }
+
+    /// Parses a piece `text` that begins at the start of `range`, with its misspelt first word replaced by the
+    /// keyword that was meant: so what it declares is known, and its own mistakes are found.
+    fn with_keyword<T>(
+        &mut self,
+        word: Misspelt,
+        text: &str,
+        range: &Range<usize>,
+        parsed: impl std::ops::FnOnce(&mut Self, &str, usize) -> Option<T>,
+    ) -> Option<T> {
+        let rest = text.get(word.end.checked_sub(range.start)?..).filter(|_| word.start == range.start)?;
+        let length = word.end - word.start;
+        let longer = word.meant.len().saturating_sub(length);
+        let text = format!("{:length$}{rest}", word.meant);
+        let before = (self.builder.longer, self.builder.least);
+        (self.builder.longer, self.builder.least) = (longer, range.start);
+        let node = self.limited(range.end, |this| parsed(this, &text, range.start));
+        (self.builder.longer, self.builder.least) = before;
+        node
     }
 
     /// Returns the block behind `=` that ends a piece.
@@ -233,7 +270,7 @@ impl<'t> Parser<'t> {
                 return clauses;
             }
         }
-        vec![self.faulty_clause(range)]
+        self.faulty_clauses(range)
     }
 
     /// Returns the clauses of a text, if it can be parsed.
@@ -242,8 +279,8 @@ impl<'t> Parser<'t> {
         Some(C::build(&mut self.builder, nodes(C::RULE, text)?))
     }
 
-    /// Parses a faulty clause: its head, and its bodies piece by piece.
-    fn faulty_clause<C: Clause>(&mut self, range: Range<usize>) -> C {
+    /// Parses a faulty piece: its head, and its bodies piece by piece. Returns at least one clause.
+    fn faulty_clauses<C: Clause>(&mut self, range: Range<usize>) -> Vec<C> {
         let bodies = bodies(&self.scan.text, range.clone(), &self.scan.unclosed);
         if self.begins_with(&range, &["if", "for"]) && self.depth < BODIES_MAX {
             let header = self.emptied(&range, &bodies);
@@ -252,21 +289,48 @@ impl<'t> Parser<'t> {
             if let Some(mut clause) = clause.filter(|_| !bodies.is_empty())
                 && self.fill(&mut clause, bodies)
             {
-                return clause;
+                return vec![clause];
             }
         }
-        match self.block_value(&range) {
-            Some(value) => drop(self.body::<Stmt>(value)),
+        let misspelt = match self.block_value(&range) {
+            Some(value) => {
+                drop(self.body::<Stmt>(value));
+                None
+            }
             None => {
                 let text = self.scan.text[range.clone()].to_string();
-                self.explain(C::RULE, &text, &range, C::BODY_KIND);
+                self.explain(C::RULE, &text, &range, C::BODY_KIND)
             }
+        };
+        if let Some(clauses) = misspelt.and_then(|word| self.with_keywords(word, &range)) {
+            return clauses;
         }
-        self.with_faulty_value(&range, |this, text, start| this.parsed::<C>(text, start)?.pop())
-            .unwrap_or_else(|| {
-                self.note_unread(&range);
-                C::error(self.span(&range))
-            })
+        let clause = self.with_faulty_value(&range, |this, text, start| this.parsed::<C>(text, start)?.pop());
+        vec![clause.unwrap_or_else(|| {
+            self.note_unread(&range);
+            C::error(self.span(&range))
+        })]
+    }
+
+    /// Parses the clauses of a piece up to a misspelt keyword, and those from it on as if it were not.
+    fn with_keywords<C: Clause>(&mut self, word: Misspelt, range: &Range<usize>) -> Option<Vec<C>> {
+        let before = self.scan.text[range.start..word.start].trim_end().to_string();
+        let rest = word.start..range.end;
+        let bodies = match word.meant {
+            "if" | "for" if self.depth < BODIES_MAX => {
+                bodies(&self.scan.text, rest.clone(), &self.scan.unclosed)
+            }
+            _ => Vec::new(),
+        };
+        let text = self.emptied(&rest, &bodies);
+        let mut mended =
+            self.with_keyword(word, &text, &rest, |this, text, start| this.parsed::<C>(text, start))?;
+        if let Some(last) = mended.last_mut().filter(|_| !bodies.is_empty()) {
+            self.fill(last, bodies);
+        }
+        let mut clauses = self.parsed::<C>(&before, range.start)?;
+        clauses.append(&mut mended);
+        (!clauses.is_empty()).then_some(clauses)
     }
 
     /// Parses clauses into the emptied bodies of a clause; returns false if their number differs.
@@ -376,22 +440,24 @@ impl<'t> Parser<'t> {
         Item { span: self.span(&range), doc: None, kind: ItemKind::Error }
     }
 
-    /// Reports why a piece cannot be parsed, unless a fault in it was reported.
-    fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: BodyKind) {
+    /// Reports why a piece cannot be parsed, unless a fault in it was reported. Returns the misspelt keyword if
+    /// that is the reason.
+    fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: BodyKind) -> Option<Misspelt> {
         let rest = self.scan.text[range.end..].bytes();
         let blank = rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count();
         // A character replaced by a blank behind the piece belongs to it.
         let told = !self.faults(&(range.start..range.end + blank)).is_empty();
         if told || self.builder.diagnostics.len() >= DIAGNOSTICS_MAX {
-            return;
+            return None;
         }
-        if let Some(failure) = failure(rule, text) {
-            let whole = &self.scan.text;
-            let mut diagnostic = explain(&failure, text, range.start, place, whole, self.builder.file);
-            for label in &mut diagnostic.labels {
-                label.span = whole_characters(self.builder.text, label.span);
-            }
-            self.builder.diagnostics.push(diagnostic);
+        let failure = failure(rule, text)?;
+        let whole = &self.scan.text;
+        let (mut diagnostic, misspelt) =
+            explain(&failure, text, range.start, place, whole, self.builder.file);
+        for label in &mut diagnostic.labels {
+            label.span = whole_characters(self.builder.text, label.span);
         }
+        self.builder.diagnostics.push(diagnostic);
+        misspelt
     }
 }

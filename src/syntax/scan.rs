@@ -9,7 +9,7 @@ use super::characters;
 use super::explain;
 use super::lex::{Lexer, Token, TokenKind};
 use super::parse::{DIAGNOSTICS_MAX, NESTING_MAX};
-use super::quotient;
+use super::quotient::{self, Quotient};
 use super::words;
 use crate::source::{Diagnostic, FileId, Span};
 use std::borrow::Cow;
@@ -94,6 +94,8 @@ struct Scanner<'t> {
     strays: Vec<char>,
     /// The offset at which scanning continues behind what was meant as a comment.
     skip_to: Option<usize>,
+    /// The brackets whose closing ones are in comments that look like divisors.
+    swallowed: Vec<(usize, Quotient)>,
 }
 
 impl<'t> Scanner<'t> {
@@ -121,6 +123,7 @@ impl<'t> Scanner<'t> {
             stray: None,
             strays: Vec::new(),
             skip_to: None,
+            swallowed: Vec::new(),
         }
     }
 
@@ -135,6 +138,16 @@ impl<'t> Scanner<'t> {
             }
         }
         self.close_all(self.source.len());
+        for (open, quotient) in std::mem::take(&mut self.swallowed) {
+            let told = match self.scan.unclosed.contains(&open) {
+                true => {
+                    let bracket = self.source.as_bytes()[open] as char;
+                    quotient.unclosed(bracket, self.span(open, open + 1))
+                }
+                false => quotient.warning(),
+            };
+            self.report(told);
+        }
         if let Some(bytes) = self.masked {
             let text = String::from_utf8(bytes).expect("whole characters were replaced by ASCII");
             self.scan.text = Cow::Owned(text);
@@ -218,7 +231,13 @@ impl<'t> Scanner<'t> {
             let mark = self.span(token.start, token.end);
             quotient::meant(self.source, before, token, mark)
         });
-        quotient.into_iter().for_each(|warning| self.report(warning));
+        match (quotient, self.open.last()) {
+            (Some(quotient), Some(&open)) if quotient.swallows && self.swallowed.len() < DIAGNOSTICS_MAX => {
+                self.swallowed.push((open, quotient));
+            }
+            (Some(quotient), _) => self.report(quotient.warning()),
+            (None, _) => {}
+        }
         self.replace(token.start, token.end, ' ');
     }
 
@@ -332,11 +351,14 @@ impl<'t> Scanner<'t> {
         if open.is_empty() {
             return;
         }
+        // Why these are open is told at the end.
+        let swallowed = |at: &usize| self.swallowed.iter().any(|(open, _)| open == at);
         let spans: Vec<(char, Span)> = open
             .iter()
+            .filter(|at| !swallowed(at))
             .map(|&open| (self.source.as_bytes()[open] as char, self.span(open, open + 1)))
             .collect();
-        if !self.deep_reported {
+        if !self.deep_reported && !spans.is_empty() {
             self.report(explain::unclosed(&spans, self.found_at(at)));
         }
         for &open in open {

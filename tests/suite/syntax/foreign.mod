@@ -19,7 +19,9 @@
 //             ^ E0001 `:` cannot stand here | slice(list, 1..3)
 --- a power
     let p = 2 ** 3
-//             ^ E0001 `*` cannot stand here | x^2
+//            ^^ E0001 modl writes `^` for `**`
+    let q = 2m**2
+//            ^^ E0001 modl writes `^` for `**`
 --- a unit of words
     let a = 90 degrees
 //             ^^^^^^^ E0001 `degrees` cannot stand here | `90deg`
@@ -54,13 +56,23 @@
 --- whole quotients of Python are comments here
     let n = 7
     let half = n // 2
-//               ^^^^ W0008 `//` begins a comment | `div(a, 2)`
+//               ^^^^ W0008 `//` begins a comment, it does not divide | `div(n, 2)`
+    let plain = 7//2
+//               ^^^ W0008 `//` begins a comment | all of this is skipped | `div(7, 2)`; `/` divides
+    let path = 1 + a.b // 2
+//                     ^^^^ W0008 `//` begins a comment | `div(a.b, 2)`
+    let product = 3 * n // 2
+//                      ^^^^ W0008 `//` begins a comment | `div(a, 2)`
     let more = f(n) // 2 + n
 //                  ^^^^^^^^ W0008 `//` begins a comment | `div(a, 2)`
 --- a divisor whose bracket is swallowed
     let k = (n // m)
-//             ^^^^^ W0008 `//` begins a comment | `div(a, m)`
-//          ^ E0004 this `(` is never closed
+//          ^ E0004 this `(` is never closed: `//` begins a comment | `div(n, m)`
+//             ~~~~~ all of this is skipped
+--- a divisor whose bracket is closed on a later line
+    let k = (n // m)
+//             ^^^^^ W0008 `//` begins a comment | `div(n, m)`
+    )
 --- ordinary comments stay what they are
     let a = 3 // metres
     let b = 7 // 7 modules
@@ -71,3 +83,42 @@
     ]
     let e = 3  // (about 2)
     let f = 3  // 1.5 of its width
+--- what differs, in Basic and in SQL
+    if 1 <> 2 { }
+//       ^^ E0001 modl writes `!=` for `<>`
+--- a comprehension without its list
+    let a = sum(f(x) for x in xs)
+//                   ^^^ E0001 `for` stands in a list here | write `sum([f(x) for x in xs])`
+    let b = f(1, [2], g(x, 1) for x in xs if x > 1)
+//                            ^^^ E0001 `for` stands in a list | write `f(1, [2], [g(x, 1) for x in xs if x > 1])`
+    let c = Pc(
+      move(x.tilt, to: 0deg) for x in xs
+//                           ^^^ E0001 `for` stands in a list | write `Pc([move(x.tilt, to: 0deg) for x in xs])`
+    )
+--- the name of a test
+    test hello { expect true }
+//       ^^^^^ E0001 the name of a test is a text | write `test "hello" { ... }`
+    test it folds flat { expect true }
+//       ^^ E0001 the name of a test is a text | write `test "it folds flat" { ... }`
+--- a value that is to change
+    let x = 1
+    x = x + 1
+//    ^ E0001 `=` cannot change `x` | a new one has a name of its own: `let next = x + 1`
+    y = 3mm
+//    ^ E0001 `=` cannot change `y` | a name is given its value once, by `let y = 3mm`
+    for i in 0..4 {
+      x = x + i
+//      ^ E0001 `=` cannot change `x` | `let next = x + i` | is a list
+    }
+    if x = 3 { }
+//       ^ E0001 `=` cannot stand here | `==` compares
+--- a joint that is to move
+    m.tilt = 30deg
+//         ^ E0001 `=` cannot change `m.tilt` | `move(m.tilt, to: 30deg)` | in a `config`: `set m.tilt = 30deg`
+    m.leg[1].tilt = bend
+//                ^ E0001 `move(m.leg[1].tilt, to: bend)` | `m.leg[1] with { tilt: bend }`
+    config C {
+      part m: M
+      m.tilt = 30deg
+//           ^ E0001 `=` cannot change `m.tilt` | `move(m.tilt, to: 30deg)` | set by `set m.tilt = 30deg`
+    }

@@ -91,8 +91,8 @@ let g = { a: 1 }
 //         ^ E0001 no value is written in `{ }` | `Name(a: 1, b: 2)`
 //> (let g ERROR)
 d.bend = 40deg
-//     ^ E0001 a value never changes | `d with { bend: ... }`
+//     ^ E0001 `=` cannot change `d.bend` | `d with { bend: 40deg }`
 //> ERROR
 legs[0].d.bend = 40deg
-//             ^ E0001 `legs[0].d.bend` can't be changed | `legs[0].d with { bend: ... }`
+//             ^ E0001 `=` cannot change `legs[0].d.bend` | `legs[0].d with { bend: 40deg }`
 //> ERROR

@@ -35,7 +35,7 @@
     print(a)
 //> (let a ERROR)
 //> (config C ERROR (part n Smores) (behavior b (v:Speed) allows:[slip] ERROR) (behavior c (call n.go)) (for i (.. 0 4) (connect a b) ERROR) (for i (.. 0 4) (connect a b) (if a (connect a b) (else (if b ERROR (else (set x ERROR)))))))
-//> (module M ERROR)
+//> (module M (mass 3'kg) (mass 4'kg))
 //> (fn f (a:Int) ->Int ERROR)
 //> (test "t" (let r ERROR) (expect r.ok) ERROR)
 //> (call print a)
@@ -73,3 +73,24 @@ let a = 3
     /* and /* so */ on
 //  ^^ E0004 this comment is never closed
 //> (let a 3)
+
+--- what a misspelt keyword begins is read as if it were not
+    cnfig C {
+//  ^^^^^ E0001 `cnfig` does not begin an item of a file | `config`?
+      part m: M  bahavior b = m.go()
+//               ^^^^^^^^ E0001 `bahavior` does not begin a clause of a configuration | `behavior`?
+      fro i in 0..2 { connect m.a -- m.b  conect m.c -- m.d }
+//    ^^^ E0001 `fro` does not begin | `for`?
+//                                        ^^^^^^ E0001 `conect` does not begin | `connect`?
+    }
+    tset "t" { expcet true }
+//  ^^^^ E0001 `tset` does not begin an item of a file | `test`?
+//             ^^^^^^ E0001 `expcet` does not begin a statement | `expect`?
+    letice L of C = row(4)
+//  ^^^^^^ E0001 `letice` does not begin an item of a file | `lattice`?
+    functoin f() = 3 +
+//  ^^^^^^^^ E0001 `functoin` does not begin an item of a file
+//> (config C (part m M) (behavior b (call m.go)) (for i (.. 0 2) (connect m.a m.b) (connect m.c m.d)))
+//> (test "t" (expect true))
+//> (lattice L of C (call row 4))
+//> ERROR
