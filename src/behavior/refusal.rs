@@ -149,7 +149,8 @@ impl std::fmt::Display for Reason {
                 )
             }
             Reason::StillTurning { joint, speed } => {
-                write!(f, "the plan ends while `{joint}` still turns at {speed:.6} per second")
+                let speed = crate::units::number(*speed);
+                write!(f, "the plan ends while `{joint}` still turns at {speed} per second")
             }
             Reason::NeverHolds => write!(f, "the condition never holds, and there is no timeout"),
             Reason::Aborted { message, time } => write!(f, "aborted at {}: {message}", self::time(*time)),

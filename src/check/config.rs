@@ -118,27 +118,15 @@ impl<'a> Checker<'a> {
                     names.filter(|n| n.starts_with(|c: char| c.is_ascii_uppercase())).collect();
                 let mut d = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` is not known here", last.text))
                     .label(span, "a module or configuration is wanted here");
-                d = match suggest(last.text.as_str(), types) {
-                    Some(near) => d.hint(format!("`{near}`?")),
-                    None => match self.library_home(last.text.as_str()) {
-                        Some(file) => {
-                            d.hint(format!("`use {file}.{{{}}}` at the top of the file", last.text))
-                        }
-                        None => d,
-                    },
-                };
+                if let Some(import) = self.import_hint(scope.file, last.text).filter(|_| path.len() == 1) {
+                    d = d.hint(import);
+                } else if let Some(near) = suggest(last.text.as_str(), types) {
+                    d = d.hint(format!("`{near}`?"));
+                }
                 self.report(d);
             }
         }
         None
-    }
-
-    /// Returns the import path of the loaded library file that declares a name, such as `std.smores`; `None` if
-    /// none does.
-    fn library_home(&self, name: &str) -> Option<String> {
-        let info = self.defs.iter().find(|d| d.name == name && self.sources.file(d.span.file).library)?;
-        let file = &self.sources.file(info.span.file).name;
-        Some(file.trim_end_matches(".mod").replace('/', "."))
     }
 
     /// Checks the path of a `base` clause; `None` (and a diagnostic) if it names no module or

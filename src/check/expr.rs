@@ -3,9 +3,10 @@
 use super::checker::Checker;
 use super::describe::{dimension_with_unit, dimension_words};
 use super::family::Family;
+use super::hints::dimension_hint;
 use super::literals::direction;
 use super::scope::Scope;
-use super::typed::{BinaryOp, Expr, ExprKind, StmtKind};
+use super::typed::{Expr, ExprKind, StmtKind};
 use super::types::{FnType, Type};
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
@@ -101,30 +102,6 @@ impl<'a> Checker<'a> {
             }
         };
         self.report(diagnostic);
-    }
-
-    /// Returns a hint on the correction of a mismatch; `None` if none is known.
-    pub(super) fn type_hint(&self, got: &Expr, want: &Type) -> Option<String> {
-        let written = self.quoted(got.span).unwrap_or("it");
-        match (&got.ty, want) {
-            (Type::Fn(f), _) if self.fits(&f.result, want) => Some(format!("call it: `{written}()`")),
-            (Type::Port, Type::Joint(_)) => Some(format!("the joint of its connection is `{written}.joint`")),
-            (Type::Optional(_), _) => {
-                Some(format!("say what stands in when it is missing: `{written} else ...`"))
-            }
-            (Type::Quantity(_), Type::Int)
-                if matches!(&got.kind, ExprKind::Binary { op: BinaryOp::Div, .. }) =>
-            {
-                Some("`/` gives any number; the whole quotient is `div(a, b)`".into())
-            }
-            (Type::Quantity(_), Type::Int) => {
-                Some(format!("`floor({written})` and `round({written})` are whole; so is `div(a, b)`"))
-            }
-            (Type::Condition, Type::Bool) => {
-                Some("a condition is watched while the robot moves; it has no value yet".into())
-            }
-            _ => None,
-        }
     }
 
     /// Checks an expression; `want` is the expected type, which decides words, optional values and lists.
@@ -367,26 +344,4 @@ pub(super) fn has_params(ty: &Type) -> bool {
         Type::Choice(c) => c.types.iter().any(has_params),
         _ => false,
     }
-}
-
-/// Returns a likely correction of a quantity of the wrong dimension; `None` if none is known.
-fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Option<String> {
-    let written = written?;
-    let literal = written.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
-        && !written.contains(char::is_whitespace);
-    if have.over(Dimension::TIME) == Some(need) {
-        return Some(if literal {
-            format!("per second? `{written}/s`")
-        } else {
-            format!("per second? `{written} / 1s`")
-        });
-    }
-    let unit = crate::units::usual_unit(need);
-    if have == Dimension::NUMBER && literal {
-        return (!unit.is_empty()).then(|| format!("with a unit? `{written}{unit}`"));
-    }
-    if need == Dimension::NUMBER && have == Dimension::ANGLE {
-        return Some(format!("angles are no plain numbers; divide by a unit to get one: `{written} / 1rad`"));
-    }
-    (literal && !unit.is_empty()).then(|| format!("{} has a unit such as `{unit}`", dimension_words(need)))
 }

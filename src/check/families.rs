@@ -81,7 +81,9 @@ impl<'a> Checker<'a> {
             None => {
                 let mut d = Diagnostic::error(code::NOT_A_TYPE, format!("`{}` is not known here", last.text))
                     .label(span, format!("a {wanted} is wanted here"));
-                if let Some(near) = suggest(last.text.as_str(), self.visible_names(file)) {
+                if let Some(import) = self.import_hint(file, last.text).filter(|_| path.len() == 1) {
+                    d = d.hint(import);
+                } else if let Some(near) = suggest(last.text.as_str(), self.visible_names(file)) {
                     d = d.hint(format!("`{near}`?"));
                 }
                 self.report(d);

@@ -16,6 +16,7 @@ mod expr;
 mod families;
 pub mod family;
 mod fields;
+mod hints;
 mod items;
 mod lint;
 mod lists;

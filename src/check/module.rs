@@ -100,7 +100,10 @@ impl<'a> Checker<'a> {
                     .collect();
                 let mut d = Diagnostic::error(code::UNKNOWN_NAME, format!("`{}` {why}", last.text))
                     .label(span, "a connector is wanted here");
-                if let Some(near) = suggest(last.text.as_str(), connectors) {
+                let import = self.import_hint(scope.file, last.text);
+                if let Some(import) = import.filter(|_| found.is_none() && path.len() == 1) {
+                    d = d.hint(import);
+                } else if let Some(near) = suggest(last.text.as_str(), connectors) {
                     d = d.hint(format!("`{near}`?"));
                 }
                 self.report(d);

@@ -5,9 +5,9 @@ use super::expr::{error_expr, expr_of};
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
+use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code};
-use crate::source::{foreign, library};
 use crate::units::is_unit;
 use std::sync::Arc;
 
@@ -108,10 +108,8 @@ impl<'a> Checker<'a> {
             .label(span, "no such name");
         if let Some(instead) = foreign::instead(name.as_str()) {
             d = d.hint(instead);
-        } else if let Some(file) = library::declares(name.as_str()) {
-            d = d.hint(format!("the library has it: `use std.{file}.{name}`"));
-        } else if let Some(path) = self.declared_elsewhere(scope.file, name) {
-            d = d.hint(format!("another file declares it: `use \"{path}\".{{{name}}}`"));
+        } else if let Some(import) = self.import_hint(scope.file, name) {
+            d = d.hint(import);
         } else if let Some(near) = suggest(name.as_str(), names) {
             d = d.hint(format!("`{near}`?"));
         } else if is_unit(name.as_str()) {
@@ -123,7 +121,7 @@ impl<'a> Checker<'a> {
 
     /// Returns the path of a file of the program that declares a public name, if both files are at the top of
     /// the project; otherwise `None`.
-    fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
+    pub(super) fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
         let public = !name.as_str().starts_with('_');
         let own = |other: usize| match self.top(other).get(&name) {
             Some(Entity::Def(id)) => self.def(*id).file == other,

@@ -2,6 +2,7 @@
 
 use super::checker::Checker;
 use super::expr::{Role, error_expr, expr_of};
+use super::hints::angle_hint;
 use super::scope::Scope;
 use super::typed::{BinaryOp, Expr, ExprKind, UnaryOp};
 use super::types::Type;
@@ -191,7 +192,7 @@ impl<'a> Checker<'a> {
         )
     }
 
-    /// Returns a plain literal with the unit of the other operand, for a hint; `None` if that is no likely
+    /// Returns the hint that gives a plain literal the unit of the other operand; `None` if that is no likely
     /// correction.
     fn with_unit(&self, number: &Expr, beside: &Expr) -> Option<String> {
         let (plain, needed) = (number.ty.dimension()?, beside.ty.dimension()?);
@@ -204,8 +205,12 @@ impl<'a> Checker<'a> {
         let other = self.quoted(beside.span).unwrap_or_default();
         let digits = other.trim_start_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '_'));
         let same = digits.len() < other.len() && crate::units::is_unit(digits);
+        // A fraction beside degrees is most likely in radians.
+        if needed == Dimension::ANGLE && !(same && written.bytes().all(|b| b.is_ascii_digit())) {
+            return Some(angle_hint(written));
+        }
         let unit = if same { digits.to_owned() } else { crate::units::usual_unit(needed) };
-        (!unit.is_empty()).then(|| format!("{written}{unit}"))
+        (!unit.is_empty()).then(|| format!("a unit sticks to its number: `{written}{unit}`?"))
     }
 
     /// Reports operands to which an operator does not apply.
@@ -232,7 +237,7 @@ impl<'a> Checker<'a> {
         } else if op == BinaryOp::Mul && matches!((&left.ty, &right.ty), (Type::List(_), Type::Int)) {
             d = d.hint("a list of equal elements is made by `[0 for i in 0..3]`");
         } else if let Some(with_unit) = self.with_unit(left, right).or_else(|| self.with_unit(right, left)) {
-            d = d.hint(format!("a unit sticks to its number: `{with_unit}`?"));
+            d = d.hint(with_unit);
         } else if matches!(
             (&left.ty, &right.ty),
             (Type::Bool, Type::Condition) | (Type::Condition, Type::Bool)

@@ -5,9 +5,9 @@ use super::family::Family;
 use super::scope::Scope;
 use super::typed::DefId;
 use super::types::{Choice, FnType, Type};
+use crate::source::foreign;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Symbol, code};
-use crate::source::{foreign, library};
 use crate::syntax::ast::{self, TypeKind};
 use crate::units::{self, Dimension, NAMED};
 use std::sync::Arc;
@@ -130,6 +130,9 @@ impl<'a> Checker<'a> {
         if let Some(meant) = foreign::unit(name.text.as_str()) {
             return self.report(diagnostic.hint(format!("write `{meant}`")));
         }
+        if let Some(here) = foreign::measure(name.text.as_str()) {
+            return self.report(diagnostic.hint(here));
+        }
         if let Some(near) = suggest(name.text.as_str(), names) {
             diagnostic = diagnostic.hint(format!("`{near}`?"));
         }
@@ -180,8 +183,8 @@ impl<'a> Checker<'a> {
             .label(span, "a type is wanted here");
         if let Some(here) = foreign::of_type(last.text.as_str()) {
             diagnostic = diagnostic.hint(format!("write {here}"));
-        } else if let Some(file) = library::declares(last.text.as_str()).filter(|_| path.len() == 1) {
-            diagnostic = diagnostic.hint(format!("the library has it: `use std.{file}.{}`", last.text));
+        } else if let Some(import) = self.import_hint(scope.file, last.text).filter(|_| path.len() == 1) {
+            diagnostic = diagnostic.hint(import);
         } else if let Some(near) = suggest(last.text.as_str(), types) {
             diagnostic = diagnostic.hint(format!("`{near}`?"));
         }

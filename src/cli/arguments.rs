@@ -49,16 +49,22 @@ pub(super) enum Command {
         file: PathBuf,
     },
     /// Find what is wrong in programs, without planning or writing
-    #[command(after_help = "Examples:\n  modl check walkbot.mod\n  modl check --json parts/*.mod")]
+    #[command(
+        after_help = "Examples:\n  modl check walkbot.mod\n  modl check --json parts/*.mod\n  modl check .\n\nOf a folder all `.mod` files \
+        below it are taken, hidden ones and links left out; the folder is then the\nproject."
+    )]
     Check {
-        /// The programs; `-` reads standard input
+        /// Programs and folders; `-` reads standard input
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
     },
     /// Run the tests that programs contain, and the examples in their documentation
-    #[command(after_help = "Examples:\n  modl test walkbot.mod\n  modl test *.mod --filter order")]
+    #[command(
+        after_help = "Examples:\n  modl test walkbot.mod\n  modl test *.mod --filter order\n  modl test .\n\nOf a folder all `.mod` files \
+        below it are taken, hidden ones and links left out; the folder is then the\nproject."
+    )]
     Test {
-        /// The programs; `-` reads standard input
+        /// Programs and folders; `-` reads standard input
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
         /// Run only tests whose name contains TEXT

@@ -84,6 +84,9 @@ impl Project {
         }
         let cannot = |e: ReadFault| CallError(format!("the file `{}` {e}", file.display()));
         let path = fs::canonicalize(file).map_err(|e| cannot(e.into()))?;
+        if path.is_dir() {
+            return Err(CallError(format!("`{}` is a folder; name one of its programs", file.display())));
+        }
         let bytes = read_regular(&path, FILE_BYTES_MAX).map_err(cannot)?;
         let own = path.parent().ok_or_else(|| CallError(format!("`{}` is a folder", file.display())))?;
         let shown = root.or(file.parent()).unwrap_or(Path::new(""));

@@ -2,16 +2,13 @@
 
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, STDIN_NAME, system_words};
+use super::folders::{self, Found};
 use super::report::{self, Report};
 use super::terminal::{print, print_error, print_exact};
 use super::{CallError, Ending, output};
 use crate::format::format;
 use crate::source::{Diagnostic, Sources, code};
 use std::path::{Path, PathBuf};
-use std::{fs, io};
-
-/// The greatest depth of folders that are searched.
-const DEPTH_MAX: usize = 64;
 
 /// Runs `modl fmt`; with `check` it writes nothing.
 ///
@@ -19,10 +16,8 @@ const DEPTH_MAX: usize = 64;
 /// A message if a file can't be read or written.
 pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first, so that a wrong call does nothing.
-    let mut programs = Vec::new();
-    for file in files {
-        collect(file, 0, &mut programs)?;
-    }
+    let programs =
+        folders::programs(files)?.into_iter().map(read).collect::<Result<Vec<Program>, CallError>>()?;
     let mut report = Report::default();
     report.written = Some(Vec::new());
     let mut ok = true;
@@ -41,41 +36,16 @@ struct Program {
     bytes: Vec<u8>,
 }
 
-/// Collects the programs of a file or folder, by path.
+/// Reads a program.
 ///
 /// # Errors
-/// A message if one can't be read.
-fn collect(file: &Path, depth: usize, programs: &mut Vec<Program>) -> Result<(), CallError> {
-    if file == Path::new("-") {
-        let bytes = disk::read(file, FILE_BYTES_MAX)?;
-        programs.push(Program { file: None, name: STDIN_NAME.to_owned(), bytes });
-        return Ok(());
-    }
-    let name = file.to_string_lossy().into_owned();
-    if file.is_dir() {
-        let cannot =
-            |e: io::Error| CallError(format!("the folder `{name}` can't be read: {}", system_words(&e)));
-        let entries = fs::read_dir(file).map_err(cannot)?;
-        let mut paths =
-            entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(cannot)?;
-        paths.sort();
-        for path in paths.iter().filter(|path| depth < DEPTH_MAX && belongs(path)) {
-            collect(path, depth + 1, programs)?;
-        }
-        return Ok(());
-    }
-    let bytes = disk::read(file, FILE_BYTES_MAX)?;
-    programs.push(Program { file: Some(file.to_owned()), name, bytes });
-    Ok(())
-}
-
-/// Returns true if a path in a folder is searched: programs, and folders that are neither hidden nor links.
-fn belongs(path: &Path) -> bool {
-    let hidden = path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-    let kind = fs::symlink_metadata(path).map(|found| found.file_type());
-    let is_folder = kind.as_ref().is_ok_and(fs::FileType::is_dir);
-    let is_program = kind.is_ok_and(|kind| kind.is_file()) && path.extension().is_some_and(|e| e == "mod");
-    !hidden && (is_folder || is_program)
+/// A message if it can't be read.
+fn read(found: Found) -> Result<Program, CallError> {
+    let bytes = disk::read(&found.file, FILE_BYTES_MAX)?;
+    Ok(match found.file == Path::new("-") {
+        true => Program { file: None, name: STDIN_NAME.to_owned(), bytes },
+        false => Program { name: found.file.to_string_lossy().into_owned(), file: Some(found.file), bytes },
+    })
 }
 
 /// Formats a program, or checks its style. Returns true if it is readable and (with `check`) in style.

@@ -11,6 +11,7 @@ mod editor;
 mod examples;
 mod explain;
 mod fmt;
+mod folders;
 mod judge;
 mod new;
 mod output;
@@ -23,7 +24,9 @@ mod terminal;
 mod verdict;
 mod watch;
 
+use crate::source::suggest::suggest;
 use arguments::{Arguments, Command};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 use std::io::Write;
 use std::process::ExitCode;
@@ -64,10 +67,32 @@ pub fn main() -> ExitCode {
 /// touched cost nothing.
 const STACK_BYTES: usize = 32 << 20;
 
+/// Returns the message for a command that does not exist.
+fn unknown_command(told: &clap::Error) -> String {
+    let Some(ContextValue::String(word)) = told.get(ContextKind::InvalidSubcommand) else {
+        return "there is no such command; `modl --help` lists them".to_owned();
+    };
+    let commands = Arguments::command();
+    let names: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
+    let what = if word.ends_with(".mod") {
+        format!("`modl run {word}` runs a program")
+    } else {
+        match suggest(word, names) {
+            Some(near) => format!("did you mean `modl {near}`?"),
+            None => "`modl --help` lists the commands".to_owned(),
+        }
+    };
+    format!("there is no command `{word}`; {what}")
+}
+
 /// Carries out the command line.
 fn command() -> ExitCode {
     let code = match Arguments::try_parse() {
         Ok(arguments) => carry_out(&arguments),
+        Err(told) if told.kind() == ErrorKind::InvalidSubcommand => {
+            terminal::print_error(&format!("modl: {}\n", unknown_command(&told)));
+            2
+        }
         // Help and version come this way, too.
         Err(told) => {
             terminal::note_output(told.print().and_then(|()| std::io::stdout().flush()));

@@ -2,6 +2,7 @@
 
 use super::arguments::Globals;
 use super::disk::{Project, STDIN_NAME};
+use super::folders::{self, Found};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::watch::Watched;
@@ -77,8 +78,16 @@ fn run_all(
     globals: &Globals,
     watched: Option<&Arc<Watched>>,
 ) -> Result<(Ending, Vec<String>), CallError> {
-    let open = |file: &PathBuf| {
-        let mut project = Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref())?;
+    let files = match task {
+        Task::Check | Task::Test(_) => folders::programs(files)?,
+        Task::Run | Task::Show => {
+            files.iter().map(|file| Found { file: file.clone(), folder: None }).collect()
+        }
+    };
+    let open = |found: &Found| {
+        // Of a folder, all of it is the project.
+        let root = globals.root.as_deref().or(found.folder.as_deref());
+        let mut project = Project::open(&found.file, root, globals.stdlib.as_deref())?;
         project.watched = watched.cloned();
         Ok(project)
     };
@@ -88,7 +97,7 @@ fn run_all(
     let mut tally = Tally::default();
     let mut terminal = Terminal::new(globals);
     terminal.watched = watched.cloned();
-    for (file, project) in files.iter().zip(&projects) {
+    for (Found { file, .. }, project) in files.iter().zip(&projects) {
         if files.len() > 1 && matches!(task, Task::Test(_)) && !globals.json {
             print(&format!("{}:\n", file.display()));
         }
@@ -96,9 +105,16 @@ fn run_all(
     }
     tally.report.printed = terminal.printed.take().filter(|_| !matches!(task, Task::Check));
     if matches!(task, Task::Test(_)) && !globals.json {
-        print(&format!("{} passed, {} failed\n", tally.passed, tally.failed));
+        let programs = match files.len() {
+            1 => String::new(),
+            many => format!(" in {many} programs"),
+        };
+        print(&format!("{} passed, {} failed{programs}\n", tally.passed, tally.failed));
     }
     let ok = tally.report.errors == 0 && tally.failed == 0 && !tally.cancelled;
+    if files.iter().any(|found| found.folder.is_some()) && matches!(task, Task::Check) {
+        tally.report.programs = Some(files.len());
+    }
     tally.report.finish(ok, globals);
     let ending = match (ok, tally.cancelled) {
         (_, true) => Ending::Cancelled,

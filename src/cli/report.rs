@@ -42,6 +42,9 @@ pub(super) struct Report {
     /// The verdicts on plan files; `None` for commands that judge none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
+    /// The number of programs of folders that were checked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub programs: Option<usize>,
     #[serde(skip)]
     seen: HashSet<String>,
 }
@@ -126,11 +129,15 @@ impl Report {
         if globals.json {
             let text = serde_json::to_string_pretty(self).expect("a report is plain data");
             print_json(&text);
-        } else if self.errors + self.warnings > 0 {
-            let parts =
-                [(self.errors, "error"), (self.warnings, "warning")].map(|(n, word)| counted(n, word));
-            let parts: Vec<String> = parts.into_iter().flatten().collect();
-            print_error(&format!("{}\n", parts.join(", ")));
+            return;
+        }
+        let parts = [(self.errors, "error"), (self.warnings, "warning")].map(|(n, word)| counted(n, word));
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        let found = if parts.is_empty() { "nothing is wrong".to_owned() } else { parts.join(", ") };
+        match self.programs.and_then(|n| counted(n, "program")) {
+            Some(programs) => print_error(&format!("{programs}: {found}\n")),
+            None if parts.is_empty() => {}
+            None => print_error(&format!("{found}\n")),
         }
     }
 }

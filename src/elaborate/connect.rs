@@ -116,16 +116,22 @@ impl Interpreter<'_> {
             .label(a, format!("{} {this}", article(this)))
             .label(b, format!("{} {that}", article(that)));
         for (to, wanted) in [(q, x), (p, y)] {
+            let mates: Vec<String> = (wanted.mates.iter())
+                .map(|&mate| self.shared.program.def(mate).name)
+                .map(|name| format!("{} {name}", article(name.as_str())))
+                .collect();
+            let name = &wanted.connector.name;
+            let module = to.robot.module_name(to.module);
             let free = self.mating_ports(config, to, wanted);
-            if !free.is_empty() {
-                let module = to.robot.module_name(to.module);
-                let names = shorten(&free);
-                diagnostic = diagnostic.hint(format!(
-                    "free ports of {module} that would mate with {} {}: {names}",
-                    article(&wanted.connector.name),
-                    wanted.connector.name
-                ));
-            }
+            let ports = match free.is_empty() {
+                true => format!("{module} has no free port with one"),
+                false => format!("free ports of {module} that have one: {}", shorten(&free)),
+            };
+            diagnostic = diagnostic.hint(format!(
+                "{} {name} mates with {}; {ports}",
+                article(name),
+                mates.join(" or ")
+            ));
         }
         diagnostic.into()
     }

@@ -231,6 +231,12 @@ pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], sp
         }
         None => diagnostic,
     };
+    let diagnostic = match refusal.reason {
+        Reason::StillTurning { .. } => {
+            diagnostic.hint("say how long, `for: 5s`, or end with a command that stops the joint")
+        }
+        _ => diagnostic,
+    };
     add_label(diagnostic, span, "planned here".to_string()).into()
 }
 

@@ -15,6 +15,12 @@ pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }
 
+/// Returns what a unit that modl does not have is in one that it has, such as `an inch is 25.4mm`; `None` if the
+/// name is not known.
+pub(crate) fn measure(name: &str) -> Option<&'static str> {
+    MEASURES.iter().find(|(names, _)| names.contains(&name)).map(|(_, measure)| *measure)
+}
+
 /// Returns the present name of a renamed parameter or field `word` of the function or record `of`; `None` if it
 /// was not renamed.
 pub(crate) fn renamed(of: &str, word: &str) -> Option<&'static str> {
@@ -109,4 +115,34 @@ const UNITS: &[(&[&str], &str)] = &[
     (&["Nm"], "N*m"),
     (&["joule", "joules"], "J"),
     (&["hz"], "Hz"),
+    (&["RPM"], "rpm"),
+    (&["rps"], "turn/s"),
+    (&["dps"], "deg/s"),
+    (&["kph", "kmh", "kmph"], "km/h"),
+    (&["mps"], "m/s"),
+    (&["watt", "watts"], "W"),
+];
+
+/// Units that modl does not have, in those that it has (BIPM, The International System of Units, 9th edition, and
+/// NIST Special Publication 811, appendix B).
+const MEASURES: &[(&[&str], &str)] = &[
+    (&["inch", "inches", "in"], "an inch is `25.4mm`"),
+    (&["ft", "foot", "feet"], "a foot is `0.3048m`"),
+    (&["yd", "yard", "yards"], "a yard is `0.9144m`"),
+    (&["mile", "miles"], "a mile is `1609.344m`"),
+    (&["mph"], "a mile per hour is `0.44704m/s`"),
+    (&["lb", "lbs", "pound", "pounds"], "a pound is `0.45359237kg`"),
+    (&["oz", "ounce", "ounces"], "an ounce is `28.349523125g`"),
+    (&["t", "ton", "tons", "tonne", "tonnes"], "a tonne is `1000kg`"),
+    (&["lbf"], "a pound-force is `4.4482216152605N`"),
+    (&["kgf"], "a kilogram-force is `9.80665N`"),
+    (&["Nmm"], "a newton millimetre is `1N*mm`"),
+    (&["hp"], "a horsepower is `745.7W`"),
+    (&["kW"], "a kilowatt is `1000W`"),
+    (&["mW"], "a milliwatt is `0.001W`"),
+    (&["kHz"], "a kilohertz is `1000Hz`"),
+    (&["kJ"], "a kilojoule is `1000J`"),
+    (&["Wh"], "a watt-hour is `3600J`"),
+    (&["ns"], "a nanosecond is `0.001us`"),
+    (&["percent", "pct"], "a percent is `0.01`"),
 ];

@@ -434,6 +434,9 @@ impl Mistake<'_> {
             wanted => format!("{} is missing before {before}", listed_or(wanted)),
         };
         let diagnostic = Diagnostic::error(code::SYNTAX, message).label(span, "");
+        if let Some(measure) = foreign::measure(self.found()).filter(|_| unit) {
+            return diagnostic.hint(measure);
+        }
         if unit {
             let unit = foreign::unit(self.found()).unwrap_or(self.found());
             return diagnostic.hint(format!("a unit sticks to its number: `{}{unit}`", self.before()));

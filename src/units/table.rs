@@ -31,6 +31,7 @@ pub const UNITS: &[Unit] = &[
     u("rad", Dimension::ANGLE, 1.0),
     u("deg", Dimension::ANGLE, std::f64::consts::PI / 180.0),
     u("turn", Dimension::ANGLE, std::f64::consts::TAU),
+    u("rpm", Dimension::ANGULAR_SPEED, std::f64::consts::TAU / 60.0),
     u("us", Dimension::TIME, 1e-6),
     u("ms", Dimension::TIME, 1e-3),
     u("s", Dimension::TIME, 1.0),

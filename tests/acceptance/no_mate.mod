@@ -9,5 +9,5 @@ module Block {
 }
 config Two { part x: Block  part y: Block
   connect x.a -- y.a
-//        ^^^    ^^^ a Plug does not mate with a Plug; free ports of y that would: b
+//        ^^^    ^^^ a Plug does not mate with a Plug; free ports of y that have one: b
 }

@@ -80,11 +80,13 @@ const FINE: &[u8] = b"let a = 1\n";
 fn a_wrong_call_ends_with_2_and_says_why() {
     let s = Sandbox::new(&[("a.mod", FINE), ("sub/b.mod", FINE)]);
     for (arguments, words) in [
-        (&["frobnicate"][..], "frobnicate"),
+        (&["frobnicate"][..], "no command `frobnicate`; `modl --help` lists the commands"),
+        (&["rnu", "a.mod"], "no command `rnu`; did you mean `modl run`?"),
+        (&["a.mod"], "no command `a.mod`; `modl run a.mod` runs a program"),
         (&["check"], "FILE"),
         (&["check", "nothing.mod"], "`nothing.mod` does not exist"),
         (&["check", "a.mod", "nothing.mod"], "`nothing.mod` does not exist"),
-        (&["check", "sub"], "no regular file"),
+        (&["run", "sub"], "`sub` is a folder; name one of its programs"),
         (&["check", "a.mod", "--root", "sub"], "outside the project"),
         (&["check", "a.mod", "--root", "a.mod"], "no folder"),
         (&["check", "a.mod", "--stdlib", "nowhere"], "`nowhere` does not exist"),

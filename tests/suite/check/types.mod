@@ -14,7 +14,29 @@ let n: Number = 30deg
 
 --- a plain number is no angle
 print(sin(0.5))
-//        ^^^ E0201 `x` wants an angle (deg); `0.5` is a number | `0.5deg`
+//        ^^^ E0201 `x` wants an angle (deg); `0.5` is a number | in radians? `0.5rad`
+print(sin(1.57), sin(90), sin(2))
+//        ^^^^ E0201 `1.57` is a number | in radians? `1.57rad`
+//                   ^^ E0201 `90` is a number | in degrees? `90deg`
+//                            ^ E0201 `2` is a number | in radians it is `2rad`, in degrees `2deg`
+print(90deg + 1.57, 90deg + 45)
+//          ^ E0201 an angle and a number do not go together in `+` | in radians? `1.57rad`
+//                        ^ E0201 a whole number | `45deg`
+let turned = 1.57
+print(cos(turned))
+//        ^^^^^^ E0201 in radians it is `turned * 1rad`, in degrees `turned * 1deg`
+
+--- revolutions per minute
+print(60rpm == 1turn / 1s, 5rpm < 1rad/s)
+
+--- units that are others here
+let a = 3inch
+//       ^^^^ E0203 `inch` is no unit | an inch is `25.4mm`
+let b = 3in
+//       ^^ E0203 `in` is no unit | an inch is `25.4mm`
+let c = 2lb + 3000RPM
+//       ^^ E0203 a pound is `0.45359237kg`
+//                ^^^ E0203 write `rpm`
 
 --- radians are dropped from products, and never invented
 let v: Speed = 2rad/s * 45mm
@@ -258,3 +280,70 @@ let walk = locomote(P, path: [[3m, 0m, 0m]], ladder: false)
 //                                           ^^^^^^ E0205 no parameter `ladder` | now called `fallbacks`
 print(locomote(P, path: [[3m, 0m, 0m]]).eased)
 //                                      ^^^^^ E0107 now called `relaxed_steps`
+
+--- a module, cell, strut or connector of the library that is not imported
+config A { part m: Smores }
+//                 ^^^^^^ E0209 `Smores` is not known here | the library has it: `use std.smores.Smores`
+lattice L of ExpandingCube = row(3)
+//           ^^^^^^^^^^^^^ E0209 `use std.crystal.ExpandingCube`
+truss T of PneumaticReel = octet(edge: 4m, divisions: 4)
+//         ^^^^^^^^^^^^^ E0209 `use std.truss.PneumaticReel`
+module M { mass 1kg  link a = box(1cm, 1cm, 1cm)
+  port x: EPFace on a at [5mm, 0mm, 0mm] facing +X up +Z
+//        ^^^^^^ E0101 `EPFace` is not known here | `use std.smores.EPFace`
+}
+
+--- lists that are no vectors
+fn f(v: Vec3<Length>) -> Length = v.x
+fn g(path: List<Vec3<Length>>) -> Int = len(path)
+let two = [1m, 2m]
+let three = [1m, 2m, 3m]
+let path = [[2m, 1m, 0m], [3m, 1m, 0m]]
+let flat = [[2m, 1m], [3m, 1m]]
+print(f([1m, 2m]), f(two), f(three), f([i * 1m for i in 0..3]))
+//      ^^^^^^^^ E0202 wants a `Vec3<Length>`; `[1m, 2m]` | three coordinates, `[x, y, z]`; here are 2
+//                   ^^^ E0202 three coordinates, `[x, y, z]`; here are 2
+//                           ^^^^^ E0202 say so where it is declared: `let three: Vec3<Length> = ...`
+//                                     ^^^^^^^^^^^^^^^^^^^^^^ E0202 a vector where one is expected: `[x, y, z]`
+print(g(path), g(flat), g([[1m]]))
+//      ^^^^ E0202 say so where it is declared: `let path: List<Vec3<Length>> = ...`
+//               ^^^^ E0202 here are 2
+//                         ^^^^ E0202 here is 1
+fn inside() -> Int = {
+  let way = [[0m, 0m, 0m]]
+  g(way)
+//  ^^^ E0202 `let way: List<Vec3<Length>> = ...`
+}
+let told: List<Vec3<Length>> = [[2m, 1m, 0m]]
+print(g(told))
+
+--- a joint for a port, and a port for a joint
+use std.smores.{Smores, Chain3}
+let m = Smores()
+fn at(p: Port) -> Pose = pose(p)
+fn turned(j: Joint<Angle>) -> Int = 1
+print(at(m.tilt), at(m), at(Chain3()))
+//       ^^^^^^ E0202 wants a `Port` | the ports of `Smores` are `top`, `bottom`, `left` and `right`
+//                   ^ E0202 the ports of `Smores` are
+//                          ^^^^^^^^ E0202 the ports of `Chain3` are `head` and `tail`
+print(turned(m.top))
+//           ^^^^^ E0202 the joints of `Smores` are `tilt`, `front`, `left` and `right`
+print(move(m, to: 30deg).duration)
+//         ^ E0202 the joints of `Smores` are
+config C { part a: Smores  part b: Smores
+  connect a.tilt -- b.top
+//        ^^^^^^ E0202 `connect` wants a `Port` | the ports of `Smores` are
+}
+
+--- a misspelt call beside a misspelt keyword
+fn f(a: Int) -> Int = cuont([a])
+//                    ^^^^^ E0101 `cuont` is not known here | `count`?
+tset "one" { expect f(1) == 1 }
+//<1-4 E0001 `tset` does not begin an item of a file | `test`?
+use std.smores.Smores
+config A { part m: Smores
+  behvior nod = moev(m.tilt, to: 30deg)
+//^^^^^^^ E0001 `behvior` does not begin a clause of a configuration | `behavior`?
+//              ^^^^ E0101 `moev` is not known here | `move`?
+}
+print(A().nod().duration)

@@ -79,3 +79,23 @@ config Stiff { part m[2]: Smores
 use std.crystal.ExpandingCube
 lattice A of ExpandingCube = cells("##\n#x#")
 //                                       ^ E0313 `x` is no cell
+
+--- what mates with a connector, and which ports have one
+connector Plug { mates Socket, turns 1 }
+connector Socket { mates Plug, turns 1 }
+module Block {
+  mass 100g
+  link body = box(40mm, 40mm, 40mm)
+  port a: Plug on body at [20mm, 0mm, 0mm] facing +X up +Z
+  port b: Socket on body at [-20mm, 0mm, 0mm] facing -X up +Z
+}
+module End {
+  mass 100g
+  link body = box(40mm, 40mm, 40mm)
+  port only: Plug on body at [20mm, 0mm, 0mm] facing +X up +Z
+}
+config Two { part x: Block  part y: End
+  connect x.a -- y.only
+//        ^^^ E0302 a Plug does not mate with a Plug | a Plug mates with a Socket; free ports of x that have one: b | y has no free port with one
+//               ~~~~~~ a Plug
+}

@@ -15,7 +15,7 @@ print((plan(c.up()) ++ c.down()).duration, reverse(plan(c.up())).end.angle(c.m.t
 use std.smores.Smores
 config C { part m: Smores
   behavior b = spin(m.left, 1rad/s)
-//             ^^^^^^^^^^^^^^^^^^^^ E0407 still turns
+//             ^^^^^^^^^^^^^^^^^^^^ E0407 still turns at 1 per second | `for: 5s`
 }
 print(plan(C().b()).duration)
 //    ~~~~~~~~~~~~~ planned here
