@@ -64,7 +64,7 @@ fn collect(root: &Path, folder: &Path, depth: usize, found: &mut Vec<Found>) -> 
     Ok(())
 }
 
-/// What a path in a folder is to the search.
+/// A path in a folder that the search goes on with.
 enum Kind {
     Folder,
     Program,

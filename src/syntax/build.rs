@@ -18,7 +18,7 @@ pub(super) struct Builder<'t> {
     pub(super) comments: &'t [Comment],
     /// The offset in the whole text of the piece being built.
     pub(super) base: usize,
-    /// By how much the first word of the piece is longer than the misspelt one in the file.
+    /// The bytes by which the first word of the piece is longer than the misspelt one in the file.
     pub(super) longer: usize,
     /// The start of all spans.
     pub(super) least: usize,

@@ -351,7 +351,7 @@ impl<'t> Scanner<'t> {
         if open.is_empty() {
             return;
         }
-        // Why these are open is told at the end.
+        // The end of the scan tells why these are open.
         let swallowed = |at: &usize| self.swallowed.iter().any(|(open, _)| open == at);
         let spans: Vec<(char, Span)> = open
             .iter()
