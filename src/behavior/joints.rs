@@ -22,7 +22,7 @@ pub(super) struct JointFacts {
     pub(super) acceleration: Option<f64>,
 }
 
-/// The reason why a joint takes no commands.
+/// The reason why a joint can't be commanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uncommandable {
     /// The joint has no motor.
@@ -84,7 +84,8 @@ fn with_motors(kind: &ModuleType, joint: usize) -> Limits {
     limits
 }
 
-/// Returns the lesser of a joint's own limit and that of a motor which turns `factor` times as fast as the joint.
+/// Returns the lesser of a joint's own limit and that of a motor which turns `factor` times as fast as the joint;
+/// `None` if neither has one.
 fn tighter(own: Option<f64>, motor: Option<f64>, factor: f64) -> Option<f64> {
     let motor = motor.map(|limit| limit / factor.abs());
     match (own, motor) {

@@ -80,7 +80,7 @@ pub enum IssueKind {
     NoCommands {
         /// The path name of the joint.
         joint: String,
-        /// The reason.
+        /// The reason why it takes none.
         why: Uncommandable,
     },
     /// The connectors of the ports to dock do not mate, or both ports are of one module.
@@ -123,12 +123,14 @@ struct Judge<'a> {
 impl<'a> Judge<'a> {
     /// Checks timeout, condition and command.
     fn action(&mut self) {
+        // The action's timeout and condition.
         if let Some(timeout) = self.action.timeout {
             self.at_least_zero(Part::Timeout, timeout);
         }
         if self.action.until.as_ref().is_some_and(|c| condition::depth(c) > condition::DEPTH_MAX) {
             self.report(Part::Until, IssueKind::BadNumber { value: condition::DEPTH_MAX as f64 });
         }
+        // The arguments of its command.
         match &self.action.command {
             Command::Move { joint, target, duration, profile } => {
                 self.joint(*joint);

@@ -9,7 +9,7 @@ use crate::units::{Dimension, quantity};
 pub struct Refusal {
     /// The cause of the action to blame; `None` if the behaviour as a whole is.
     pub cause: Option<CauseId>,
-    /// The reason.
+    /// The reason of the refusal.
     pub reason: Reason,
 }
 
@@ -20,7 +20,7 @@ pub enum Reason {
     NoCommands {
         /// The path name of the joint.
         joint: String,
-        /// The reason.
+        /// The reason why it takes none.
         why: Uncommandable,
     },
     /// No limit bounds the least duration of the move, so the action needs a stated one.

@@ -89,7 +89,7 @@ struct Active<'a> {
     began: f64,
     /// The generation of the slot: events of earlier ones are dropped.
     generation: u64,
-    /// The joint to hold if the action ends before its motion.
+    /// The joint to hold if the action ends before its motion, with the cause; `None` if there is none.
     holds: Option<(JointId, CauseId)>,
 }
 

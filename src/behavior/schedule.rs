@@ -68,7 +68,7 @@ impl Default for Settings {
     }
 }
 
-/// The undisturbed run of a behaviour.
+/// The undisturbed run of a behaviour, as [`schedule`] records it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheduled {
     /// The motion of every joint, and docking.

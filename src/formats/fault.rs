@@ -37,7 +37,7 @@ pub enum FormatFault {
     NoSuchVertex,
     /// The first word of an OFF file is none of the format's.
     NotOff {
-        /// The line.
+        /// The number of the line.
         line: usize,
         /// The word that stands there.
         found: String,
@@ -51,14 +51,14 @@ pub enum FormatFault {
     NoCounts,
     /// The number of vertices or of faces of an OFF file is missing.
     NoCount {
-        /// The line.
+        /// The number of the line.
         line: usize,
         /// The things counted: vertices, faces.
         what: &'static str,
     },
     /// The number of vertices or of faces of an OFF file is no whole number.
     BadCount {
-        /// The line.
+        /// The number of the line.
         line: usize,
         /// The things counted: vertices, faces.
         what: &'static str,
@@ -76,19 +76,19 @@ pub enum FormatFault {
     },
     /// A line of an OFF or STL file does not hold the vertex or face that has to stand there.
     BadLine {
-        /// The line.
+        /// The number of the line.
         line: usize,
         /// The thing wanted: a vertex, a face.
         what: &'static str,
     },
     /// A line of an XYZ file does not begin with three numbers.
     NotThreeNumbers {
-        /// The line.
+        /// The number of the line.
         line: usize,
     },
     /// A line of an OBJ file is not UTF-8.
     LineNotText {
-        /// The line.
+        /// The number of the line.
         line: usize,
     },
     /// The length of an STL file is not that of its number of binary triangles, and it is no text.

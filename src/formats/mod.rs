@@ -21,7 +21,7 @@ pub use content::{Content, triangles};
 pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
 
-/// A file format.
+/// A file format of meshes or point clouds, with its reader.
 #[derive(Clone, Copy)]
 pub struct Format {
     /// The end of the names of its files, after the dot, in lower case.
@@ -31,7 +31,7 @@ pub struct Format {
     read: fn(&[u8]) -> Result<Content, FormatFault>,
 }
 
-/// The formats of meshes.
+/// The formats of meshes that can be read.
 pub const MESH_FORMATS: &[Format] = &[
     Format { ending: "stl", name: "STL", read: stl::read },
     Format { ending: "obj", name: "OBJ", read: obj::read },
@@ -39,13 +39,13 @@ pub const MESH_FORMATS: &[Format] = &[
     Format { ending: "ply", name: "PLY", read: ply::read },
 ];
 
-/// The formats of point clouds.
+/// The formats of point clouds that can be read.
 pub const CLOUD_FORMATS: &[Format] = &[
     Format { ending: "ply", name: "PLY", read: ply::read },
     Format { ending: "xyz", name: "XYZ", read: xyz::read },
 ];
 
-/// A format in which data of one kind is exported.
+/// A file format in which data of one kind is exported, with its writer.
 pub struct ExportFormat<T> {
     /// The end of the names of its files, after the dot, in lower case.
     pub ending: &'static str,

@@ -18,6 +18,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("")));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
+    // The first word, and the counts on its line or the next.
     let Some(&(number, first)) = lines.peek() else { return Err(FormatFault::Empty) };
     let mut words = first.split_whitespace();
     let kind = words.next().unwrap_or("");
@@ -42,6 +43,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     };
     let (vertices, faces) = (count("vertices")?, count("faces")?);
     let mut read = Content::default();
+    // One line for each vertex, then one for each face.
     for _ in 0..vertices {
         let (number, line) =
             lines.next().ok_or_else(|| missing("vertices", read.vertices.len(), vertices))?;

@@ -35,7 +35,7 @@ pub struct Solution<R> {
 /// An observer of a search: it receives reports of progress and may end the search early, for instance
 /// at a time limit.
 ///
-/// An observer never changes what is computed but by ending it: a planner that is asked to stop returns the
+/// An observer changes a result only by ending the search: a planner that is asked to stop returns the
 /// best solution so far, or its refusal for an exhausted limit if there is none. To unwind without any
 /// result, see [`interrupt::checkpoint`].
 pub trait Progress {

@@ -18,10 +18,12 @@ const CLEARANCES: usize = 160;
 /// Returns the data of a plan as the page's scripts read it.
 pub(super) fn data(input: &RenderInput) -> Value {
     let plan = input.plan;
+    // The judge's rollout up to the end of playing.
     let end = findings::end(plan);
     let moments = history(plan, end);
     let mut meshes = Meshes::default();
     let mut notes = Vec::new();
+    // The motion, by the family of the plan.
     let body = match &plan.body {
         Body::Tracks(tracks) => {
             let base = ground_pose::base(&moments, &tracks.start.base);

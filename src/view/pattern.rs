@@ -43,7 +43,7 @@ struct Cut {
     ends: Edge,
     /// The centre of its panel.
     inside: Point,
-    /// The number of the letter that it shares with the edge it coincides with in the end.
+    /// The number of the letter that it shares with the edge it coincides with in the end; `None` without such an edge.
     meets: Option<usize>,
 }
 
@@ -198,6 +198,7 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
         .first()
         .map_or(10.0, |p| libm::hypot(p.corners[1][0] - p.corners[0][0], p.corners[1][1] - p.corners[0][1]));
     let (text, pen) = (size * 0.075, size * 0.008);
+    // Panels, cuts and folds, each in a layer.
     drawing.layer("panels", |layer| {
         for panel in panels {
             layer.polygon(&panel.corners, "fill=\"#f3efe4\"");
@@ -215,6 +216,7 @@ fn drawn(input: &RenderInput, panels: &[Panel], folds: &[Fold], cuts: &[Cut]) ->
             own.for_each(|fold| layer.line(fold.ends[0], fold.ends[1], &look));
         });
     }
+    // Numbers of panels, orders and angles of folds, and letters of cuts that meet.
     drawing.layer("numbers", |layer| {
         for (number, panel) in panels.iter().enumerate() {
             layer.words(centre(&panel.corners), text * 1.5, SOFT, &number.to_string());

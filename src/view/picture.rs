@@ -64,7 +64,7 @@ impl Side {
 pub struct StillOptions {
     /// The time of the picture in seconds; clamped to the part that is played, from 0 to the first failure or the end.
     pub time: f64,
-    /// The viewpoint.
+    /// The viewpoint of the camera.
     pub side: Side,
     /// The width in pixels.
     pub width: usize,

@@ -207,6 +207,7 @@ fn draw(drawing: &mut Drawing, placed: &LaidOut, at: [f64; 2]) {
             drawing.words([at[0] + w / 2.0, middle], SIZE, INK, words);
         }
         Piece::Row(pieces) => {
+            // A line leads from each piece to the next.
             for (i, piece) in pieces.iter().enumerate() {
                 let from = inside(piece);
                 if i > 0 {
@@ -219,6 +220,7 @@ fn draw(drawing: &mut Drawing, placed: &LaidOut, at: [f64; 2]) {
             let (left, right) = (at[0], at[0] + w);
             let middles: Vec<f64> = pieces.iter().map(|p| inside(p)[1] + p.size[1] / 2.0).collect();
             let (top, bottom) = (middles.first().unwrap_or(&middle), middles.last().unwrap_or(&middle));
+            // A bar on either side, with a line to each branch.
             for x in [left, right] {
                 drawing.line([x, *top], [x, *bottom], &format!("stroke=\"{INK}\" stroke-width=\"2.5\""));
             }

@@ -123,6 +123,7 @@ impl Canvas {
         if area == 0.0 || !area.is_finite() {
             return;
         }
+        // The pixels of the bounding box within the picture.
         let range = |low: f64, high: f64, size: usize| {
             (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(size))
         };
@@ -135,6 +136,7 @@ impl Canvas {
         for y in y0..y1 {
             for x in x0..x1 {
                 let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
+                // Barycentric coordinates, from the edge functions.
                 let u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
                 let v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
                 let w = 1.0 - u - v;
@@ -145,6 +147,7 @@ impl Canvas {
                 let at = y * self.width + x;
                 if depth as f32 > self.depths[at] {
                     self.depths[at] = depth as f32;
+                    // Perspective-correct interpolation.
                     let weights = match parallel {
                         true => [u, v, w],
                         false => [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth],

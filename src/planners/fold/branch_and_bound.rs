@@ -1,18 +1,17 @@
 //! Branch and bound for the layout (rooted spanning tree of the faces) of least energy.
 //!
-//! The bound of a node is the sum of shortest paths ([`shortest_paths`]) over the arcs
-//! that the node allows. If the paths form a tree, it is the node's best layout. Else the bound is raised by
-//! Lagrangian relaxation ([`lagrangian`]), and the node is branched on the face into which the paths disagree
-//! the most: it is entered across one side in each child, so the children are disjoint and complete. If
-//! patterns may not overlap, a tree whose pattern overlaps is branched along the path between two overlapping
-//! faces: any layout with all arcs of the path overlaps, so child k keeps the first k arcs and leaves out the
-//! next.
+//! The bound of a node is the sum of shortest paths ([`shortest_paths`]) over the arcs that the node allows. If the
+//! paths form a tree, it is the node's best layout. Else the bound is raised by Lagrangian relaxation
+//! ([`lagrangian`]), and the node is branched on the face into which the paths disagree the most: it is entered across
+//! one side in each child, so the children are disjoint and complete. If patterns may not overlap, a tree whose
+//! pattern overlaps is branched along the path between two overlapping faces: any layout with all arcs of the path
+//! overlaps, so child k keeps the first k arcs and leaves out the next.
 //!
-//! All roots share one queue, in which the node of least bound comes first (best-first search), so that the
-//! gap at the end of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
+//! All roots share one queue, in which the node of least bound comes first (best-first search), so that the gap at the
+//! end of a budget is as small as it can be. Roots that are equal by symmetry are searched once.
 //!
-//! Costs are perturbed by a tiny addition for every hinge, since symmetric targets with their ties would not
-//! end. The proof holds up to the sum of the additions, `TOLERANCES.perturbation` of the energy.
+//! Costs are perturbed by a tiny addition for every hinge, since symmetric targets with their ties would not end. The
+//! proof holds up to the sum of the additions, `TOLERANCES.perturbation` of the energy.
 
 use super::edge_exchange;
 use super::lagrangian::{self, AscentLimits, Lagrangian};
@@ -47,17 +46,16 @@ const LENGTH_MIN: f64 = 0.01;
 /// The remaining budget divided by this is the budget of one tabu search for a layout that lies flat.
 const FLAT_BUDGET_SHARE: u64 = 4;
 
-/// The options of a search for the optimum.
+/// The options of branch and bound for the layout of least energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root of the layout, a face of the target; `None`: the best of all roots.
+    /// The root of the layout, which must be a face; `None`: the best of all roots.
     pub root: Option<usize>,
     /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
     /// The greatest number of hinges on a path from the root; `None`: any number.
     pub height: Option<usize>,
-    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes. The search also ends
-    /// when its open nodes fill 512 MiB.
+    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes.
     pub budget: u64,
     /// The seed of the perturbations, which choose among layouts that tie.
     pub seed: u64,
@@ -74,19 +72,18 @@ impl Default for Settings {
 pub enum Proof {
     /// The bound is below the energy by less than `TOLERANCES.proof` of it.
     Optimal,
-    /// The search ended before that: the bound is farther below the energy.
+    /// The search ended before that, by its budget, by 512 MiB of open nodes, or by the caller.
     Open,
 }
 
-/// The result of a search.
+/// The result of branch and bound: the best layout, with a lower bound for all.
 #[derive(Clone, Debug)]
 pub struct Optimum {
     /// The best layout found that fits the settings and was not refused, rooted at its root.
     pub layout: Layout,
     /// Its energy, N·m for steps of one second.
     pub energy: f64,
-    /// A lower bound on the energy of all layouts that fit the settings and were not refused, N·m for steps of one
-    /// second; at least 0.
+    /// A lower bound on the energy of all such layouts, N·m for steps of one second; at least 0.
     pub bound: f64,
     /// The strength of the proof.
     pub proof: Proof,
@@ -105,11 +102,10 @@ pub enum NoLayout {
     Budget,
 }
 
-/// The caller's decision about a layout that might be the answer.
+/// The caller's decision about a layout that [`optimum_among`] proposes as the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
-    /// The layout may be the answer; the search goes on only for layouts at other roots that tie with it, or are better
-    /// if decisions were not asked in order.
+    /// The layout may be the answer; only layouts that tie with it or are better are proposed after it.
     Accept,
     /// The layout is not the answer; the search goes on to the next best.
     Refuse,
@@ -117,8 +113,7 @@ pub enum Decision {
     Stop,
 }
 
-/// Returns the layout of least energy that fits the settings, as far as the budget reaches. Panics if the settings name
-/// a root that is no face.
+/// Returns the layout of least energy that fits the settings, as far as the budget reaches.
 ///
 /// # Errors
 /// [`NoLayout`] if no layout lies flat or is low enough, or none was found within the budget.
@@ -128,7 +123,7 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
 
 /// Returns the layout of least energy among those that `accepts` accepts, which is asked about layouts that fit the
 /// settings in order of their energy, up to ties. If the budget ends before one is accepted, it is asked about a last
-/// one, which need not be the next. Panics if the settings name a root that is no face.
+/// one, which need not be the next.
 ///
 /// # Errors
 /// [`NoLayout`] if every layout was refused, or none was accepted within the budget.
@@ -212,7 +207,6 @@ fn perturbed(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weigh
     weights.perturbed(&extra)
 }
 
-/// The state of one search.
 struct Search<'s, 'a, 'o> {
     target: &'s Target,
     weights: &'s Weights,
@@ -243,7 +237,6 @@ struct Search<'s, 'a, 'o> {
     observer: &'s Observer<'o>,
 }
 
-/// The incumbent, with its energy, N·m for steps of one second.
 struct Found {
     layout: Layout,
     energy: f64,
@@ -252,7 +245,7 @@ struct Found {
 /// The computation of bounds.
 struct Bounds<'s> {
     routes: ShortestPaths<'s>,
-    /// The relaxation, made when it is first needed.
+    /// The relaxation; `None` until it is first needed.
     relaxation: Option<Lagrangian<'s>>,
 }
 
@@ -285,7 +278,6 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// Queues a node, unless its bound reaches the cutoff.
     fn push(&mut self, node: Node) {
         if node.bound < self.cutoff(node.root) {
             self.queue_bytes += node.size();
@@ -459,7 +451,7 @@ impl<'s> Search<'s, '_, '_> {
         true
     }
 
-    /// Returns the perturbed energy from which on a layout is no better than what is known.
+    /// Returns the perturbed energy from which on a layout is no better than those known.
     fn cutoff(&self, root: usize) -> f64 {
         let tie = self
             .best

@@ -102,7 +102,8 @@ impl<'t> OrderSearch<'t> {
         steps
     }
 
-    /// Returns true if no sample of these steps shows a collision or a violated limit.
+    /// Returns true if no sample of these steps, each a list of faces whose hinges fold at the same time, shows a
+    /// collision or a violated limit. It does not count as [`samples_left`](Self::samples_left).
     pub fn is_collision_free(&self, steps: &[Vec<usize>]) -> bool {
         let mut folded = vec![false; self.layout.parent.len()];
         steps.iter().all(|step| {

@@ -13,7 +13,7 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// The greatest number of faces: sets of faces are bits of a word.
+/// The greatest number of faces of a target that is enumerated: sets of faces are bits of a word.
 pub const FACES_MAX: usize = 64;
 
 /// The number of faces whose sums are read from a table at a time.
@@ -40,7 +40,7 @@ pub struct Enumeration {
     pub spectrum: Option<Spectrum>,
 }
 
-/// The options of an enumeration.
+/// The options of [`enumerate_energies`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The root, a face of the target; `None`: all roots.
@@ -117,7 +117,7 @@ pub fn enumerate_energies(
     })
 }
 
-/// The extent of an enumeration.
+/// The extent of an enumeration by [`each`].
 #[derive(Clone, Copy, Debug)]
 pub struct Traversal {
     /// The number of layouts visited.
@@ -279,7 +279,7 @@ pub struct Peaks<'t> {
 }
 
 impl<'t> Peaks<'t> {
-    /// Sets up the sums; `None` where the target has more than [`FACES_MAX`] faces.
+    /// Sets up the sums of weights; `None` if the target has more than [`FACES_MAX`] faces.
     pub fn new(target: &'t Target, weights: &Weights) -> Option<Peaks<'t>> {
         let few = target.faces.len() <= FACES_MAX;
         few.then(|| Peaks { sums: Sums::new(target, weights), tree: Tree::new(target) })

@@ -35,7 +35,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
-    /// The reason that the first was refused.
+    /// The reason why the first that was refused was; `None` while none was.
     pub first: Option<Rejection>,
     /// The number of layouts sampled for collisions.
     sampled: usize,
@@ -43,7 +43,7 @@ pub(super) struct Candidates {
     judged: usize,
 }
 
-/// An outcome with what is known of all that it was chosen from.
+/// An outcome with the bound for all layouts that it was chosen from.
 pub(super) struct Chosen {
     pub outcome: Outcome,
     /// The lower bound for all that lies flat and passes the judge: on the peak torque where that is minimised,
@@ -180,7 +180,7 @@ impl Task<'_> {
         Ok(None)
     }
 
-    /// Returns the outcome with the lesser value of two.
+    /// Returns the outcome with the lesser value of two; `None` if there is neither.
     pub(super) fn lesser(&self, a: Option<Outcome>, b: Option<Outcome>) -> Option<Outcome> {
         let value = |outcome: &Outcome| self.value(&outcome.layout, &outcome.steps);
         a.into_iter().chain(b).min_by(|a, b| value(a).total_cmp(&value(b)))

@@ -3,7 +3,7 @@
 
 use super::target::Target;
 
-/// A face that reaches below the ground plane.
+/// A face that reaches below the plane of the root, which is the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protrusion {
     /// The index of the face.

@@ -64,7 +64,7 @@ impl Measure {
     }
 }
 
-/// The result of a search by the measure.
+/// The result of [`preferred`]: the layout of least measure.
 #[derive(Clone, Debug)]
 pub struct Preferred {
     /// The first layout found of the least measure.

@@ -35,7 +35,7 @@ const SUMS: usize = 64;
 /// for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
-/// The result of an ascent.
+/// The result of a subgradient ascent ([`Lagrangian::ascend`]).
 pub struct Ascent {
     /// The lower bound on the energy of all layouts over the arcs allowed, N·m for steps of one second; infinite if
     /// there is no such layout.
@@ -48,7 +48,7 @@ pub struct Ascent {
     pub length: f64,
 }
 
-/// The limits of an ascent.
+/// The limits of a subgradient ascent ([`Lagrangian::ascend`]).
 #[derive(Clone, Copy, Debug)]
 pub struct AscentLimits {
     /// The bound at which the ascent ends, N·m for steps of one second; arcs that only costlier layouts use are
@@ -85,7 +85,7 @@ pub struct Lagrangian<'t> {
 }
 
 impl<'t> Lagrangian<'t> {
-    /// Sets up the relaxation with all multipliers zero.
+    /// Sets up the relaxation of a target under its weights, with all multipliers zero.
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
         let arcs = 3 * faces;

@@ -30,7 +30,7 @@ pub struct LoadLimits {
 pub enum Violation {
     /// A face reaches below the ground.
     Ground {
-        /// The face.
+        /// The index of the face.
         face: usize,
         /// The depth of its lowest corner below the root's plane, m.
         depth: f64,
@@ -67,7 +67,8 @@ impl LoadLimits {
     }
 
     /// Returns a violation in one state, given by the displacements of the faces: of the ground, else of the first
-    /// hinge that neither holds the torque of gravity nor carries a face that rests on the ground.
+    /// hinge that neither holds the torque of gravity nor carries a face that rests on the ground; `None` if there is
+    /// none.
     fn violation_at(&self, target: &Target, layout: &Layout, poses: &[Pose]) -> Option<Violation> {
         crate::interrupt::checkpoint();
         let up = -target.normal(layout.root);

@@ -25,7 +25,7 @@ const STARTS: usize = 8;
 /// The number of exchanges that are weighed by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
 
-/// The options of a search.
+/// The options of [`search`].
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// The faces that may be the root; at least one.
@@ -41,8 +41,8 @@ pub struct Settings {
     pub prefilter: Option<BoundPrefilter>,
 }
 
-/// A prefilter for objectives whose first value is the greatest mean torque of the closed form: sums over sets of
-/// faces give it, so that most layouts need not be made.
+/// A prefilter for objectives whose first value is the greatest mean torque of the closed form times a constant: sums
+/// over sets of faces give it, so that layouts that can't be among the best need not be made.
 #[derive(Clone, Copy, Debug)]
 pub struct BoundPrefilter {
     /// The ratio of the first value to the greatest mean torque for steps of one second.
@@ -51,7 +51,7 @@ pub struct BoundPrefilter {
     pub budget: u64,
 }
 
-/// The result of a search.
+/// The result of [`search`]: the best layouts.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// The best layouts with their values, the best first; empty if none was found that may be kept.

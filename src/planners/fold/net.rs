@@ -9,7 +9,7 @@ use super::pattern::{Pattern, Point};
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// A cut net: a topological disk of triangles.
+/// A cut net of a layout in the plane: a topological disk of triangles, each a face.
 #[derive(Clone, Debug)]
 pub struct Net {
     /// The vertices, m; the root's first corner is the origin, its first side goes along x.
@@ -23,7 +23,7 @@ pub struct Net {
     pub edges: Vec<Edge>,
 }
 
-/// An edge of the net.
+/// An edge of a net: a hinge of the layout, or an edge of the outline.
 #[derive(Clone, Debug)]
 pub struct Edge {
     /// The indices of its ends in [`Net::vertices`], in the direction in which its first face runs along it.

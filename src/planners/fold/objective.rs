@@ -32,7 +32,7 @@ const CLOSED_MAX: u64 = 10_000_000;
 /// The greatest number of faces, summed over layouts, that are measured by simulation.
 const SIMULATED_MAX: u64 = 40_000;
 
-/// The quantity to minimise.
+/// The quantity that a folding is to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimise {
     /// The sum of the hinges' mean torques over all steps (Eq. 5), N·m; of equal ones the fewest steps.
@@ -44,7 +44,7 @@ pub enum Minimise {
     Steps,
 }
 
-/// The conventions of measuring that the paper leaves open, or leaves out.
+/// The conventions under which torques and energy are computed, as far as the paper leaves them open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conventions {
     /// The model of how the mass of a panel is spread.
@@ -75,7 +75,8 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Returns the quantity that a bound is about, N·m: the peak torque where that is minimised, else the energy.
+    /// Returns the quantity that lower bounds are about, N·m: the peak torque if that is minimised, else the energy,
+    /// also if the steps are minimised.
     pub fn minimised(&self, minimise: Minimise) -> f64 {
         match minimise {
             Minimise::PeakTorque => self.peak,
@@ -91,7 +92,7 @@ pub struct Objective<'t> {
     masses: Vec<f64>,
     /// The conventions of measuring.
     pub conventions: Conventions,
-    /// The quantity to minimise.
+    /// The quantity that is minimised.
     pub minimise: Minimise,
     bodies: Vec<Body>,
     /// The weights of the closed form, for steps of one second.
@@ -143,7 +144,8 @@ impl<'t> Objective<'t> {
         Effort { energy: torques.energy(count, steps), peak: torques.peak(count, steps) }
     }
 
-    /// Returns the energy and peak torque of a layout that folds with the leaves first.
+    /// Returns the energy and peak torque of a layout that folds with the leaves first
+    /// ([`leaves_first`](super::steps::leaves_first)).
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
         if self.conventions.is_separable() {
             return closed(peak_torque::carried(layout, &self.weights).into_iter(), self.conventions.step);

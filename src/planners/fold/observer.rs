@@ -11,7 +11,7 @@ pub struct Observer<'p> {
 }
 
 impl<'p> Observer<'p> {
-    /// Returns an observer that forwards every report.
+    /// Returns an observer that forwards every report and every question to `progress`.
     pub fn new(progress: &'p mut dyn Progress) -> Observer<'p> {
         Observer { progress: RefCell::new(Some(progress)), ended: Cell::new(false) }
     }

@@ -25,7 +25,8 @@ const ROUNDS: usize = 400;
 
 /// The result for one root.
 pub(super) struct Least {
-    /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second.
+    /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second; `None` if none
+    /// better than the known one was found.
     pub layout: Option<(Layout, f64)>,
     /// The lower bound for layouts with this root, N·m for steps of one second.
     pub bound: f64,

@@ -48,7 +48,7 @@ impl Plate {
     /// Makes a panel to measure for each face of a target; faces with equal sides share a module type.
     ///
     /// # Errors
-    /// [`NotAPanel::Shape`] where a face is too small for the thickness, so that the bevels meet.
+    /// [`NotAPanel::Shape`] if a face is too small for the thickness, so that the bevels meet.
     pub fn panels(&self, target: &Target) -> Result<Panels, NotAPanel> {
         let mut sides: Vec<[f64; 3]> = Vec::new();
         let mut kinds = Vec::with_capacity(target.faces.len());

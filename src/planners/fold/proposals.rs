@@ -20,7 +20,7 @@ const KEPT: usize = 4096;
 /// methods where none of the first layouts is let through.
 const NEXT_BEST: u64 = 4;
 
-/// Layouts that may be the answer, with what is known about them.
+/// Layouts that may be the answer, with their values and bounds.
 pub(super) struct Proposals {
     /// The best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
@@ -42,7 +42,8 @@ pub(super) struct Proposals {
 }
 
 impl Proposals {
-    /// Returns the settings of the search for the next best layout, with its part of the budget.
+    /// Returns the settings of the search for the next best layout, with its part of the budget; `None` if there is no
+    /// such search.
     pub(super) fn next_best(&self) -> Option<branch_and_bound::Settings> {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }

@@ -86,7 +86,7 @@ pub enum Refusal {
     NoFolding(Box<NoFolding>),
 }
 
-/// The state of knowledge where no folding passes the judge.
+/// The facts found by a search in which no folding passed the judge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoFolding {
     /// The reason why the first layout was refused; `None` if the search ended before any was evaluated.
@@ -102,7 +102,7 @@ pub struct NoFolding {
     pub is_under_gravity: bool,
 }
 
-/// The reason why a layout was refused.
+/// The reason why one layout, in one order of folding, was refused.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rejection {
     /// Two panels, taken without thickness, collide in a sample of a step.

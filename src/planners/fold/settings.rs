@@ -10,7 +10,7 @@ use crate::plan;
 /// A folding problem: the surface, the panels that it is folded of, and gravity.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The surface, in m.
+    /// The surface that is folded, m.
     pub target: Target,
     /// The panel of each face.
     pub panels: Panels,
@@ -24,13 +24,14 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Returns a problem without gravity whose root and layout the planner chooses.
+    /// Returns a problem without gravity whose root and layout the planner chooses. `panels` must be those of the faces
+    /// of `target`.
     pub fn new(target: Target, panels: Panels) -> Problem {
         Problem { target, panels, root: None, gravity: 0.0, hinges: None }
     }
 }
 
-/// The method by which layouts are searched.
+/// The method by which [`plan`](super::plan()) searches layouts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Branch and bound where the objective is a sum over faces
@@ -60,7 +61,7 @@ pub enum Sequence {
     LeastEnergy,
 }
 
-/// The model of how the mass of a panel is spread.
+/// The model of the distribution of a panel's mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MassModel {
     /// Uniform triangles without thickness.
@@ -72,7 +73,7 @@ pub enum MassModel {
     Point,
 }
 
-/// The options of a search. The defaults are those of the function `fold` of the language.
+/// The options of [`plan`](super::plan()). The defaults are those of the function `fold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The method by which layouts are searched.
@@ -83,7 +84,7 @@ pub struct Settings {
     pub sequence: Sequence,
     /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle.
     pub step: Option<f64>,
-    /// The model of how the mass of a panel is spread.
+    /// The model of the distribution of a panel's mass.
     pub inertia: MassModel,
     /// The joints whose torques count.
     pub count: Count,

@@ -8,7 +8,7 @@ use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as 
 use crate::robot::{Assembly, Bond, JointId, Kinematics, ModuleInstance, PortRef, State};
 use std::sync::Arc;
 
-/// A layout as an assembly of panels.
+/// A layout as an assembly of panels joined by hinges.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// The assembly: module k is the panel of face k; bond i joins face `layout.order[i + 1]` to its parent.

@@ -72,7 +72,8 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("paths that agree form a tree")
 }
 
-/// Shortest paths of one target under its weights.
+/// The search for shortest paths between the faces of one target, in which each goal has its own costs of hinges,
+/// with its working memory.
 pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,

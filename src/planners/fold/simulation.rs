@@ -17,7 +17,7 @@ pub struct Circumstances {
     pub gravity: f64,
 }
 
-/// The torques of a folding.
+/// The torques of all hinges in a folding, as [`simulate`] computes them.
 #[derive(Clone, Debug)]
 pub struct Torques {
     /// The mean and peak of the absolute torque of each hinge, N·m, by step, then by the face that the hinge carries;
@@ -25,7 +25,7 @@ pub struct Torques {
     pub steps: Vec<Vec<Size>>,
 }
 
-/// The joints whose torques are counted.
+/// The joints whose torques count in energy and peak torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Count {
     /// The joints that move in a step; the others, which are locked, do not count.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// The greatest number of bins; further energies are counted together.
 const DIFFERENT_MAX: usize = 4_000_000;
 
-/// Counts of energies in narrow bins.
+/// A histogram of energies in narrow bins.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     unit: f64,

@@ -71,7 +71,7 @@ const IMPROVEMENT_SHARE: usize = 4;
 
 /// A search for layouts that lie flat and fold with the leaves first without collision.
 pub struct StripSearch<'t> {
-    /// The target.
+    /// The surface that is folded.
     pub target: &'t Target,
     /// The costs of its hinges, which the energy of a layout is the sum of.
     pub weights: &'t Weights,
@@ -227,7 +227,7 @@ impl StripSearch<'_> {
     }
 
     /// Exchanges hinges between faces that overlap or collide by tabu search until none do, as long as more
-    /// than `kept` of the budget is left.
+    /// than `kept` of the budget is left; `None` if it ends before, or no progress is made.
     fn separated(&mut self, layout: Layout, seed: u64, kept: usize) -> Option<Layout> {
         let target = self.target;
         let mut parting = TabuExchange::new(target, seed);

@@ -16,7 +16,7 @@ const SAMPLES: usize = 24;
 
 type Triangle = [Vec3; 3];
 
-/// Two panels that collide.
+/// A collision of two panels in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collision {
     /// The index of the first step in which they collide, from 0.
@@ -43,7 +43,7 @@ pub fn first_collision(
     })
 }
 
-/// Panels with thickness, by face: convex parts in the frame of the panel, whose origin is its middle,
+/// Panels with thickness, by face: convex parts in the panel frame, whose origin is the centroid of the triangle,
 /// with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {

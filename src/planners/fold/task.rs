@@ -27,7 +27,7 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// A planning call at work.
 pub(super) struct Task<'p> {
-    /// The problem.
+    /// The problem that the call states.
     pub problem: &'p Problem,
     /// The settings of the planner.
     pub settings: &'p Settings,
@@ -49,7 +49,7 @@ pub(super) struct Task<'p> {
 pub(super) struct Outcome {
     /// The plan and its verdict.
     pub solution: Solution<Judged>,
-    /// The layout.
+    /// The layout that folds.
     pub layout: Layout,
     /// The faces that fold in each step.
     pub steps: Vec<Vec<usize>>,

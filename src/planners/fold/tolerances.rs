@@ -1,6 +1,6 @@
 //! Tolerances and thresholds of folding.
 
-/// The tolerances that the planner computes with.
+/// The tolerances and thresholds of folding; [`TOLERANCES`] has the values.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
     /// Sides of a face and of its panel, and directions of ports and edges, differ by less than this part:
@@ -61,7 +61,7 @@ pub struct Tolerances {
     /// The least progress of a round of ascent, as a part of the gap, that counts as any.
     pub ascent_progress: f64,
     /// Energies of layouts are counted in grains of this part of the unit of energy: finer than
-    /// [`Tolerances::tie`], so that ties are told from levels.
+    /// [`Tolerances::tie`], so that ties and levels can be distinguished.
     pub energy_grain: f64,
 }
 

@@ -13,7 +13,7 @@ use super::target::Target;
 /// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
 pub(super) const QUINTIC: f64 = 3.75;
 
-/// The cost of every hinge for every face, N·m for a step of one second.
+/// The cost of every hinge for carrying every face, its mean torque, N·m for steps of one second.
 #[derive(Clone, Debug)]
 pub struct Weights {
     faces: usize,

@@ -56,7 +56,7 @@ pub struct Problem {
     pub path: Vec<[f64; 2]>,
 }
 
-/// The figures of a search.
+/// The figures of a motion along a path and of the search for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The reason why the motion ends; unless it is [`End::Arrived`], before the end of the path.
@@ -79,7 +79,7 @@ pub struct Report {
     pub slip: f64,
 }
 
-/// The reason why there is no plan at all.
+/// The reason why [`plan`] gives no motion at all.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The truss can't be planned for.

@@ -94,7 +94,7 @@ impl Default for Settings {
     }
 }
 
-/// The end of a search.
+/// The reason why a search for a motion along a path ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     /// The centre of mass reached the last point of the path.
@@ -112,7 +112,7 @@ pub enum End {
     Cancelled,
 }
 
-/// The motion that a search found.
+/// The motion that [`follow_path`] found, with the figures of the search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travel {
     /// The moves, one after another.
@@ -262,7 +262,7 @@ pub(super) struct Rollout<'a> {
     pub allow_fallbacks: bool,
     /// True if a constraint blocks the next roll, so that a node has to be placed first.
     place_node_first: bool,
-    /// The node that is being placed, and the steps this has taken.
+    /// The node that is being placed, and the number of steps this has taken; `None` if none is.
     placing: Option<(usize, usize)>,
     /// Nodes that could not be placed from where the truss stands.
     out_of_reach: Vec<usize>,

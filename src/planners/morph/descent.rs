@@ -70,7 +70,7 @@ impl Default for Settings {
     }
 }
 
-/// The end of a search.
+/// The reason why a descent ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     /// The target is reached: both distances are within the tolerance.
@@ -83,7 +83,7 @@ pub enum End {
     Cancelled,
 }
 
-/// The motion that a descent found.
+/// The motion that [`descend`] found.
 #[derive(Clone, Debug)]
 pub struct Descent {
     /// The positions of all nodes after every step, m, up to the step that fits best by [`Distance::both`]; empty if

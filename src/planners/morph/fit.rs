@@ -65,7 +65,7 @@ struct Residual {
 
 /// The distances of a truss from its target, with the residuals that they come from.
 pub(super) struct Fit {
-    /// The distances.
+    /// The distances between surface and target, m.
     pub distance: Distance,
     forward: Vec<Residual>,
     backward: Vec<Residual>,

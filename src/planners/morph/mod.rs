@@ -62,7 +62,7 @@ pub struct Problem {
     pub target: TargetShape,
 }
 
-/// A shape to take on.
+/// A shape that a truss has to take on, given as a surface or as points.
 #[derive(Clone, Debug)]
 pub enum TargetShape {
     /// Triangles of a surface, m.
@@ -71,7 +71,7 @@ pub enum TargetShape {
     Cloud(Vec<Vec3>),
 }
 
-/// The figures of a search.
+/// The figures of a morph: the fit at its start and end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The distances between the outer surface and the target at the end.
@@ -84,7 +84,7 @@ pub struct Report {
     pub ended: String,
 }
 
-/// The reason why there is no plan at all.
+/// The reason why [`plan`] gives no motion at all.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The truss can't be planned for.

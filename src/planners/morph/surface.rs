@@ -97,7 +97,7 @@ fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
     uses.into_iter().filter(|(_, n)| *n != 2).map(|(edge, _)| edge).collect()
 }
 
-/// The point of a surface closest to some point.
+/// The point of a surface that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoint {
     /// The index of the triangle that it lies on.
@@ -110,7 +110,7 @@ pub struct ClosestPoint {
     pub distance: f64,
 }
 
-/// A triangle mesh in a bounding sphere tree.
+/// A triangle mesh with a bounding sphere tree, for queries of closest points.
 pub struct Surface {
     corners: Vec<[Vec3; 3]>,
     /// The plane of each triangle: unit normal n and offset d with n·p = d; zero for one without area.
@@ -125,12 +125,12 @@ struct Ball {
     radius: f64,
     /// The index of the first sphere that is no descendant.
     after: usize,
-    /// The triangle, of a leaf.
+    /// The index of the triangle of a leaf; `None` for other spheres.
     triangle: Option<usize>,
 }
 
 impl Surface {
-    /// Builds the tree over triangles, given by their corners, m.
+    /// Builds the tree over triangles, given by their corners, m, in any orientation; there may be none.
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
         let mut order: Vec<usize> = (0..corners.len()).collect();
         let plane = |[a, b, c]: &[Vec3; 3]| {
@@ -172,7 +172,7 @@ impl Surface {
         self.balls[at].after = self.balls.len();
     }
 
-    /// Returns the corners of all triangles, m.
+    /// Returns the corners of all triangles in the order given, m.
     pub fn triangles(&self) -> &[[Vec3; 3]] {
         &self.corners
     }

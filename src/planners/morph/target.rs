@@ -6,7 +6,7 @@ use crate::geometry::Vec3;
 /// The greatest number of sample points.
 const POINTS_MAX: usize = 20_000;
 
-/// A shape to take on, as weighted sample points.
+/// A shape that a truss has to take on, as weighted sample points, and as a surface where one is known.
 pub struct Target {
     /// The sample points, m.
     pub points: Vec<Vec3>,
@@ -17,7 +17,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// Returns a target of points of equal weight, m.
+    /// Returns a target of points (m) of equal weight, without a surface.
     pub fn cloud(points: Vec<Vec3>) -> Target {
         let fraction = 1.0 / points.len().max(1) as f64;
         Target { fractions: vec![fraction; points.len()], points, surface: None }

@@ -32,16 +32,16 @@ impl<'a> Configuration<'a> {
 /// The start and the goal of a reconfiguration.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// The start.
+    /// The configuration at the start.
     pub from: Configuration<'a>,
-    /// The goal, of as many modules as the start. Its modules have no identity: any of the start's may take
-    /// the pose of any of the goal's.
+    /// The configuration at the goal, of as many modules as the start. Its modules have no identity: any of the
+    /// start's may take the pose of any of the goal's.
     pub to: Configuration<'a>,
     /// The world of both halves; see [`tosnake::Problem::world`].
     pub world: World,
 }
 
-/// Settings of both searches and of the judge.
+/// The settings of [`plan`](plan()): those of both searches and of the judge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
     /// Settings of either search.
@@ -50,7 +50,7 @@ pub struct Settings {
     pub judge: plan::Settings,
 }
 
-/// Figures of a reconfiguration.
+/// The figures of a reconfiguration and of its search.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Figures of both halves together, without those of attempts under gravity that were not used.

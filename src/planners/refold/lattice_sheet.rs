@@ -12,7 +12,8 @@ use crate::planners::fold::kinematics::about;
 use crate::planners::fold::sweep_collision::{Solids, panel_pose};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A point of the lattice, in whole numbers of its two steps.
+/// A point of the triangular lattice, in whole numbers of its two steps, which have the length of a side and enclose
+/// 60°.
 pub type Point = [i64; 2];
 
 /// The corners of a panel, counterclockwise: its side k runs from corner k to the next.

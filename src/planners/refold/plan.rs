@@ -25,7 +25,7 @@ const SAMPLES_PER_PANEL: usize = 32;
 /// The number of orders that are put before the judge for either shape.
 const ORDERS_TRIED: usize = 2;
 
-/// Two shapes of as many equal panels.
+/// A refolding problem: two shapes of as many equal panels.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The shape at the beginning, m: face k is panel k.
@@ -36,7 +36,7 @@ pub struct Problem {
     pub panels: Panels,
 }
 
-/// The options of a search. The defaults are those of the function `refold` of the language.
+/// The options of [`plan`]. The defaults are those of the function `refold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle of
@@ -76,7 +76,7 @@ pub struct Report {
     pub verdict: Verdict,
 }
 
-/// The reason why there is no plan.
+/// The reason why [`plan`] finds no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The shapes have different numbers of faces.

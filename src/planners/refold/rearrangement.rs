@@ -22,7 +22,7 @@ pub struct Goal {
     pub bonds: BTreeSet<[Point; 2]>,
 }
 
-/// The panels, for collision samples.
+/// The panels as solids, for collision samples.
 #[derive(Clone, Copy)]
 pub struct PanelSolids<'p> {
     /// The collision parts of each panel.
@@ -31,7 +31,7 @@ pub struct PanelSolids<'p> {
     pub side: f64,
 }
 
-/// Returns two cells, the lesser first.
+/// Returns a pair of cells, given by their names ([`cell`]), the lesser first.
 pub fn pair(a: Point, b: Point) -> [Point; 2] {
     if a < b { [a, b] } else { [b, a] }
 }

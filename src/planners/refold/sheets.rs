@@ -62,7 +62,7 @@ impl Refolding {
     }
 }
 
-/// The result of a search.
+/// The result of [`sheets`]: the best sheets, with a lower bound.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The sheets found, at least one, all different: the fewest changes first, then the least cost.
@@ -71,7 +71,7 @@ pub struct Found {
     pub bound: usize,
 }
 
-/// The options of a search.
+/// The options of [`sheets`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The greatest number of cells weighed, half of it for sheets and half for the bound.
@@ -346,12 +346,12 @@ impl<'t> Sheet<'t> {
         (!gone(other)).then_some([other, hinge.sides[end], index])
     }
 
-    /// Returns the face across a side in the first shape, as [`Sheet::beyond`] does.
+    /// Returns the face across a side in the first shape, or `None`, as [`Sheet::beyond`] does.
     fn next_from(&self, face: usize, side: usize) -> Option<[usize; 3]> {
         Self::beyond(self.from, face, side, |other| self.placed[other].is_some())
     }
 
-    /// Returns the face across a side of a panel in the second shape, as [`Sheet::beyond`] does.
+    /// Returns the face across a side of a panel in the second shape, or `None`, as [`Sheet::beyond`] does.
     fn next_to(&self, face: usize, side: usize) -> Option<[usize; 3]> {
         let panel = self.panel(face);
         Self::beyond(self.to, panel.becomes, (side + panel.turn) % 3, |other| self.taken[other])

@@ -16,9 +16,9 @@ use super::{Method, Refusal};
 
 /// A motion with the method that it stands for.
 pub(super) struct Candidate {
-    /// The method.
+    /// The method that the motion stands for.
     pub method: Method,
-    /// The motion.
+    /// The motion between the shapes, or to the row.
     pub motion: Motion,
 }
 
@@ -153,12 +153,14 @@ impl Context {
         let mut found = Vec::new();
         let mut add = |method: Method, motion: Motion| found.push(Candidate { method, motion });
         let renamed = (0..count).any(|i| name(i) != i);
+        // The row itself rests.
         if shape.is_row_along(axis) && !renamed {
             let all: Vec<Domain> = Domain::new(0, &[(count, 1)]).into_iter().collect();
             let row = Motion::rest(count, &all, |i| CellState::whole([i as i64, 0, 0]))?;
             add(Method::Accordion, row.turned(axes(axis, (axis + 1) % 3)));
             return Ok(found);
         }
+        // A row along another axis: the constructions from row to column, backwards.
         let column = (0..3).find(|&k| k != axis && shape.is_row_along(k));
         if let (Some(column), false) = (column, renamed) {
             let turn = axes(axis, column);
@@ -179,6 +181,7 @@ impl Context {
             }
             return Ok(found);
         }
+        // A box unrolls in either order of its other axes, and a flat shape merges in its plane.
         if shape.is_box() && !renamed && is_wanted(Method::Accordion) {
             for (x, z) in [((axis + 1) % 3, (axis + 2) % 3), ((axis + 2) % 3, (axis + 1) % 3)] {
                 let sides = [shape.sides[x], shape.sides[axis], shape.sides[z]];

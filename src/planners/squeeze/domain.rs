@@ -37,7 +37,7 @@ impl Domain {
         counters.iter().all(|(count, _)| *count > 0).then_some(Domain { first, counters })
     }
 
-    /// Returns the number of cells.
+    /// Returns the number of cells in the set.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|(count, _)| count).product()
     }

@@ -55,7 +55,7 @@ impl Listed {
                 .ok_or(Refusal::TooLarge)?;
             let domains = runs(&last, &states);
             last.clone_from(&states);
-            // Of distances, what is held is the difference; it comes in lines of the judge's grid.
+            // The greatest relative displacement is in lines of the judge's grid.
             builder.stage(name, relative_displacement / 4, &domains, move |i| states[i as usize])?;
         }
         Ok(builder.motion())

@@ -228,6 +228,7 @@ impl Tree {
             let own = &self.boxes[place].cells;
             if step > 0 { cells.extend(own) } else { cells.extend(own.iter().rev()) }
         }
+        // Each box but the last takes one cell of full size; the last takes two halves, unless the line leads out.
         let out = last == self.root && (axis, step) == (X, 1);
         let full = if leaf { &line[1..] } else { line };
         let mut cells = cells.into_iter();
@@ -250,12 +251,14 @@ impl Tree {
                 goals.insert(*cell, state);
             }
         }
+        // A cell that is left goes out to the row, which moves on by one.
         if out {
             self.row.splice(0..0, cells);
             for (i, &cell) in self.row.iter().enumerate() {
                 goals.insert(cell, CellState::whole(moved(self.root, X, i as i64 + 1)));
             }
         }
+        // The box of a leaf is empty now.
         if leaf {
             if let Some(next) = self.boxes.get(&first).map(|b| b.next)
                 && let Some(parent) = self.boxes.get_mut(&next)

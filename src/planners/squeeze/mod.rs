@@ -80,7 +80,7 @@ pub enum Method {
     Melt,
 }
 
-/// The model of angular momentum, which decides which motions are allowed.
+/// The choice of the model of angular momentum, by which motions are allowed or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ModelChoice {
     /// Zero angular momentum if a motion without any is known for the shapes; otherwise any motion, but the shear,
@@ -104,7 +104,7 @@ pub enum Norm {
     Euclidean,
 }
 
-/// Two shapes of lattice cells of one kind.
+/// A reconfiguration problem: two shapes of lattice cells of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// The kind of all cells; index 0 in the plan's library.
@@ -130,7 +130,7 @@ pub struct Settings {
     pub norm: Norm,
 }
 
-/// The figures of a plan.
+/// The figures of a reconfiguration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// A lower bound on the duration of any motion between the shapes under the same limits, s.
@@ -145,7 +145,7 @@ pub struct Report {
     pub stages: Vec<(String, f64)>,
 }
 
-/// The reason why there is no plan.
+/// The reason why [`plan`] finds no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The shapes differ in their number of cells.

@@ -17,7 +17,7 @@ pub struct Motion {
     pub transitions: Vec<Transition>,
 }
 
-/// A stage of a motion, from one configuration to the next; every cell moves along a line.
+/// A stage of a motion, from one configuration to the next: every cell moves along a line, all by the same time law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
     /// The name of the stage.
@@ -40,7 +40,7 @@ pub enum Profile {
     Trapezoid,
 }
 
-/// The limits that all motions are planned under.
+/// The limits under which motions are planned.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanLimits {
     /// The limits of a cell, in cell sizes and units of time ([`Motion`]).
@@ -163,8 +163,8 @@ impl<'a> Builder<'a> {
 }
 
 /// Returns the square of the least time in which cells can make these displacements and part (or change their
-/// sizes) by `relative_displacement / WHOLE`, with the time law that does it: at unit acceleration a distance D takes
-/// T² = 4D, bang-bang.
+/// sizes) by `relative_displacement / WHOLE`, with the time law that does it; `None` if a number does not fit. At unit
+/// acceleration a distance D takes T² = 4D, bang-bang.
 fn least_time(
     limits: &PlanLimits,
     count: u64,
@@ -268,7 +268,7 @@ const ROOT_PARTS: i128 = 1 << 16;
 
 impl Displacements {
     /// Returns the distance that bounds the acceleration, in cells: the greatest along an axis, or an upper bound
-    /// on the greatest Euclidean one.
+    /// on the greatest Euclidean one; `None` if a number does not fit.
     fn distance(&self, limits: &PlanLimits, count: u64) -> Option<Ratio> {
         let whole = i128::from(WHOLE) * i128::from(count);
         let most = self.farthest.into_iter().max().unwrap_or(0);

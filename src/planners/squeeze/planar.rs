@@ -1,7 +1,7 @@
 //! Any connected set in a plane to a row, with the third axis to work in: `docs/planners/squeeze.md`.
 //!
 //! Rows merge two by two: all is squeezed along y, pairs of rows swap into stacks, and the stacks rise
-//! along z. Of what is one row of stacks then every column becomes a hairpin of two columns of half the
+//! along z. Once one row of stacks is left, every column of it becomes a hairpin of two columns of half the
 //! width, the hairpins unfold to a zigzag, and that slides down to the row.
 
 use super::Refusal;
@@ -65,6 +65,7 @@ fn merge(motion: &mut Listed, positions: &[[i64; 2]]) -> Stacks {
     while rows > 1 {
         let (merging, merged) = paired(&stacks, positions.len());
         let m = |i: usize| merging[i];
+        // All rows are squeezed; cells without a partner widen again.
         motion.stage("y-squeeze", |_, state| {
             state.center[Y] /= 2;
             state.size[Y] = HALF;
@@ -78,6 +79,7 @@ fn merge(motion: &mut Listed, positions: &[[i64; 2]]) -> Stacks {
                 widen(i, state);
             }
         });
+        // Pairs swap into stacks of two halves, every second level at a time.
         for parity in [1, 0] {
             let swaps = |i: usize| m(i).paired && m(i).level % 2 == parity;
             motion.stage("swap z-contract", |i, state| {
@@ -156,6 +158,7 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
     let mut pins = vec![Pin::default(); count];
     let mut number = vec![0_u64; count];
     let mut next = 0;
+    // Every column becomes a hairpin of two columns of half the width.
     if stacks.values().any(|stack| stack.len() > 1) {
         for (&(column, _), stack) in stacks {
             for (level, pair) in stack.chunks(2).enumerate() {
@@ -194,7 +197,7 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
             });
         }
     }
-    // Up the left of each column, down its right.
+    // Cells are numbered up the left of each column and down its right.
     for stack in stacks.values() {
         let mut chain: Vec<usize> =
             stack.iter().copied().filter(|&cell| pins[cell].left || pins[cell].alone).collect();
@@ -209,6 +212,7 @@ fn unfold(motion: &mut Listed, stacks: &Stacks, count: usize) -> Vec<u64> {
             next += 1;
         }
     }
+    // The hairpins unfold to a zigzag, which slides down to the row.
     motion.stage("x-unfold", |i, state| {
         state.center[X] = WHOLE * number[i] as i64 + HALF;
         state.size[X] = WHOLE;

@@ -2,7 +2,7 @@
 
 /// The positions of cells, translated so that the lowest along each axis is 0, in order.
 pub(super) struct Shape {
-    /// The positions.
+    /// The lattice sites, in cell sizes.
     pub positions: Vec<[i64; 3]>,
     /// The sides of the bounding box, in cells.
     pub sides: [u64; 3],

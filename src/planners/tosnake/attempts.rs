@@ -24,7 +24,7 @@ pub(super) struct Job<'a> {
 pub(super) struct Done {
     /// The index of the job.
     pub(super) job: usize,
-    /// The path found; see [`Attempt::path`].
+    /// The path found, or `None`; see [`Attempt::path`].
     pub(super) path: Option<Vec<Joints>>,
     /// Forward kinematics evaluated.
     pub(super) work: u64,

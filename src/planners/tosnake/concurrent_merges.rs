@@ -34,6 +34,7 @@ impl ConcurrentMerges {
     ) -> ConcurrentMerges {
         let scene = state.scene();
         let here = &state.robot.joints;
+        // Edges, docks and chains of the pairs so far are reserved.
         let mut reservations = Reservations::new(state);
         self.pairs.iter().for_each(|pair| reservations.reserve(state, pair));
         let mut failures = 0;

@@ -27,7 +27,7 @@ pub struct Problem<'a> {
     pub world: World,
 }
 
-/// Figures of a plan to the snake and of the search for it.
+/// The figures of a plan to the snake and of the search for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// The number of docking actions.

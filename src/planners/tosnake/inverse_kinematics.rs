@@ -18,7 +18,7 @@ use crate::robot::inverse_kinematics::{self, Evaluation, IkProblem, Row, StopRea
 use nalgebra::Vector6;
 use std::f64::consts::FRAC_PI_2;
 
-/// The mode of the inverse kinematics.
+/// The mode of the inverse kinematics that closes a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IkMode {
     /// Only the loop's joints move, and only the last posture has to be free of overlap: before it balls repel each
@@ -29,7 +29,7 @@ pub enum IkMode {
     CollisionFree,
 }
 
-/// Settings of the descent. Lengths are in pitches, angles in radians.
+/// The settings of the descent. Lengths are in pitches, angles in radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// Greatest number of iterations, before [`Settings::loop_scale`]. Default 200; most loops close in 20.

@@ -1,7 +1,8 @@
 //! `tosnake`: from any configuration of RoFI modules to a snake, after "Tentacle-Based Shape Shifting of
 //! Metamorphic Robots Using Fast Inverse Kinematics" (Mrázek, Ondika, Černá, Barnat).
 //!
-//! `docs/planners/tosnake.md` says what is kept of the paper, what is different, and how plans are judged.
+//! `docs/planners/tosnake.md` lists the parts of the paper that are kept and the differences, and describes the
+//! judgement of plans.
 //! Lengths are in pitches (the distance of the centres of a module's two bodies), angles in radians.
 //!
 //! Loops are opened ([`search`]); then two chains at a time become one ([`merging`]): the ends of a pair are

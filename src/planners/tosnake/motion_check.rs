@@ -33,7 +33,7 @@ pub struct Scene<'a> {
     pub load_limit: Option<LoadLimit<'a>>,
 }
 
-/// A limit on the loads that joints bear during a motion.
+/// A limit on the static loads that joints bear under gravity during a motion.
 #[derive(Clone, Copy)]
 pub struct LoadLimit<'a> {
     /// The gravity model.

@@ -6,7 +6,7 @@ use super::motion_check::Scene;
 use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 
-/// Two balls that are near each other.
+/// A pair of balls whose centres are near each other.
 pub struct Neighbours {
     /// Index in the tree of the one ball's shoe, the smaller.
     pub a: usize,

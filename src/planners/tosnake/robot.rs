@@ -29,7 +29,7 @@ pub struct Dock {
     pub dock: usize,
 }
 
-/// Two docks that hold each other.
+/// A bond: two docks that are docked to each other, or were.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bond {
     /// The one dock.
@@ -40,7 +40,7 @@ pub struct Bond {
     pub turn: u32,
 }
 
-/// A configuration of modules.
+/// A configuration of RoFI modules: joint positions and bonds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// Positions of alpha, beta and gamma of each module, rad.
@@ -67,7 +67,7 @@ impl Dock {
         self.face() == RED
     }
 
-    /// Returns the dock -Z of a shoe.
+    /// Returns the dock -Z of a shoe, given by its number as of [`Dock::shoe`].
     pub fn red(shoe: usize) -> Dock {
         Dock { module: shoe / 2, dock: shoe % 2 * FACES + RED }
     }
@@ -122,7 +122,8 @@ impl Robot {
         self.holds[bond] = false;
     }
 
-    /// Closes a bond and returns its index: that of the same bond in the list, or a new one.
+    /// Closes a bond and returns its index: that of the same bond in the list, with its docks in either order, or a
+    /// new one at the end of the list. Other bonds of its docks are not checked.
     pub fn dock(&mut self, bond: Bond) -> usize {
         let same =
             |known: &Bond| *known == bond || (known.a, known.b, known.turn) == (bond.b, bond.a, bond.turn);

@@ -167,7 +167,7 @@ struct Search<'s, 'p> {
     settings: &'s Settings,
     reporter: &'s mut Reporter<'p>,
     status: SearchStatus,
-    /// The smallest overload so far, and the operation that it ruled out.
+    /// The smallest overload so far, and the operation that it ruled out; `None` without any.
     overload: Option<(JointLoad, Operation)>,
     /// The number of modules that bent between the ends at the last failed attempt, and the number of
     /// attempts that failed with it, by pair.

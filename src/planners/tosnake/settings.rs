@@ -3,7 +3,7 @@
 use super::fabrik;
 use super::inverse_kinematics;
 
-/// Settings of the whole search. Every value is valid; the defaults are those of the language.
+/// The settings of the whole search. The defaults are those of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// Seed of all random numbers; the same seed gives the same plan. Default 0.
@@ -34,7 +34,7 @@ pub struct Settings {
     pub threads: usize,
 }
 
-/// The default of [`Settings::budget`]: one or two minutes of one processor for a hundred modules.
+/// The default of [`Settings::budget`], forward kinematics: one or two minutes of one processor for a hundred modules.
 pub const BUDGET: u64 = 5_000_000;
 
 impl Default for Settings {
@@ -68,7 +68,7 @@ pub enum Collisions {
 }
 
 impl Collisions {
-    /// Returns the planner's name as the provenance of a plan states it.
+    /// Returns the planner's name as the provenance of a plan states it, such as `tosnake, collisions: none`.
     pub fn planner(self) -> &'static str {
         match self {
             Collisions::Motion => "tosnake",

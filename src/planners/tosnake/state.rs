@@ -9,10 +9,10 @@ use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// Positions of all joints: alpha, beta and gamma of each module, rad.
+/// The positions of all joints: alpha, beta and gamma of each module, rad.
 pub type Joints = Vec<[f64; 3]>;
 
-/// One step of a plan.
+/// One step of a plan to the snake.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line: for each joint
@@ -27,7 +27,7 @@ pub enum Step {
 /// The robot during the search for the snake.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// The configuration.
+    /// The configuration: joint positions and bonds.
     pub robot: Robot,
     /// The kinematic tree over the closed bonds.
     pub tree: Tree,
@@ -94,7 +94,7 @@ impl State {
         self.update_poses();
     }
 
-    /// Recomputes all poses (forward kinematics).
+    /// Recomputes all poses from the joint positions (forward kinematics), and counts that as work.
     pub fn update_poses(&mut self) {
         self.work += 1;
         self.tree.poses(&self.robot.joints, &mut self.poses);
@@ -110,7 +110,7 @@ impl State {
         Scene { tree: &self.tree, docked: self.docked.clone(), load_limit }
     }
 
-    /// Notes an overload, if it is the smallest since the last one was taken.
+    /// Notes an overload in [`State::least_overload`], if it is smaller than the one there.
     pub fn note_overload(&self, load: JointLoad) {
         motion_check::note_overload(&self.least_overload, load);
     }
@@ -147,7 +147,7 @@ impl State {
         self.steps.push(Step::Dock(index));
     }
 
-    /// Returns the spread of the robot; see [`spread`].
+    /// Returns the spread of the robot, in squared pitches; see [`spread`].
     pub fn spread(&self) -> f64 {
         spread(&self.poses)
     }

@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::planners::Progress;
 
-/// Figures of a search that is running or has ended.
+/// The figures of a search that is running or has ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SearchStatus {
     /// Number of merges of chains that lead to a snake: one less than there are chains once all loops are open.

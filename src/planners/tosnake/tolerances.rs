@@ -1,6 +1,7 @@
 //! The tolerances and thresholds of the planner of RoFI modules.
 
-/// The tolerances with which `tosnake` computes. Lengths are in pitches, angles in radians.
+/// The tolerances and thresholds of `tosnake`; [`TOLERANCES`] has the values. Lengths are in pitches, angles in
+/// radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
     /// Least distance of the centres of two balls, in pitches. Balls touch at 1; the judge's limit is 0.999, and

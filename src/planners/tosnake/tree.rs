@@ -43,7 +43,7 @@ enum Link {
 pub struct JointRef {
     /// The index of that shoe of the module whose parent is the other.
     pub child: usize,
-    /// The module.
+    /// The index of the module.
     pub module: usize,
     /// The index of the joint: [`ALPHA`], [`BETA`] or [`GAMMA`].
     pub joint: usize,
@@ -98,7 +98,7 @@ impl Tree {
         Some(tree)
     }
 
-    /// Returns the number of shoes.
+    /// Returns the number of shoes, two for each module.
     pub fn shoes(&self) -> usize {
         self.shoe.len()
     }
@@ -176,7 +176,7 @@ impl Tree {
         turn.max((wanted.translation - found.translation).amax())
     }
 
-    /// Returns the joints between a shoe and its parent: three if both are of one module, else none.
+    /// Returns the joints between the shoe at `index` and its parent: three if both are of one module, else none.
     pub fn joints_at(&self, index: usize) -> impl Iterator<Item = JointRef> {
         let module = self.shoe[index] / 2;
         let count = if matches!(self.link[index], Link::Module) { 3 } else { 0 };

@@ -40,7 +40,7 @@ pub enum Constraint {
     Rigidity(usize, usize),
 }
 
-/// The number of equal pieces into which sample points divide a strut over uneven ground.
+/// The number of equal pieces into which the sample points of [`Constraint::StrutHeight`] divide a strut.
 pub const SAMPLES: usize = 64;
 
 impl Constraint {

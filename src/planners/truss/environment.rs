@@ -28,7 +28,7 @@ pub(super) fn obstacle_violations(
     found
 }
 
-/// Returns the shortfall of the clearance of a strut from a part, m, if there is one. The part stays behind
+/// Returns the shortfall of the clearance of a strut from a part, m; `None` if there is none. The part stays behind
 /// the plane through its closest point, and each end of the strut approaches that plane at a constant rate:
 /// until the first end uses up the distance, the strut keeps it.
 fn obstacle_shortfall(
@@ -84,8 +84,8 @@ pub(super) fn ground_violations(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Ve
     nodes.chain(struts).collect()
 }
 
-/// Returns the parameter along a strut at which it gets too far below the ground, and the shortfall, m. Its
-/// height changes no faster than its ends sink, plus the steepest slope times their horizontal speed.
+/// Returns the parameter along a strut at which it gets too far below the ground, and the shortfall, m; `None` if it
+/// does not. Its height changes no faster than its ends sink, plus the steepest slope times their horizontal speed.
 fn strut_shortfall(truss: &Structure, from: (Vec3, Vec3), to: (Vec3, Vec3)) -> Option<(f64, f64)> {
     let around = &truss.surroundings;
     let terrain = around.terrain.as_ref()?;

@@ -3,7 +3,7 @@
 //! for Locomotion and Shape Morphing" (Usevitch, Hammond, Follmer, Schwager), with Algorithm 1 mended
 //! ([`step`]) and a certificate by conservative advancement between the ends of steps (`advancement`).
 //!
-//! Data first, what is computed of it below: a [`Structure`] with its [`Limits`] and [`Surroundings`]; its
+//! Data stand first, the computations on them below: a [`Structure`] with its [`Limits`] and [`Surroundings`]; its
 //! inequality [`constraint`]s with gradients; the singular values of its rigidity matrix; the broad phase;
 //! one step of sequential quadratic programming; static stability on a support polygon, and rolls over its
 //! edges; the plan's body.

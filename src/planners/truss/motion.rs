@@ -16,7 +16,7 @@ pub enum Move {
     Roll(Roll),
 }
 
-/// The time law of a motion.
+/// The time law of a truss's motion: the limits of the duration of its moves besides the speed of the struts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeLaw {
     /// The shortest duration of a step, s. 1 ms: no two keyframes at the same time.

@@ -22,7 +22,7 @@ const ANGLE_LIMIT_MAX: f64 = FRAC_PI_3;
 /// The greatest number of constraints that are named in the reason why a search ended.
 const CONSTRAINTS_REPORTED_MAX: usize = 4;
 
-/// A truss of struts of one kind, in the world's frame.
+/// A truss of struts of one kind to be planned for, with its surroundings, in the world's frame.
 #[derive(Clone, Debug)]
 pub struct TrussProblem {
     /// The kind of all struts: range of length, speed, clearance.

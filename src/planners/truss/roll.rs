@@ -104,7 +104,7 @@ fn toppled_over_node(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<V
     let arm = truss.centre_of_mass(x) - x[node];
     let aside = Vec3::new(-arm.y, arm.x, 0.0);
     let along = aside.try_normalize(truss.tolerances.on_axis * truss.unit).unwrap_or_else(Vec3::y);
-    // The axis becomes an edge to an auxiliary node; rotated by the right hand, what is ahead comes down.
+    // The axis becomes an edge to an auxiliary node; by the right-hand rule, nodes ahead of it come down.
     let mut with_axis = x.to_vec();
     with_axis.push(x[node] + along * truss.unit);
     let roll = over(truss, &with_axis, (node, x.len()))?;

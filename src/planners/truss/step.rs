@@ -70,7 +70,7 @@ pub enum StepError {
 pub struct WarmStart {
     /// The constraints that were nearly active at the end of the step.
     pub active: Vec<Constraint>,
-    /// The pairs of struts that may come near.
+    /// The pairs of struts that may come near; `None` before the first step.
     neighbours: Option<NeighbourList>,
 }
 
@@ -239,7 +239,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Lowers the value that a constraint is asked for.
+    /// Lowers the value that the row of a constraint asks for.
     fn loosen(&mut self, constraint: Constraint, by: f64) {
         if !self.known.contains_key(&constraint) {
             self.add(constraint, 0.0);

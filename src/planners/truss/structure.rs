@@ -101,8 +101,8 @@ impl Structure {
         self
     }
 
-    /// Returns the truss with clearance and least angle enlarged by `margin` (units and rad), so that
-    /// certificates by conservative advancement end.
+    /// Returns the truss with its clearance enlarged by `margin` units, and its least angle, if it has one, by
+    /// `margin` rad, so that certificates by conservative advancement end.
     pub fn tightened(&self, margin: f64) -> Structure {
         let mut truss = self.clone();
         truss.clearance += margin * self.unit;
@@ -133,7 +133,7 @@ impl Structure {
         (x[a] - x[b]).norm()
     }
 
-    /// Returns the two ends of a strut, m.
+    /// Returns the positions of the two ends of a strut, m.
     pub fn segment(&self, x: &[Vec3], strut: usize) -> (Vec3, Vec3) {
         let (a, b) = self.struts[strut];
         (x[a], x[b])
