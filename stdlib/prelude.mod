@@ -311,6 +311,29 @@ extern fn any(list: List<Bool>) -> Bool
 /// ```
 extern fn all(list: List<Bool>) -> Bool
 
+/// What is left of a list when each element in turn is put to what came of those before it: `f` takes what came so
+/// far, at first `from`, and an element.
+///
+/// Of an empty list it is `from`.
+///
+/// Example:
+/// ```modl
+/// print(reduce([3, 1, 2], (total, x) => 10 * total + x, from: 0))
+/// ```
+extern fn reduce<T, A>(list: List<T>, f: fn(A, T) -> A, from: A) -> A
+
+/// What comes of `from` when `f` is applied again and again, until `until` holds of it.
+///
+/// It is the first value of which `until` holds, `from` itself included. One of which it does not hold after `max`
+/// steps is refused.
+///
+/// Example:
+/// ```modl
+/// // Newton's method for the square root of 2.
+/// print(iterate(x => (x + 2 / x) / 2, from: 1, until: x => abs(x^2 - 2) < 1e-12))
+/// ```
+extern fn iterate<A>(f: fn(A) -> A, from: A, until: fn(A) -> Bool, max: Int = 100_000) -> A
+
 /// The texts of a list, one after another, with `with` between them.
 ///
 /// Example:

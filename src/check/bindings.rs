@@ -1,13 +1,17 @@
 //! Type parameters: what they are bound to in a call.
 
-use super::checker::{Bound, Checker, TypeParam};
+use super::checker::{Bound, Checker, ParamInfo, TypeParam};
 use super::expr::has_params;
+use super::scope::Scope;
+use super::typed::Expr;
 use super::types::{FnType, Type};
+use crate::source::Diagnostic;
+use crate::syntax::ast;
 use crate::units::Dimension;
 use std::sync::Arc;
 
 /// The types and dimensions bound to the type parameters of a built-in in one call.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Bindings {
     /// The type of each parameter, once bound.
     pub(super) types: Vec<Option<Type>>,
@@ -17,7 +21,52 @@ pub(super) struct Bindings {
     pub(super) bounds: Vec<Bound>,
 }
 
-impl Checker<'_> {
+impl<'a> Checker<'a> {
+    /// Checks a lambda against a type with type parameters, and binds them.
+    ///
+    /// Its result may not fit what the arguments before it have bound, as in `reduce(list, (a, x) => a + x, from: 0)`
+    /// over numbers: then the parameter is bound anew to what both fit, and the lambda is checked again with it.
+    pub(super) fn lambda_argument(
+        &mut self,
+        scope: &mut Scope,
+        e: &'a ast::Expr,
+        param: &ParamInfo,
+        bindings: &mut Bindings,
+    ) -> Expr {
+        let known = self.diagnostics.len();
+        let want = bindings.apply(&param.ty);
+        let got = self.expr(scope, e, Some(&want));
+        let failed = self.diagnostics[known..].iter().any(Diagnostic::is_error);
+        let (Type::Fn(pattern), Type::Fn(bound)) = (&param.ty, &want) else {
+            return self.bind_argument(got, &param.ty, param.name, bindings);
+        };
+        if !failed || has_params(&bound.result) || self.widening {
+            return self.bind_argument(got, &param.ty, param.name, bindings);
+        }
+        let told = self.diagnostics.split_off(known);
+        let free = FnType { params: bound.params.clone(), result: pattern.result.clone() };
+        self.widening = true;
+        let result = self.expr(scope, e, Some(&Type::Fn(Arc::new(free))));
+        let mut wider = bindings.clone();
+        let fits = self.diagnostics.len() == known
+            && matches!(&result.ty, Type::Fn(f) if self.unify(&pattern.result, &f.result, &mut wider));
+        let want = wider.apply(&param.ty);
+        let again = fits.then(|| self.expr(scope, e, Some(&want)));
+        self.widening = false;
+        let sound = self.diagnostics.len() == known;
+        self.diagnostics.truncate(known);
+        match again {
+            Some(again) if sound => {
+                *bindings = wider;
+                again
+            }
+            _ => {
+                self.diagnostics.extend(told);
+                got
+            }
+        }
+    }
+
     /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does.
     pub(super) fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
         match (pattern, got) {

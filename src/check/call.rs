@@ -301,6 +301,7 @@ impl<'a> Checker<'a> {
             next = 1;
         }
         let mut rest: Vec<&'a ast::Expr> = Vec::new();
+        let mut lambdas: Vec<(usize, &'a ast::Expr)> = Vec::new();
         // Each argument goes to the parameter of its name, or to the next by position.
         let (mut named, mut misnamed) = (false, false);
         for arg in args {
@@ -341,6 +342,11 @@ impl<'a> Checker<'a> {
                 continue;
             }
             filled[index] = true;
+            // The types of a lambda's parameters are known once the other arguments have bound them.
+            if matches!(arg.value.kind, ast::ExprKind::Lambda { .. }) && has_params(&params[index].ty) {
+                lambdas.push((index, &arg.value));
+                continue;
+            }
             out[index] = Some(self.argument(scope, &arg.value, &params[index], &mut bindings));
         }
         if let Some(variadic) = params.iter().position(|p| p.variadic)
@@ -348,6 +354,9 @@ impl<'a> Checker<'a> {
         {
             out[variadic] = Some(self.variadic(scope, span, &rest, &params[variadic], &mut bindings));
             filled[variadic] = true;
+        }
+        for (index, lambda) in lambdas {
+            out[index] = Some(self.lambda_argument(scope, lambda, &params[index], &mut bindings));
         }
         let mut missing = Vec::new();
         // A parameter without default needs an argument.
@@ -428,7 +437,13 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks that an argument fits a type with type parameters, and binds them.
-    fn bind_argument(&mut self, got: Expr, pattern: &Type, name: Symbol, bindings: &mut Bindings) -> Expr {
+    pub(super) fn bind_argument(
+        &mut self,
+        got: Expr,
+        pattern: &Type,
+        name: Symbol,
+        bindings: &mut Bindings,
+    ) -> Expr {
         if got.ty.is_error() {
             return got;
         }

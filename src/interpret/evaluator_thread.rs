@@ -12,14 +12,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::Builder;
 
 /// The greatest depth of evaluations within evaluations, where the system gives the whole stack.
-const NESTING_MAX: usize = 40_000;
+const NESTING_MAX: usize = 80_000;
 
 /// The size of the stack for one level of evaluation, in bytes: several times what was measured. Without
 /// optimisation a level takes more.
 const LEVEL_BYTES: usize = if cfg!(debug_assertions) { 24 << 10 } else { 6 << 10 };
 
 /// The size of the stack for what is no evaluation: elaborating, planning, judging, and dropping values.
-const REST_BYTES: usize = 16 << 20;
+pub(super) const REST_BYTES: usize = 16 << 20;
 
 /// The size of the stack that is asked for; pages that are never touched cost nothing.
 const STACK_BYTES: usize = NESTING_MAX * LEVEL_BYTES + REST_BYTES;

@@ -94,7 +94,7 @@ impl Default for Limits {
     fn default() -> Limits {
         Limits {
             steps: 50_000_000,
-            recursion: 200,
+            recursion: 20_000,
             list: 1_000_000,
             text: 1 << 24,
             digits: 10_000,

@@ -2,7 +2,7 @@
 
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
-use super::evaluator_thread::HostProxy;
+use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
 use super::plan_value::PlanValue;
 use super::recalled::Recalled;
@@ -19,6 +19,11 @@ use std::rc::Rc;
 
 /// The greatest number of errors of one run, and of its other findings; more help nobody.
 const REPORTS_MAX: usize = 200;
+/// The hint where calls are nested too deeply, of which it is not known whether they would end.
+const CALLS_HINT: &str = "a function that calls itself has to come to a case in which it does not; what goes on for \
+    many steps is carried along by `reduce(list, f, from: ...)` or `iterate(f, from: ..., until: ...)`";
+/// The least number of calls within each other that are worth a word where evaluation is nested too deeply.
+const CALLS_MANY: usize = 100;
 /// The greatest number of calls that a message shows.
 const CALLS_SHOWN: usize = 4;
 
@@ -205,10 +210,18 @@ impl<'a> Interpreter<'a> {
     /// [`Stop::Halt`] where the stack would not bear it, besides the errors of `body`.
     pub fn with_depth<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
         let limit = self.shared.host.nesting_max;
-        if self.stack.depth >= limit {
+        let bears = stacker::remaining_stack().is_none_or(|left| left >= REST_BYTES);
+        if self.stack.depth >= limit || !bears {
+            let limit = self.stack.depth;
             let message = format!("evaluation is nested more than {limit} levels deep, which is the limit");
-            return self
-                .halt(Diagnostic::error(code::RECURSION_LIMIT, message).label(span, "evaluation was here"));
+            let diagnostic =
+                Diagnostic::error(code::RECURSION_LIMIT, message).label(span, "evaluation was here");
+            let calls = self.stack.calls.len();
+            return self.halt(if calls < CALLS_MANY {
+                diagnostic
+            } else {
+                diagnostic.hint(format!("{calls} calls are nested here; {CALLS_HINT}"))
+            });
         }
         self.stack.depth += 1;
         let result = body(self);
@@ -242,7 +255,7 @@ impl<'a> Interpreter<'a> {
             code::RECURSION_LIMIT,
             format!("calls are nested more than {limit} deep, which is the limit"),
         )
-        .label(outermost.span, "this call does not come back");
+        .label(outermost.span, "the outermost call");
         let mut shown = HashSet::from([outermost.span]);
         for call in self.stack.calls.iter().rev() {
             if shown.len() <= CALLS_SHOWN && shown.insert(call.span) {
@@ -250,7 +263,7 @@ impl<'a> Interpreter<'a> {
                     diagnostic.label(call.span, format!("which led to this call of `{}`", call.name));
             }
         }
-        self.halt(diagnostic.hint("a function that calls itself needs a case in which it does not"))
+        self.halt(diagnostic.hint(CALLS_HINT))
     }
 
     /// Runs `body` with a loop variable, which errors reported in it name.

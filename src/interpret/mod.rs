@@ -20,6 +20,7 @@ mod operators;
 pub mod argument;
 mod call;
 pub mod native;
+pub mod nesting;
 mod statements;
 
 pub mod design;

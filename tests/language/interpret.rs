@@ -75,6 +75,16 @@ fn declarations_are_judged_as_they_say() {
     crate::support::suite::run("elaborate", |text| observe(text, Mode::Check));
 }
 
+/// The stack bears fewer levels in a build without optimisation, so the place differs, but never the outcome.
+#[test]
+fn calls_that_need_much_stack_end_with_a_diagnostic() {
+    let text = "fn f(n: Int) -> Int = 1 + (2 * (3 + (4 * (5 + (6 * (7 + f(n + 1)))))))\nprint(f(0))\n";
+    let observed = observe(text, Mode::Run);
+    let [only] = observed.diagnostics.as_slice() else { panic!("{:?}", observed.diagnostics) };
+    assert_eq!(only.code.0, "E0503");
+    assert!(only.hints.iter().any(|hint| hint.contains("calls are nested here")), "{:?}", only.hints);
+}
+
 /// Every built-in that is declared has a body, or says that it is not yet available; every body is
 /// declared, with parameters of the same names and types, of which the same may be missing.
 #[test]

@@ -37,7 +37,30 @@ print(a)
 fn f(n: Int) -> Int = f(n + 1)
 //                    ~~~~~~~~ led to this call
 print(f(0))
-//    ^^^^ E0503 200 deep
+//    ^^^^ E0503 20000 deep | has to come to a case in which it does not | `iterate(f, from: ..., until: ...)`
+
+--- what is carried along for ever
+print(iterate(n => n + 1, from: 0, until: n => n < 0, max: 1000))
+//                                        ^^^^^^^^^^ E0506 does not hold after 1000 steps | `max:`
+print(iterate(n => [1, 2][n], from: 0, until: n => n == 5))
+//                 ^^^^^^^^^ E0501 index 2 of 2
+//            ~~~~~~~~~~~~~~ called from here: `=>`
+print(reduce([1, 0], (a, x) => a / x, from: 1.0))
+//                                 ^ E0502
+print(iterate(n => n, from: 0, until: n => true, max: -1))
+//                                                    ^^ E0506
+
+--- what is carried along becomes too deep
+record N { next: N? }
+fn same(x: Int) -> Int = x
+fn deeper(g: fn(Int) -> Int, i: Int) -> fn(Int) -> Int = x => g(x) + 1
+print(iterate(n => N(next: n), from: N(), until: n => false))
+//            ^^^^^^^^^^^^^^^ E0505 10000 values within each other | these were 16384
+let steps = [i for i in 0..20_000]
+let b = reduce(steps, (b, i) => Sc(b, wait(1s)), from: wait(1s))
+//                    ^^^^^^^^^^^^^^^^^^^^^^^^^ E0505 10000 values within each other
+let g = reduce(steps, deeper, from: same)
+//                    ^^^^^^ E0505 10000 values within each other
 
 --- numbers too large
 print(10^100_000)

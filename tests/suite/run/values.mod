@@ -61,3 +61,38 @@ print(v[0], v[2] == v.z, [v[i] for i in 0..3])
 //> 1m true [1m, 2m, 3m]
 print(v[3])
 //    ^^^^ E0501 which has 3 elements
+
+--- a value is carried along a list, and to where a condition holds
+print(reduce([3, 1, 2], (total, x) => 10 * total + x, from: 0), reduce([], (a, x) => a + x, from: 7))
+//> 312 7
+print(reduce([1m, 2m], (a, x) => a + x, from: 0m), reduce(["a", "b"], (t, x) => t ++ x, from: ""))
+//> 3m ab
+print(reduce([1.5, 2], (a, x) => a + x, from: 0), reduce([1, 2], (a, x) => a ++ [2 * x], from: []))
+//> 3.5 [2, 4]
+record Search { low: Number, high: Number }
+let root2 = iterate(
+  s => {
+    let middle = (s.low + s.high) / 2
+    if middle^2 < 2 { s with { low: middle } } else { s with { high: middle } }
+  },
+  from: Search(low: 0, high: 2),
+  until: s => s.high - s.low < 1e-9,
+)
+print(abs(root2.low - sqrt(2)) < 1e-9, iterate(n => n + 1, from: 3, until: n => true))
+//> true 3
+print(iterate(f => f + 1deg, from: 0deg, until: f => f >= 90deg, max: 90))
+//> 90deg
+
+--- recursion is as deep as it needs to be
+fn sum_to(n: Int) -> Int = if n == 0 { 0 } else { n + sum_to(n - 1) }
+print(sum_to(10_000))
+//> 50005000
+
+--- deep values are compared and printed
+record N { next: N?, n: Int = 0 }
+let steps = [i for i in 0..8192]
+let a = reduce(steps, (n, i) => N(next: n, n: i), from: N())
+let b = reduce(steps, (n, i) => N(next: n, n: i), from: N())
+let c = reduce(steps, (n, i) => N(next: n, n: i), from: N(n: 1))
+print(a == b, a == c, len(characters("{a}")) < 2000)
+//> true false true
