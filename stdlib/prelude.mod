@@ -392,7 +392,7 @@ extern fn emit(
   stability: footprint | centres = footprint,
 )
 
-/// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it.
+/// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; or a plot.
 ///
 /// The end of the file's name says how. `.html` is a page that plays the plan in any browser, from
 /// one file that loads nothing else. `.png` is a picture at the time `at` from a `side`; +x is ahead.
@@ -410,7 +410,7 @@ extern fn emit(
 /// show(Driver1(), "driver.png", side: front)
 /// ```
 extern fn show(
-  what: Plan | Behavior | Config | Lattice | Truss | Layout,
+  what: Plan | Behavior | Config | Lattice | Truss | Layout | Plot,
   file: Text,
   sample: Time = 10ms,
   unstable_for: Time = 0s,
@@ -423,8 +423,8 @@ extern fn show(
 ///
 /// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
-/// edges that meet in the end, and the folded form after every step as further frames. Another ending is
-/// an error.
+/// edges that meet in the end, and the folded form after every step as further frames. A plot is a `.svg` or `.png`
+/// file. Another ending is an error.
 ///
 /// Example:
 /// ```modl
@@ -435,7 +435,46 @@ extern fn show(
 /// save(Snake(n: 4), "snake.json")
 /// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
 /// ```
-extern fn save(what: Config | Folding | Layout, file: Text)
+extern fn save(what: Config | Folding | Layout | Plot, file: Text)
+
+/// A plot, to be shown or saved.
+extern type Plot {
+  /// How many lists of values it shows.
+  series: Int
+  /// How many values it can't show: missing ones and infinite ones.
+  gaps: Int
+}
+
+/// Draws quantities over others as curves or points, or how often they occur, with units on the axes.
+///
+/// `y` is one list or several, one for each curve. `x` is one list for all, or one for each; without it, values are
+/// numbered. A missing or infinite value leaves a gap. A `histogram` counts the values of `y` in `bins`. Axes are
+/// labelled with the names of fields, signals and values as they are written, and several curves with theirs;
+/// `x_label`, `y_label` and `names` say otherwise.
+///
+/// `show` and `save` write it as `.svg` or `.png`; a session shows it in the terminal.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let p = plan(move(c.m[1].tilt, to: 60deg))
+/// let step = 20ms
+/// save(plot(p.series(torque(c.m[1].tilt), step: step), x: p.times(step: step)), "torque.svg")
+/// let angles = [p.series(angle(m.tilt), step: step) for m in c.m]
+/// show(plot(angles, x: p.times(step: step), names: ["front", "middle", "back"], y_label: "tilt"), "tilts.png")
+/// print(plot(p.series(speed(c.m[1].tilt), step: step), kind: histogram, bins: 12))
+/// ```
+extern fn plot<D: Dimension, E: Dimension>(
+  y: List<Quantity<D>?> | List<List<Quantity<D>?>>,
+  x: (List<Quantity<E>?> | List<List<Quantity<E>?>>)?,
+  kind: curve | scatter | histogram = curve,
+  names: List<Text> = [],
+  title: Text = "",
+  x_label: Text?,
+  y_label: Text?,
+  bins: auto | Int = auto,
+) -> Plot
 
 /// Reads a robot from a `.rofi` file of this project, or from a `.json` file in RoFI's newer format; its
 /// modules are `modules(c, Rofi)`.
@@ -1199,6 +1238,65 @@ extern fn speed(joint: Joint<Angle>) -> Signal<AngularSpeed>
 /// ```
 extern fn elapsed() -> Signal<Time>
 
+/// The torque that a joint's motor supplies in the joint's positive direction, as the judge works it out.
+///
+/// It holds the robot at rest at every instant. The ground's forces are spread evenly and without friction, or,
+/// where those would overload a joint, they are the best that friction allows. No robot senses it: it is for
+/// `series`, not for conditions.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let lift = plan(move(c.m[2].tilt, to: 30deg))
+/// print("at most", max(lift.series(torque(c.m[2].tilt), step: 100ms)))
+/// ```
+extern fn torque(joint: Joint<Angle>) -> Signal<Torque>
+
+/// How far the centre of mass is inside the area that the robot stands on, negative outside, as the judge works
+/// it out; for `series`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Car
+/// let p = plan(Car().drive(t: 1s))
+/// print(min(p.series(margin(), step: 100ms)))
+/// ```
+extern fn margin() -> Signal<Length>
+
+/// The least distance between links that may not touch, as the judge works it out; for `series`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Car
+/// let p = plan(Car().drive(t: 1s))
+/// print(min(p.series(clearance(), step: 100ms)))
+/// ```
+extern fn clearance() -> Signal<Length>
+
+/// The normal force of the ground on a module, or on all modules of a part: the load of a foot. For `series`, with
+/// the forces that the judge weighs torques with.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Car, Smores}
+/// let car = Car()
+/// let p = plan(car.drive(t: 1s))
+/// for m in modules(car, Smores) { print(max(p.series(ground_force(m), step: 500ms))) }
+/// ```
+extern fn ground_force(on: Config) -> Signal<Force>
+
+/// The distance of two ports' origins; for `series`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let p = plan(move(c.m[1].tilt, to: 30deg))
+/// print(last(p.series(separation(c.tail, c.head), step: 100ms)))
+/// ```
+extern fn separation(a: Port, b: Port) -> Signal<Length>
+
 /// That something is docked at a port.
 ///
 /// Example:
@@ -1350,10 +1448,34 @@ extern type State {
   base: Pose
   /// The centre of mass in the world.
   com: Vec3<Length>
+  /// How far the centre of mass is inside the area that the robot stands on, negative outside; missing where
+  /// nothing stands, or the plan's `unstable_for` lets support be missing.
+  margin: Length?
+  /// The least distance between links that may not touch; missing where no two such links are.
+  clearance: Length?
   /// The position of a joint.
   fn angle(joint: Joint<Angle>) -> Angle
-  /// The pose of a module's body in the world.
-  fn pose(module: Module) -> Pose
+  /// The speed of a joint.
+  fn speed(joint: Joint<Angle>) -> AngularSpeed
+  /// The torque that a joint's motor supplies, as `torque` says; missing where the judge knows none.
+  fn torque(joint: Joint<Angle>) -> Torque?
+  /// The normal force of the ground on a module or a part, as `ground_force` says; missing where the judge knows
+  /// none.
+  fn ground_force(on: Config) -> Force?
+  /// The forces of the ground with which the judge weighs the robot; missing where it knows none.
+  fn contacts() -> List<Contact>?
+  /// The pose of a module's body or of a port in the world.
+  fn pose(of: Module | Port) -> Pose
+}
+
+/// A force of the ground on a robot.
+extern type Contact {
+  /// The path name of the module that it acts on.
+  module: Text
+  /// The point of application in the world.
+  point: Vec3<Length>
+  /// The force in the world. Evenly spread forces are vertical; the best ones use friction.
+  force: Vec3<Force>
 }
 
 /// A motion of a robot from beginning to end, whatever made it.
@@ -1374,6 +1496,14 @@ extern type Plan {
   fn at(time: Time) -> State
   /// The part of the plan within a range of times.
   fn slice(times: Range<Time>) -> Plan
+  /// Evenly spaced times from 0 to `duration`, both included, no further apart than `step`.
+  fn times(step: Time = 10ms) -> List<Time>
+  /// The values of a signal at `times(step)`: `p.series(angle(j))`.
+  ///
+  /// A value that the judge does not know at one of these times is refused; `states` tells what is known.
+  fn series<D: Dimension>(of: Signal<Quantity<D>>, step: Time = 10ms) -> List<Quantity<D>>
+  /// The states at `times(step)`: `[s.com for s in p.states()]`.
+  fn states(step: Time = 10ms) -> List<State>
 }
 
 /// What the verifier found.

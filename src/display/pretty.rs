@@ -7,6 +7,7 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::natives::folding::LayoutValue;
+use crate::natives::plot::PlotValue;
 use std::any::Any;
 
 /// The greatest number of lines of a tree; the rest are counted.
@@ -38,9 +39,10 @@ impl Interpreter<'_> {
                 Record::Plan(planned) => self.display_plan(planned)?,
                 Record::Native(record) => {
                     let record: &dyn Any = record.as_ref();
-                    match record.downcast_ref::<LayoutValue>() {
-                        Some(layout) => shape::pattern(layout.report()),
-                        None => self.show(value),
+                    match (record.downcast_ref::<LayoutValue>(), record.downcast_ref::<PlotValue>()) {
+                        (Some(layout), _) => shape::pattern(layout.report()),
+                        (_, Some(plot)) => plot.text(),
+                        _ => self.show(value),
                     }
                 }
                 _ => self.show(value),

@@ -40,8 +40,8 @@ impl Interpreter<'_> {
         span: Span,
         frame: &mut Frame,
     ) -> Eval<Value> {
-        let args = self.eval_args(args, span, frame)?;
-        self.apply_def(def, args, span)
+        let values = self.eval_args(args, span, frame)?;
+        self.apply_def(def, values, args, span)
     }
 
     /// Builds a record of its fields; unknown where one of them is.
@@ -118,18 +118,19 @@ impl Interpreter<'_> {
                 }
                 self.with_call(span, Symbol::new("=>"), |this| this.eval(body, &mut inner))
             }
-            Callable::Def(def) => self.apply_def(*def, Args::plain(values, span), span),
+            Callable::Def(def) => self.apply_def(*def, Args::plain(values, span), &[], span),
             Callable::Behavior { object, behavior } => {
                 self.apply_behavior(object, *behavior, Args::plain(values, span), span)
             }
         }
     }
 
-    fn apply_def(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
+    /// Calls a declared function or a built-in; `exprs` are the arguments as they are written, if they are.
+    fn apply_def(&mut self, def: DefId, args: Args, exprs: &[Option<Expr>], span: Span) -> Eval<Value> {
         let program = self.shared.program;
         match &program.def(def).kind {
             DefKind::Fn(function) => self.call_fn(function, program.def(def).name, args, span),
-            DefKind::Native(native) => self.call_native(native, args, span),
+            DefKind::Native(native) => self.call_native(native, args, exprs, span),
             _ => Ok(Value::Unknown),
         }
     }
@@ -165,7 +166,13 @@ impl Interpreter<'_> {
         }
     }
 
-    fn call_native(&mut self, native: &NativeDef, args: Args, span: Span) -> Eval<Value> {
+    fn call_native(
+        &mut self,
+        native: &NativeDef,
+        args: Args,
+        exprs: &[Option<Expr>],
+        span: Span,
+    ) -> Eval<Value> {
         let spans =
             (0..native.params.len()).map(|i| args.spans.get(i).copied().unwrap_or(span)).collect::<Vec<_>>();
         let mut frame = Frame::new(native.frame.max(native.params.len()), None);
@@ -180,7 +187,8 @@ impl Interpreter<'_> {
         if values.iter().any(Value::is_unknown) {
             return Ok(Value::Unknown);
         }
-        (entry.body)(self, &Call { span, native: entry, params: &native.params, args: values, spans: &spans })
+        let (params, spans) = (&native.params, &spans);
+        (entry.body)(self, &Call { span, native: entry, params, args: values, spans, exprs })
     }
 
     /// Checks the behaviours among the arguments, as far as that is possible without a run.

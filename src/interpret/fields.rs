@@ -9,6 +9,7 @@ use super::value::Value;
 use super::verdicts;
 use crate::check::typed::DefKind;
 use crate::geometry::Vec3;
+use crate::plan::verify::articulated::Detail;
 use crate::plan::{Verdict, World, Worst};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
@@ -138,7 +139,13 @@ const STATE: &[Field<StateValue>] = &[
         let (com, _) = state.body.kinematics.centre_of_mass(&state.body.assembly, &state.poses());
         Value::Vec3(com, Dimension::LENGTH)
     }),
+    ("margin", |state| length_if(state.judged(Detail::Stance, |known| known.margin).flatten())),
+    ("clearance", |state| length_if(state.clearance())),
 ];
+
+fn length_if(length: Option<f64>) -> Value {
+    Value::optional(length.map(Value::length))
+}
 
 const WORLD: &[Field<World>] = &[
     ("gravity", |world| Value::Quantity(world.gravity, Dimension::ACCELERATION)),

@@ -4,7 +4,7 @@ use super::argument::{Argument, ArgumentError, Parameter, Positive};
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::check::typed::Param;
+use crate::check::typed::{Expr, Param};
 use crate::source::{ReadError, Span, code};
 
 /// The modes in which a built-in does its work.
@@ -56,6 +56,9 @@ pub struct Call<'c> {
     pub args: &'c [Value],
     /// The spans of the arguments; that of the whole call for those left out.
     pub spans: &'c [Span],
+    /// The arguments as they are written, in the order of the declaration; none where the built-in is called as a
+    /// value.
+    pub exprs: &'c [Option<Expr>],
 }
 
 impl<'c> Call<'c> {
@@ -93,6 +96,11 @@ impl<'c> Call<'c> {
     /// the declaration has no parameter `name`.
     pub fn arg(&self, name: &str) -> &'c Value {
         self.args.get(self.index(name)).unwrap_or(&Value::Missing)
+    }
+
+    /// Returns an argument as it is written; `None` where it was left out, or the built-in is called as a value.
+    pub fn expr(&self, name: &str) -> Option<&'c Expr> {
+        self.exprs.get(self.index(name))?.as_ref()
     }
 
     /// Returns a fault (E0506) at an argument. Panics if the declaration has no parameter `name`.

@@ -3,7 +3,7 @@
 use super::eval::Frame;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, fault};
-use super::value::{ConditionValue, Value};
+use super::value::{ConditionValue, Measure, SignalValue, Value};
 use crate::check::typed::{BinaryOp, Expr, UnaryOp};
 use crate::plan::{Compare, Condition};
 use crate::source::{Diagnostic, Span, code};
@@ -114,11 +114,11 @@ impl Interpreter<'_> {
         match (a, b) {
             (Value::Signal(signal), limit) => {
                 let value = limit.as_number().ok_or_else(|| operands_do_not_fit(span))?;
-                Ok(compare_signal(signal, comparison(op), value))
+                compare_signal(signal, comparison(op), value, span)
             }
             (limit, Value::Signal(signal)) => {
                 let value = limit.as_number().ok_or_else(|| operands_do_not_fit(span))?;
-                Ok(compare_signal(signal, flipped(comparison(op)), value))
+                compare_signal(signal, flipped(comparison(op)), value, span)
             }
             _ => {
                 let order = order_of(a, b).ok_or_else(|| operands_do_not_fit(span))?;
@@ -327,9 +327,22 @@ fn flipped(compare: Compare) -> Compare {
     }
 }
 
-fn compare_signal(signal: &super::value::SignalValue, compare: Compare, value: f64) -> Value {
-    let condition = Condition::Compare { signal: signal.signal, compare, value };
-    Value::Condition(Rc::new(ConditionValue { robot: signal.robot.clone(), condition }))
+/// Returns the condition that a signal compares with a value.
+///
+/// # Errors
+/// A fault where no robot senses the signal.
+fn compare_signal(signal: &SignalValue, compare: Compare, value: f64, span: Span) -> Eval<Value> {
+    let Measure::Sensed(sensed) = signal.measure else {
+        let message = "no robot senses this while it moves, so nothing can wait for it";
+        return Err(Diagnostic::error(code::BAD_ACTION, message)
+            .label(span, "worked out by the judge")
+            .hint(
+                "conditions sense `angle`, `speed`, `elapsed` and `docked`; `p.series(...)` gives all others",
+            )
+            .into());
+    };
+    let condition = Condition::Compare { signal: sensed, compare, value };
+    Ok(Value::Condition(Rc::new(ConditionValue { robot: signal.robot.clone(), condition })))
 }
 
 fn by_zero(span: Span) -> super::stop::Stop {

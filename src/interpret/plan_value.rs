@@ -4,6 +4,7 @@ use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::value::Value;
+use crate::plan::verify::articulated::{self, Detail, Instant};
 use crate::plan::{CauseId, Plan, Settings, Verdict, WorldFrom};
 use std::any::Any;
 use std::cell::{OnceCell, RefCell};
@@ -27,7 +28,14 @@ pub struct PlanValue {
     instance: OnceCell<Rc<Instance>>,
     /// The verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
+    /// The judge's quantities at the times that were asked for last: without loads, and with them.
+    instants: RefCell<[AtTimes<Instant>; 2]>,
+    /// The least distances of links that may not touch at the times that were asked for last, m.
+    clearances: RefCell<AtTimes<Option<f64>>>,
 }
+
+/// Times (s) with what is known at them.
+type AtTimes<T> = (Rc<Vec<f64>>, Rc<Vec<T>>);
 
 /// A verdict with the settings and worlds that it was given under.
 pub(super) struct Judged {
@@ -90,6 +98,8 @@ impl PlanValue {
             report: None,
             instance: OnceCell::new(),
             judged: RefCell::default(),
+            instants: RefCell::default(),
+            clearances: RefCell::default(),
         }
     }
 
@@ -119,6 +129,26 @@ impl PlanValue {
     pub fn remember_verdict(&self, verdict: Verdict) {
         let (settings, worlds) = (self.plan.settings, self.plan.worlds.clone());
         self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
+    }
+
+    /// Returns what the judge knows at these times (s), as far as it gets; kept for the next who asks the same.
+    pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
+        let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
+        if kept.0 != *times {
+            *kept = (times.clone(), Rc::new(articulated::instants(&self.plan, times, detail)));
+        }
+        kept.1.clone()
+    }
+
+    /// Returns the least distance of links that may not touch at each of these times (s), m; `None` where no two such
+    /// links are. Kept for the next who asks the same.
+    pub fn clearances(&self, times: &Rc<Vec<f64>>) -> Rc<Vec<Option<f64>>> {
+        let mut kept = self.clearances.borrow_mut();
+        if kept.0 != *times {
+            let found = articulated::clearances_at(&self.plan, times).unwrap_or_default();
+            *kept = (times.clone(), Rc::new(found));
+        }
+        kept.1.clone()
     }
 
     /// Returns the number of actions, as far as a machine word holds it.

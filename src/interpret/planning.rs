@@ -9,7 +9,7 @@ use super::robot::Robot;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
 use crate::plan::visit::equal;
 use crate::plan::{
     Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
@@ -283,20 +283,22 @@ impl Interpreter<'_> {
     /// # Errors
     /// A fault at `span` where the plan's robot has no joints.
     pub fn state_at(&mut self, planned: &Rc<PlanValue>, time: f64, span: Span) -> Eval<Value> {
-        let Some(body) = &planned.body else {
-            let message = "a state is one of joints, and this robot has none";
-            return Err(fault(code::BAD_VALUE, span, message, "no joints; `show(.., at: ..)` draws it"));
-        };
         let time = time.clamp(0.0, planned.plan.body.duration());
-        let Snapshot::Robot(state) = planned.plan.body.state(time) else { return Ok(Value::Unknown) };
-        Ok(Value::Record(Rc::new(Record::State(StateValue {
-            robot: planned.robot.clone(),
-            body: body.clone(),
-            state,
-            time,
-            planned: planned.clone(),
-            base: OnceCell::new(),
-        }))))
+        self.require_joints(planned, span)?;
+        let state = state_value(planned, &Rc::new(vec![time]), 0, OnceCell::new());
+        Ok(state.map_or(Value::Unknown, |state| Value::Record(Rc::new(Record::State(state)))))
+    }
+
+    /// Refuses a plan of a lattice or a truss, which has no joints.
+    ///
+    /// # Errors
+    /// A fault at `span` where it has none.
+    pub fn require_joints(&self, planned: &PlanValue, span: Span) -> Eval<()> {
+        if planned.body.is_some() {
+            return Ok(());
+        }
+        let message = "a state is one of joints, and this robot has none";
+        Err(fault(code::BAD_VALUE, span, message, "no joints; `show(.., at: ..)` draws it"))
     }
 
     /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose of
@@ -320,6 +322,21 @@ impl Interpreter<'_> {
     pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
     }
+}
+
+/// Returns the state of a plan's robot at one of these times within the plan, s; `None` for plans of lattices and
+/// trusses. `base` is the pose of its base, if it is known already.
+pub fn state_value(
+    planned: &Rc<PlanValue>,
+    times: &Rc<Vec<f64>>,
+    own: usize,
+    base: OnceCell<Pose>,
+) -> Option<StateValue> {
+    let body = planned.body.clone()?;
+    let time = times[own];
+    let Snapshot::Robot(state) = planned.plan.body.state(time) else { return None };
+    let (robot, planned, among) = (planned.robot.clone(), planned.clone(), (times.clone(), own));
+    Some(StateValue { robot, body, state, time, planned, base, among })
 }
 
 /// Returns the corners of the support polygon of a robot that stands at rest in its start state, m, in the

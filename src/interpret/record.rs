@@ -7,7 +7,7 @@ use super::robot::Robot;
 use super::value::Value;
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::articulated::base_at;
+use crate::plan::verify::articulated::{Detail, Instant, base_at};
 use crate::plan::{Ground, Plan, Verdict, World};
 use crate::robot::State;
 use std::any::Any;
@@ -72,6 +72,8 @@ pub struct StateValue {
     pub planned: Rc<PlanValue>,
     /// The pose of the base in the world, once it was asked for.
     pub base: OnceCell<Pose>,
+    /// The times of the states that it was made together with, and its own among them.
+    pub among: (Rc<Vec<f64>>, usize),
 }
 
 /// The name of a field of a record, with the function that reads it.
@@ -107,6 +109,19 @@ impl StateValue {
         let base = self.body.assembly.base;
         self.body.kinematics.link_poses_from(base, &self.state.joints, &stood, &mut poses);
         poses
+    }
+
+    /// Returns what the judge knows of this time; `None` where it did not get there. States that were made together
+    /// are asked for together.
+    pub fn judged<T>(&self, detail: Detail, read: impl FnOnce(&Instant) -> T) -> Option<T> {
+        let (times, own) = &self.among;
+        self.planned.instants(times, detail).get(*own).map(read)
+    }
+
+    /// Returns the least distance of links that may not touch, m; `None` where no two such links are.
+    pub fn clearance(&self) -> Option<f64> {
+        let (times, own) = &self.among;
+        self.planned.clearances(times).get(*own).copied().flatten()
     }
 
     /// Returns the pose of the base module's body in the world, with all standing, rolling and tipping up to

@@ -11,11 +11,12 @@ use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
 use crate::plan;
-use crate::robot::{JointKind, JointOwner, Limits};
+use crate::robot::{JointId, JointKind, JointOwner, Limits, PortRef};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
 use std::collections::HashSet;
+use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -187,8 +188,25 @@ impl BehaviorCall {
 pub struct SignalValue {
     /// The robot; `None` where nothing names one.
     pub robot: Option<Subject>,
-    /// The signal.
-    pub signal: plan::Signal,
+    /// The quantity that it gives.
+    pub measure: Measure,
+}
+
+/// A quantity that changes while a robot moves.
+#[derive(Clone, Debug)]
+pub enum Measure {
+    /// A quantity that the robot senses; conditions can wait for it.
+    Sensed(plan::Signal),
+    /// The force (N) or torque (N·m) that the motor of a joint supplies.
+    Effort(JointId),
+    /// The distance of the centre of mass inside the support, m.
+    Margin,
+    /// The least distance of links that may not touch, m.
+    Clearance,
+    /// The normal force of the ground on these modules, N.
+    GroundForce(Range<usize>),
+    /// The distance of two ports, m.
+    Separation(PortRef, PortRef),
 }
 
 /// A condition, with the robot that it is about.

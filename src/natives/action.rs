@@ -9,7 +9,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{
-    Behavior, Callable, ConditionValue, JointValue, PortValue, SignalValue, Value,
+    Behavior, Callable, ConditionValue, JointValue, Measure, PortValue, SignalValue, Value,
 };
 use crate::plan::{Action, Command, Condition, Node, Otherwise, Profile, Signal, Target};
 use crate::robot::JointId;
@@ -302,7 +302,7 @@ fn abort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn signal_value(robot: Option<Subject>, signal: Signal) -> Value {
-    Value::Signal(Rc::new(SignalValue { robot, signal }))
+    Value::Signal(Rc::new(SignalValue { robot, measure: Measure::Sensed(signal) }))
 }
 
 fn signal(interpreter: &mut Interpreter, call: &Call, make: fn(JointId) -> Signal) -> Eval<Value> {

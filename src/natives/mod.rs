@@ -33,10 +33,12 @@ mod list;
 mod math;
 mod mesh_file;
 mod plan;
+pub mod plot;
 pub mod refold;
 mod robot;
 mod rofi;
 mod save;
+mod series;
 mod shape;
 mod show;
 pub mod squeeze;
@@ -75,6 +77,8 @@ const SUBJECTS: &[Subject] = &[
     natives(plan::TABLE),
     natives(show::TABLE),
     natives(save::TABLE),
+    Subject { natives: series::TABLE, records: series::records },
+    Subject { natives: plot::TABLE, records: plot::records },
     natives(rofi::TABLE),
     Subject { natives: fold::TABLE, records: folding::records },
     Subject {

@@ -11,6 +11,7 @@ use crate::interpret::record::StateValue;
 use crate::interpret::robot::Robot;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::{JointValue, PortValue, Value};
+use crate::robot::PortRef;
 use crate::units::Dimension;
 use std::rc::Rc;
 
@@ -35,7 +36,7 @@ pub(super) const TABLE: &[Native] = &[
     }),
     Native::pure("rigidity", parameters![of: &Rc<Instance>], rigidity),
     Native::on_run("State.angle", parameters![self: &StateValue, joint: &JointValue], state_angle),
-    Native::on_run("State.pose", parameters![self: &StateValue, module: &Rc<Instance>], state_pose),
+    Native::on_run("State.pose", parameters![self: &StateValue, of: &Value], state_pose),
 ];
 
 /// Returns the instance in the argument `of`, for natives that declare several types of instances for it.
@@ -171,7 +172,19 @@ fn state_angle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 fn state_pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (state, module) = (call.get::<&StateValue>("self")?, call.get::<&Rc<Instance>>("module")?);
-    interpreter.common_robot(Some(&state.robot), Some(&module.robot), call.span)?;
-    Ok(Value::Pose(Rc::new(state.body.kinematics.module_pose(module.offset, &state.poses()))))
+    let state = call.get::<&StateValue>("self")?;
+    let kinematics = &state.body.kinematics;
+    let pose = match call.get::<&Value>("of")? {
+        Value::Instance(module) => {
+            interpreter.common_robot(Some(&state.robot), Some(&module.robot), call.span)?;
+            kinematics.module_pose(module.offset, &state.poses())
+        }
+        Value::Port(port) => {
+            interpreter.common_robot(Some(&state.robot), Some(&port.robot), call.span)?;
+            let port = PortRef { module: port.module, port: port.port };
+            kinematics.port_pose(&state.body.assembly, port, &state.poses())
+        }
+        _ => unreachable!("`check` lets only modules and ports through"),
+    };
+    Ok(Value::Pose(Rc::new(pose)))
 }

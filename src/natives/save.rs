@@ -3,6 +3,7 @@
 use super::Native;
 use super::plan::{output_path, write_output};
 use super::rofi;
+use super::show::{Form, picture_of, plot_of};
 use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
@@ -12,6 +13,7 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
+use crate::view::Side;
 
 /// The natives of this file.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
@@ -20,6 +22,16 @@ pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    if let Some(plot) = plot_of(call.arg("what")) {
+        let form = match ending {
+            "svg" => Form::Svg,
+            "png" => Form::Png { time: 0.0, side: Side::Corner },
+            _ => return Err(call.refuse("file", "the name of a plot's picture ends in `.svg` or `.png`")),
+        };
+        let bytes = picture_of(interpreter, plot, form).expect("plots are drawn in both forms");
+        write_output(interpreter, call.at("file"), &path, bytes)?;
+        return Ok(Value::Nothing);
+    }
     let robot = ExportFormat::of_ending(ROBOT_FORMATS, ending);
     let folding = ExportFormat::of_ending(FOLDING_FORMATS, ending);
     let [robots, foldings] = [ExportFormat::endings(ROBOT_FORMATS), ExportFormat::endings(FOLDING_FORMATS)];

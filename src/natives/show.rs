@@ -2,6 +2,7 @@
 
 use super::Native;
 use super::plan::{output_path, settings, write_output};
+use super::plot::PlotValue;
 use crate::check::typed::DefKind;
 use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::causes::PlanCauses;
@@ -11,6 +12,7 @@ use crate::interpret::design::{Design, DesignKind};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
+use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::plan::{
@@ -19,7 +21,9 @@ use crate::plan::{
 };
 use crate::robot::Library;
 use crate::source::Span;
+use crate::view::plot::Plot;
 use crate::view::{self, RenderInput, Side, StillOptions};
+use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -45,6 +49,12 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(form) = form(call, &name)? else {
         return Err(call.refuse("file", "a page's name ends in `.html`, a picture's in `.svg` or `.png`"));
     };
+    if let Some(plot) = plot_of(call.arg("what")) {
+        let bytes = picture_of(interpreter, plot, form)
+            .ok_or_else(|| call.refuse("file", "the name of a plot's picture ends in `.svg` or `.png`"))?;
+        write_output(interpreter, call.at("file"), &path, bytes)?;
+        return Ok(Value::Nothing);
+    }
     let settings = settings(interpreter, call)?;
     if let Value::Instance(instance) = call.arg("what")
         && let Some(plan) = interpreter.still(&instance.design)
@@ -65,6 +75,29 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     Ok(Value::Nothing)
 }
+
+/// Returns the plot that a value is, if it is one.
+pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
+    let Value::Record(record) = value else { return None };
+    let Record::Native(record) = &**record else { return None };
+    let record: &dyn Any = record.as_ref();
+    record.downcast_ref::<PlotValue>().map(PlotValue::plot)
+}
+
+/// Returns a plot as a picture; `None` in a form that plots do not have.
+pub(super) fn picture_of(interpreter: &Interpreter, plot: &Plot, form: Form) -> Option<Vec<u8>> {
+    match form {
+        Form::Page => None,
+        Form::Svg => Some(view::plot::svg(plot).into_bytes()),
+        Form::Png { .. } => {
+            let width = interpreter.shared.options.picture.map_or(PLOT_WIDTH, |(width, _)| width);
+            Some(view::plot::png(plot, width))
+        }
+    }
+}
+
+/// The width of the picture of a plot, pixels.
+const PLOT_WIDTH: usize = 1440;
 
 /// A form of drawing, chosen by the ending of the file's name.
 #[derive(Clone, Copy)]

@@ -9,7 +9,7 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     if dimension == Dimension::NUMBER {
         return number(value);
     }
-    let (suffix, factor) = best_unit(value, dimension);
+    let (suffix, factor) = fitting_unit(value, dimension);
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
@@ -41,7 +41,7 @@ fn trim_zeros(text: &str) -> &str {
 }
 
 /// Returns the unit to show a value of a dimension in, with its factor to SI: the largest in which the value reaches 1.
-fn best_unit(value: f64, dimension: Dimension) -> (String, f64) {
+pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     const DEG: f64 = std::f64::consts::PI / 180.0;
     let units: &[(&str, f64)] = match dimension.name() {
         Some("Length") => &[("m", 1.0), ("mm", 1e-3)],
@@ -81,7 +81,7 @@ pub fn base_units(dimension: Dimension) -> String {
 pub fn usual_unit(dimension: Dimension) -> String {
     match dimension.name() {
         Some("Number") => String::new(),
-        _ => best_unit(f64::MAX, dimension).0,
+        _ => fitting_unit(f64::MAX, dimension).0,
     }
 }
 

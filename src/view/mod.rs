@@ -40,6 +40,8 @@ mod layers;
 mod pattern;
 mod program;
 
+pub mod plot;
+
 pub use input::RenderInput;
 pub use page::{page, page_name};
 pub use picture::{Side, StillOptions, png};

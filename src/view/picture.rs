@@ -274,6 +274,11 @@ fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
     pixels
 }
 
+/// Returns pixels, red, green and blue of each, as PNG.
+pub(super) fn encode_rgb(width: usize, height: usize, pixels: &[u8]) -> Vec<u8> {
+    encoded(&StillOptions { width, height, ..StillOptions::default() }, pixels, None)
+}
+
 /// Returns pixels as PNG: red, green and blue of each, or palette indices if `colours` is given.
 fn encoded(options: &StillOptions, pixels: &[u8], colours: Option<&[[u8; 3]]>) -> Vec<u8> {
     let mut bytes = Vec::new();

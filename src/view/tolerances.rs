@@ -25,6 +25,12 @@ pub(super) struct Tolerances {
     /// The depth below the surface in the shadow map, as a part of the scene's radius, from which a point is in the
     /// shade.
     pub shadow_depth: f64,
+    /// The part of a step between ticks within which a value lies on a tick: rounding.
+    pub tick: f64,
+    /// The least step between ticks that is written without an exponent, in the unit of the axis.
+    pub plain_step: f64,
+    /// The least coverage of a pixel of a plot that shows.
+    pub coverage: f64,
 }
 
 /// The tolerances with which every picture and page is made.
@@ -39,4 +45,7 @@ pub(super) const TOLERANCES: Tolerances = Tolerances {
     radius: 1e-6,
     shadow: 0.004,
     shadow_depth: 0.006,
+    tick: 1e-9,
+    plain_step: 1e-4,
+    coverage: 0.002,
 };

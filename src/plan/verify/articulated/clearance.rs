@@ -7,6 +7,7 @@ use super::history::base_at;
 use super::tolerances::Precision;
 use crate::geometry::distance::signed_distance;
 use crate::geometry::{Pose, Vec3, contact_point};
+use crate::interrupt;
 use crate::plan::{Body as Form, Plan, Tracks, validation};
 use crate::robot::Kinematics;
 
@@ -27,13 +28,26 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let modules = tracks.robot.modules.len();
     let afforded = PAIRS_MAX / (modules * modules).max(1);
     let count = count.min(afforded.max(POINTS_MIN)).max(1);
-    let Ok(bodies) = bodies(tracks) else { return vec![] };
-    let mut advancement = Advancement::new(tracks, bodies, Precision::default(), usize::MAX);
-    let at = |i: usize| {
-        let time = until * i as f64 / count as f64;
-        Some((time, advancement.clearance_at(&tracks.state(time).bonds, time)?))
+    let times: Vec<f64> = (0..=count).map(|i| until * i as f64 / count as f64).collect();
+    let found = at_times(tracks, &times).into_iter().flatten();
+    times.iter().zip(found).filter_map(|(time, distance)| Some((*time, distance?))).collect()
+}
+
+/// Returns the least signed distance of links that may not touch, m, at each of these times (s); `None` where no two
+/// such links are. `None` for all of a plan that is not of an articulated robot, or means nothing.
+pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
+    let Form::Tracks(tracks) = &plan.body else { return None };
+    validation::check(plan).ok()?;
+    at_times(tracks, times)
+}
+
+fn at_times(tracks: &Tracks, times: &[f64]) -> Option<Vec<Option<f64>>> {
+    let mut advancement = Advancement::new(tracks, bodies(tracks).ok()?, Precision::default(), usize::MAX);
+    let at = |time: &f64| {
+        interrupt::checkpoint();
+        advancement.clearance_at(&tracks.state(*time).bonds, *time)
     };
-    (0..=count).filter_map(at).collect()
+    Some(times.iter().map(at).collect())
 }
 
 fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {

@@ -44,6 +44,10 @@ pub(super) struct ContactForces {
     pub bound: f64,
     /// Sizes of the columns, for the next sample.
     pub warm_start: WarmStart,
+    /// The load at every cut under these forces and the weights, N or N·m.
+    pub held: Vec<f64>,
+    /// The forces of the ground on the links, and what bonds that close loops transmit.
+    pub wrenches: Vec<Wrench>,
 }
 
 /// Contact forces of an earlier sample: where contacts stay the same, nearly the same forces balance again.
@@ -84,6 +88,15 @@ pub(super) struct ContactQuery<'a> {
     pub fixed_base: bool,
     /// The tolerances.
     pub tolerances: &'a Tolerances,
+}
+
+impl ContactForces {
+    /// Returns the force of the ground at each contact point that carries something.
+    pub(super) fn of_ground(&self) -> Vec<Wrench> {
+        let edges = &self.wrenches[..self.warm_start.contacts.len() * EDGES];
+        let force = |edges: &[Wrench]| Wrench { f: edges.iter().map(|edge| edge.f).sum(), ..edges[0] };
+        edges.chunks_exact(EDGES).map(force).filter(|push| push.f.z > 0.0).collect()
+    }
 }
 
 impl ContactQuery<'_> {
@@ -199,11 +212,12 @@ impl ContactQuery<'_> {
             self.structure.size(load, &held) / load.limit
         };
         let worst = self.loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })?;
-        let (wrenches, loops) = sizes.split_at(contacts.len() * EDGES);
-        let wrenches = wrenches.chunks_exact(EDGES).map(|c| [c[0], c[1], c[2], c[3]]).collect();
+        let ratio = ratio(worst);
+        let (edges, loops) = sizes.split_at(contacts.len() * EDGES);
+        let edges = edges.chunks_exact(EDGES).map(|c| [c[0], c[1], c[2], c[3]]).collect();
         let names = contacts.iter().map(|t| (t.feature, t.k)).collect();
-        let warm_start = WarmStart { contacts: names, wrenches, loops: loops.to_vec() };
-        Some(ContactForces { ratio: ratio(worst), load: worst, bound, warm_start })
+        let warm_start = WarmStart { contacts: names, wrenches: edges, loops: loops.to_vec() };
+        Some(ContactForces { ratio, load: worst, bound, warm_start, held, wrenches })
     }
 
     /// Returns the nearest sizes that balance, measured by the sizes themselves; `None` where one would have

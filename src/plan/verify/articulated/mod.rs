@@ -49,9 +49,10 @@ mod decimated;
 mod docking;
 mod history;
 mod support_area;
+mod time_series;
 
 pub use bodies::{Bodies, UnsoundLink};
-pub use clearance::{clearances, collision_point};
+pub use clearance::{clearances, clearances_at, collision_point};
 pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
 pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
@@ -59,6 +60,7 @@ pub use model::Model;
 pub use rollout::{Checkpoint, Rollout, RolloutEnd, Sample, TipOver, roll_out};
 pub use stance::Stance;
 pub use support_area::area;
+pub use time_series::{Detail, GroundForce, Instant, instants};
 pub use tolerances::{Precision, Tolerances};
 
 use super::ledger::Ledger;

@@ -66,9 +66,7 @@ impl<'a> Monitor<'a> {
         self.samples += 1;
         self.tell(sample, ledger);
         let support = self.support(sample);
-        if !sample.stance.held {
-            // A polygon without area leaves no room at all.
-            let distance = support.as_ref().map_or(0.0, |s| s.0.distance);
+        if let Some(distance) = judged_margin(sample, support.as_ref()) {
             let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
             keep_least(&mut ledger.verdict.margin, distance, sample.time, edge);
         }
@@ -88,6 +86,13 @@ impl<'a> Monitor<'a> {
             return None;
         }
         self.ended(sample.time)
+    }
+
+    /// Returns the margin of a sample as it is judged, m; `None` where there is nothing to stand on, or the support
+    /// is missing for the time that is allowed.
+    pub(super) fn margin(&self, sample: &Sample) -> Option<f64> {
+        let off = matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0;
+        if off { None } else { judged_margin(sample, self.support(sample).as_ref()) }
     }
 
     /// Returns true if support is missing at the moment.
@@ -184,6 +189,12 @@ impl<'a> Monitor<'a> {
             ledger.verdict.events.push((tip.time, format!("tips over {edge}, drops {drop}")));
         }
     }
+}
+
+/// Returns the distance of the centre of mass inside its support, m: none at all in a polygon without area, unknown
+/// while the base is held.
+fn judged_margin(sample: &Sample, support: Option<&(Margin, [usize; 2])>) -> Option<f64> {
+    (!sample.stance.held).then(|| support.map_or(0.0, |s| s.0.distance))
 }
 
 impl SupportLoss {

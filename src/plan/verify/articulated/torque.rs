@@ -39,6 +39,28 @@ pub(super) struct Monitor<'a> {
     energy: f64,
     /// True if loads were bounded between the samples, too.
     proved: bool,
+    /// The grounds of the decision about the joints of the sample, for those who read it.
+    decided: Option<Decided>,
+}
+
+/// The grounds of the decision about the torques of one sample.
+#[derive(Default)]
+struct Decided {
+    /// The best contact forces, where evenly spread ones would overload a joint.
+    best: Option<ContactForces>,
+    /// True if no forces were found that decide it.
+    open: bool,
+    /// True if joints are overloaded whatever the forces are.
+    sure: bool,
+}
+
+/// The efforts of joints at one sample, and the forces of the ground with which they were judged.
+pub(super) struct JudgedLoads {
+    /// The force or torque that a motor supplies at each joint, N or N·m; `None` where it is not known.
+    pub efforts: Vec<Option<f64>>,
+    /// The forces of the ground on links, at points from the centre of mass in level axes; `None` where they are not
+    /// known.
+    pub forces: Option<Vec<Wrench>>,
 }
 
 struct Compiled {
@@ -88,6 +110,8 @@ struct Loads {
     held: Vec<f64>,
     /// Loads that are judged: for all of them it is known what they hold.
     judged: Vec<usize>,
+    /// True if the forces of the ground carry the robot.
+    balanced: bool,
 }
 
 impl<'a> Monitor<'a> {
@@ -108,7 +132,35 @@ impl<'a> Monitor<'a> {
             uneven: None,
             energy: 0.0,
             proved: false,
+            decided: None,
         }
+    }
+
+    /// Returns the loads of a sample as they are judged: with the ground's forces spread evenly and without
+    /// friction, or with the best ones where those would overload a joint. `None` where nothing is weighed.
+    pub(super) fn read(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<JudgedLoads> {
+        if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
+            return None;
+        }
+        self.decided = Some(Decided::default());
+        self.effort = 0;
+        self.compile(sample);
+        self.weigh(sample, ledger);
+        let decided = self.decided.take()?;
+        let Compiled { structure, effects, .. } = self.compiled.as_ref()?;
+        let even = loads(structure, sample, &structure.sections(sample.stance), self.tolerances);
+        let closed = decided.best.is_some() || (even.balanced && !decided.open && !decided.sure);
+        let known = determinate_cuts(structure, sample, even.balanced, self.tolerances);
+        let held = decided.best.as_ref().map_or(&even.held, |best| &best.held);
+        let effort = |joint: usize| {
+            let known = closed || effects[joint].iter().all(|&(cut, _)| known(cut));
+            known.then(|| structure.joint_effort(joint, held, effects))
+        };
+        let efforts = (0..sample.joints.len()).map(effort).collect();
+        let weight = sample.model.mass * sample.world.gravity;
+        let spread = || pushing(sample).filter(|t| t.load > 0.0).map(|t| push(t, weight)).collect();
+        let forces = closed.then(|| decided.best.map_or_else(spread, |best| best.of_ground()));
+        Some(JudgedLoads { efforts, forces })
     }
 
     /// Judges the loads of a sample.
@@ -185,6 +237,10 @@ impl<'a> Monitor<'a> {
                 Some(_) => None,
                 None => best(&query, &mut self.warm_starts[slot], seen, &mut self.effort),
             };
+            if let (Some(decided), false) = (&mut self.decided, bonds) {
+                (decided.open, decided.sure) = (sure.is_none() && best.is_none(), sure.is_some());
+                decided.best.clone_from(&best);
+            }
             // Neither determinate nor solved: the sample is undecided.
             if sure.is_none() && best.is_none() {
                 self.undecided += 1;
@@ -456,8 +512,7 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     let mut wrenches = weights(sample);
     let (mut x, mut y, mut size) = (0.0, 0.0, NUMERICS.robot_size);
     for contact_point in pushing(sample).filter(|t| t.load > 0.0) {
-        let f = Vec3::new(0.0, 0.0, contact_point.load * weight);
-        wrenches.push(Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() });
+        wrenches.push(push(contact_point, weight));
         (x, y) = (x + contact_point.load * contact_point.p.x, y + contact_point.load * contact_point.p.y);
         size = size.max(contact_point.p.norm());
     }
@@ -470,7 +525,13 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
         _ => libm::hypot(x, y) <= tolerances.balance * size && !sample.stance.held,
     };
     let judged = if balanced { all } else { determinate_loads(structure, sample, &all, false, tolerances) };
-    Loads { ratios, held, judged }
+    Loads { ratios, held, judged, balanced }
+}
+
+/// Returns the normal force at a contact point, without friction.
+fn push(contact_point: &ContactPoint, weight: f64) -> Wrench {
+    let f = Vec3::new(0.0, 0.0, contact_point.load * weight);
+    Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() }
 }
 
 /// Returns those of some loads that no forces of the ground can change: nothing beyond their cuts, or
@@ -482,16 +543,26 @@ fn determinate_loads(
     balanced: bool,
     tolerances: &Tolerances,
 ) -> Vec<usize> {
+    let settled = determinate_cuts(structure, sample, balanced, tolerances);
+    let all = |index: &usize| structure.loads[*index].terms.iter().all(|&(cut, _)| settled(cut));
+    loads.iter().copied().filter(all).collect()
+}
+
+/// Returns a function that says of a cut if no forces of the ground can change what it holds.
+fn determinate_cuts<'s>(
+    structure: &'s Structure,
+    sample: &Sample,
+    balanced: bool,
+    tolerances: &Tolerances,
+) -> impl Fn(usize) -> bool + use<'s> {
     let near: Vec<usize> =
         pushing(sample).filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
-    let settled = |cut: usize| {
+    move |cut| {
         let at = structure.cut_link(cut);
         let beyond = near.iter().filter(|&&link| structure.beyond(at, link)).count();
         let looped = |&(_, a, b): &(usize, usize, usize)| structure.beyond(at, a) != structure.beyond(at, b);
         (beyond == 0 || (beyond == near.len() && balanced)) && !structure.closing.iter().any(looped)
-    };
-    let all = |index: &usize| structure.loads[*index].terms.iter().all(|&(cut, _)| settled(cut));
-    loads.iter().copied().filter(all).collect()
+    }
 }
 
 fn greatest(loads: &[usize], ratio: impl Fn(usize) -> f64) -> Option<usize> {

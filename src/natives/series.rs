@@ -1,0 +1,277 @@
+//! Time series of plans: values of signals, and states.
+
+use super::Native;
+use crate::interpret::argument::{Positive, parameters};
+use crate::interpret::design::{Instance, Subject, port_ref};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::PlanValue;
+use crate::interpret::planning::state_value;
+use crate::interpret::record::{Field, NativeRecord, Record, StateValue, field_names, read_field};
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::{JointValue, Measure, PortValue, SignalValue, Value};
+use crate::plan::verify::articulated::{Detail, GroundForce, Instant};
+use crate::plan::{Ground, Signal, Tracks, World};
+use crate::robot::{JointId, Kinematics};
+use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, quantity};
+use std::cell::OnceCell;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// The natives of this file.
+pub(super) const TABLE: &[Native] = &[
+    Native::pure("torque", parameters![joint: &JointValue], torque),
+    Native::pure("margin", parameters![], |_, _| Ok(signal(None, Measure::Margin))),
+    Native::pure("clearance", parameters![], |_, _| Ok(signal(None, Measure::Clearance))),
+    Native::pure("ground_force", parameters![on: &Rc<Instance>], ground_force),
+    Native::pure("separation", parameters![a: &PortValue, b: &PortValue], separation),
+    Native::on_run("Plan.times", parameters![self: &Value, step: Positive], plan_times),
+    Native::on_run("Plan.series", parameters![self: &Value, of: &Value, step: Positive], plan_series),
+    Native::on_run("Plan.states", parameters![self: &Value, step: Positive], plan_states),
+    Native::on_run("State.speed", parameters![self: &StateValue, joint: &JointValue], state_speed),
+    Native::on_run("State.torque", parameters![self: &StateValue, joint: &JointValue], state_torque),
+    Native::on_run(
+        "State.ground_force",
+        parameters![self: &StateValue, on: &Rc<Instance>],
+        state_ground_force,
+    ),
+    Native::on_run("State.contacts", parameters![self: &StateValue], state_contacts),
+];
+
+/// The largest part of a step by which a plan may be longer than its steps, and that is rounding.
+const STEP_ROUNDING: f64 = 1e-9;
+
+fn signal(robot: Option<Subject>, measure: Measure) -> Value {
+    Value::Signal(Rc::new(SignalValue { robot, measure }))
+}
+
+fn torque(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let joint: &JointValue = call.get("joint")?;
+    let Some(robot) = interpreter.robot_at(&joint.robot, call.at("joint"))? else {
+        return Ok(Value::Unknown);
+    };
+    Ok(signal(Some(joint.robot.clone()), Measure::Effort(robot.joint(joint))))
+}
+
+fn ground_force(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let on = call.get::<&Rc<Instance>>("on")?;
+    Ok(signal(Some(on.robot.clone()), Measure::GroundForce(modules_of(on))))
+}
+
+fn separation(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (a, b) = (call.get::<&PortValue>("a")?, call.get::<&PortValue>("b")?);
+    let robot = interpreter.common_subject(Some(&a.robot), Some(&b.robot), call.span)?;
+    Ok(signal(robot, Measure::Separation(port_ref(a), port_ref(b))))
+}
+
+/// Returns the indices of an instance's modules in the whole robot.
+fn modules_of(instance: &Instance) -> Range<usize> {
+    instance.offset..instance.offset + instance.design.module_count()
+}
+
+/// Returns the plan that a method is called of.
+fn planned(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<PlanValue>>> {
+    interpreter.plan_of(call.arg("self"), call.at("self"))
+}
+
+/// Returns evenly spaced times from the start of a plan to its end, both included, no further apart than `step`.
+fn times(interpreter: &mut Interpreter, call: &Call, plan: &PlanValue) -> Eval<Rc<Vec<f64>>> {
+    let step = call.positive("step", "the time between values")?;
+    let duration = plan.plan.body.duration();
+    let count = (duration / step - STEP_ROUNDING).ceil().max(0.0);
+    // A list's limit is far below what a machine word holds.
+    interpreter.check_list((count + 1.0) as usize, call.at("step"))?;
+    let count = count as usize;
+    let time = |i: usize| if i == count { duration } else { duration * i as f64 / count as f64 };
+    Ok(Rc::new((0..=count).map(time).collect()))
+}
+
+fn plan_times(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(plan) = planned(interpreter, call)? else { return Ok(Value::Unknown) };
+    let times = times(interpreter, call, &plan)?;
+    Ok(Value::list(times.iter().map(|time| Value::time(*time)).collect()))
+}
+
+fn plan_states(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(plan) = planned(interpreter, call)? else { return Ok(Value::Unknown) };
+    interpreter.require_joints(&plan, call.at("self"))?;
+    let times = times(interpreter, call, &plan)?;
+    let known = instants(call, &plan, &times, Detail::Stance)?;
+    let state = |own: usize| state_value(&plan, &times, own, OnceCell::from(known[own].base));
+    let states = (0..times.len()).filter_map(state);
+    Ok(Value::list(states.map(|state| Value::Record(Rc::new(Record::State(state)))).collect()))
+}
+
+/// Returns what the judge knows at these times of a plan.
+fn instants(call: &Call, plan: &PlanValue, times: &Rc<Vec<f64>>, detail: Detail) -> Eval<Rc<Vec<Instant>>> {
+    let instants = plan.instants(times, detail);
+    if instants.len() == times.len() {
+        return Ok(instants);
+    }
+    let reached = quantity(instants.last().map_or(0.0, |last| last.time), Dimension::TIME);
+    let message = format!("the judge took all samples that are allowed, and got to {reached} only");
+    Err(fault(code::NOT_VERIFIED, call.at("self"), message, "of this plan"))
+}
+
+fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Some(plan) = planned(interpreter, call)? else { return Ok(Value::Unknown) };
+    let Value::Signal(signal) = call.get::<&Value>("of")? else {
+        unreachable!("`check` lets only signals through")
+    };
+    interpreter.require_joints(&plan, call.at("self"))?;
+    let robot = signal.robot.as_deref();
+    interpreter.common_robot(Some(&plan.robot), robot, call.span)?;
+    let times = times(interpreter, call, &plan)?;
+    let tracks = plan.plan.body.tracks().expect("a robot's plan has tracks");
+    let judged = |detail, read: fn(&Instant, &Measure) -> Option<f64>| -> Eval<Vec<Option<f64>>> {
+        let known = instants(call, &plan, &times, detail)?;
+        Ok(known.iter().map(|known| read(known, &signal.measure)).collect())
+    };
+    let (values, dimension): (Vec<Option<f64>>, _) = match &signal.measure {
+        Measure::Sensed(sensed) => {
+            let (value, dimension) = sensed_over(tracks, *sensed);
+            (times.iter().map(|time| Some(value(*time))).collect(), dimension)
+        }
+        Measure::Separation(a, b) => {
+            let at = |time: &f64| {
+                let state = tracks.state(*time);
+                let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
+                let mut poses = vec![state.base; kinematics.link_count()];
+                kinematics.link_poses(&state.joints, &state.base, &mut poses);
+                let [a, b] = [a, b].map(|port| kinematics.port_pose(&tracks.robot, *port, &poses));
+                Some((a.translation.vector - b.translation.vector).norm())
+            };
+            (times.iter().map(at).collect(), Dimension::LENGTH)
+        }
+        Measure::Clearance => (plan.clearances(&times).to_vec(), Dimension::LENGTH),
+        Measure::Effort(_) => (judged(Detail::Loads, effort)?, Dimension::TORQUE),
+        Measure::Margin => (judged(Detail::Stance, |known, _| known.margin)?, Dimension::LENGTH),
+        Measure::GroundForce(_) => (judged(Detail::Loads, normal_force)?, Dimension::FORCE),
+    };
+    if let Some(at) = values.iter().position(Option::is_none) {
+        return Err(unknown(call, &plan, &signal.measure, times[at]));
+    }
+    Ok(Value::list(values.into_iter().flatten().map(|x| Value::Quantity(x, dimension)).collect()))
+}
+
+/// Returns what a robot senses as a function of time (s), with its dimension.
+fn sensed_over(tracks: &Tracks, signal: Signal) -> (Box<dyn Fn(f64) -> f64 + '_>, Dimension) {
+    match signal {
+        Signal::Angle(joint) => {
+            let start = tracks.start.joints[joint.0 as usize];
+            let position = move |time| tracks.track(joint).map_or(start, |track| track.position(start, time));
+            (Box::new(position), Dimension::ANGLE)
+        }
+        Signal::Speed(joint) => (Box::new(move |time| speed(tracks, joint, time)), Dimension::ANGULAR_SPEED),
+        Signal::Elapsed => (Box::new(|time| time), Dimension::TIME),
+    }
+}
+
+fn speed(tracks: &Tracks, joint: JointId, time: f64) -> f64 {
+    tracks.track(joint).map_or(0.0, |track| track.velocity(time))
+}
+
+fn effort(known: &Instant, measure: &Measure) -> Option<f64> {
+    let Measure::Effort(joint) = measure else { return None };
+    known.efforts[joint.0 as usize]
+}
+
+fn normal_force(known: &Instant, measure: &Measure) -> Option<f64> {
+    let (Measure::GroundForce(modules), Some(forces)) = (measure, &known.forces) else { return None };
+    Some(forces.iter().filter(|push| modules.contains(&push.module)).map(|push| push.force.z).sum())
+}
+
+/// Returns the fault of a series with a value that nobody knows.
+fn unknown(call: &Call, plan: &PlanValue, measure: &Measure, time: f64) -> Stop {
+    let World { ground, gravity, .. } = plan
+        .plan
+        .worlds
+        .iter()
+        .take_while(|from| from.from <= time)
+        .last()
+        .map_or_else(World::default, |w| w.world);
+    let weightless = gravity == 0.0 || ground == Ground::Off;
+    let (what, why) = match measure {
+        Measure::Effort(_) | Measure::GroundForce(_) if weightless => {
+            ("load", "nothing is weighed without gravity and a ground")
+        }
+        Measure::Effort(_) | Measure::GroundForce(_) => {
+            ("load", "no forces of the ground are known that carry the robot")
+        }
+        Measure::Margin if weightless => ("margin", "there is no ground to stand on"),
+        Measure::Margin if ground == Ground::Held => ("margin", "what is held fast does not stand"),
+        Measure::Margin => ("margin", "support is missing there"),
+        _ => ("clearance", "no two links are there that may not touch"),
+    };
+    let message = format!("at {} the judge knows no {what}: {why}", quantity(time, Dimension::TIME));
+    Diagnostic::error(code::BAD_VALUE, message)
+        .label(call.at("of"), "not known throughout the plan")
+        .hint("`p.states()` tells what is known at each time: `[s.margin for s in p.states()]` has gaps")
+        .into()
+}
+
+fn state_speed(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
+    interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    let tracks = state.planned.plan.body.tracks().expect("a state is one of a robot");
+    let speed = speed(tracks, state.body.joint(joint), state.time);
+    Ok(Value::Quantity(speed, Dimension::ANGULAR_SPEED))
+}
+
+fn state_torque(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
+    interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    let joint = Measure::Effort(state.body.joint(joint));
+    let known = state.judged(Detail::Loads, |known| effort(known, &joint)).flatten();
+    Ok(Value::optional(known.map(|torque| Value::Quantity(torque, Dimension::TORQUE))))
+}
+
+fn state_ground_force(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (state, on) = (call.get::<&StateValue>("self")?, call.get::<&Rc<Instance>>("on")?);
+    interpreter.common_robot(Some(&state.robot), Some(&on.robot), call.span)?;
+    let modules = Measure::GroundForce(modules_of(on));
+    let known = state.judged(Detail::Loads, |known| normal_force(known, &modules)).flatten();
+    Ok(Value::optional(known.map(|force| Value::Quantity(force, Dimension::FORCE))))
+}
+
+fn state_contacts(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let state = call.get::<&StateValue>("self")?;
+    let Some(forces) = state.judged(Detail::Loads, |known| known.forces.clone()).flatten() else {
+        return Ok(Value::Missing);
+    };
+    let contact = |push: &GroundForce| {
+        let module = state.body.assembly.modules[push.module].name.clone();
+        Value::Record(Rc::new(Record::Native(Rc::new(Contact { module, push: *push }))))
+    };
+    Ok(Value::list(forces.iter().map(contact).collect()))
+}
+
+/// A force of the ground, with the name of the module that it acts on.
+#[derive(Debug)]
+struct Contact {
+    module: String,
+    push: GroundForce,
+}
+
+/// The fields of a `Contact`.
+const CONTACT: &[Field<Contact>] = &[
+    ("module", |contact| Value::text(&contact.module)),
+    ("point", |contact| Value::Vec3(contact.push.point, Dimension::LENGTH)),
+    ("force", |contact| Value::Vec3(contact.push.force, Dimension::FORCE)),
+];
+
+impl NativeRecord for Contact {
+    fn read(&self, field: &str) -> Value {
+        read_field(CONTACT, self, field)
+    }
+
+    fn show(&self) -> String {
+        format!("{} on {}", quantity(self.push.force.norm(), Dimension::FORCE), self.module)
+    }
+}
+
+/// Returns the records of this file with the names of their fields.
+pub(super) fn records() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![("Contact", field_names(CONTACT))]
+}

@@ -1,0 +1,94 @@
+//! Plots: curves, scatter plots and histograms of quantities, as SVG, as PNG and as text.
+//!
+//! A plot is laid out once ([`layout`]), as marks in pixels; SVG and PNG write the same marks. Widths of text are those
+//! of the font that is shipped (Roboto, a subset; Apache-2.0), which PNG draws with, so that a layout is the same
+//! everywhere; SVG names it and leaves the drawing to the viewer.
+
+mod bins;
+mod font;
+mod layout;
+mod marks;
+mod png;
+mod scale;
+mod svg;
+mod text;
+
+use crate::units::Dimension;
+
+pub use png::png;
+pub use svg::svg;
+pub use text::text;
+
+/// The way in which values are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotKind {
+    /// Lines from point to point.
+    Curve,
+    /// A mark at each point.
+    Scatter,
+    /// Bars: the number of values in each bin.
+    Histogram,
+}
+
+/// An axis with what it measures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlotAxis {
+    /// The label without unit; may be empty.
+    pub label: String,
+    /// The dimension of the values.
+    pub dimension: Dimension,
+}
+
+/// Values with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlotSeries {
+    /// The name in the legend; may be empty.
+    pub name: String,
+    /// Points in SI units; `None` where a value is missing or infinite, which leaves a gap. A histogram reads the
+    /// second value of each.
+    pub points: Vec<Option<[f64; 2]>>,
+}
+
+/// A plot of one or more series over common axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// The way of drawing.
+    pub kind: PlotKind,
+    /// The title; may be empty.
+    pub title: String,
+    /// The horizontal axis; of a histogram that of the values.
+    pub x: PlotAxis,
+    /// The vertical axis; of a histogram a number of values.
+    pub y: PlotAxis,
+    /// The series, at least one, with at least one point that is drawn.
+    pub series: Vec<PlotSeries>,
+    /// The number of bins of a histogram; `None`: as many as suit the number of values.
+    pub bins: Option<usize>,
+}
+
+impl Plot {
+    /// Returns all points that are drawn.
+    fn points(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.series.iter().flat_map(|series| series.points.iter().flatten().copied())
+    }
+
+    /// Returns the number of values that leave a gap.
+    pub fn gaps(&self) -> usize {
+        self.series.iter().flat_map(|series| &series.points).filter(|point| point.is_none()).count()
+    }
+
+    /// Returns the plot on one line: what is drawn over what.
+    pub fn describe(&self) -> String {
+        let named = |axis: &PlotAxis, other: &str| {
+            if axis.label.is_empty() { other.to_string() } else { axis.label.clone() }
+        };
+        let (x, y) = (named(&self.x, "x"), named(&self.y, "y"));
+        let count = self.series.len();
+        match self.kind {
+            PlotKind::Histogram => format!("a histogram of {x}"),
+            PlotKind::Curve if count == 1 => format!("a curve of {y} over {x}"),
+            PlotKind::Curve => format!("{count} curves of {y} over {x}"),
+            PlotKind::Scatter => format!("{} points of {y} over {x}", self.points().count()),
+        }
+    }
+}
