@@ -36,7 +36,7 @@ pub struct Problem {
     pub panels: Panels,
 }
 
-/// The options of [`plan`]. The defaults are those of the function `refold` of the language.
+/// The options of [`plan()`]. The defaults are those of the function `refold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle of
@@ -76,7 +76,7 @@ pub struct Report {
     pub verdict: Verdict,
 }
 
-/// The reason why [`plan`] finds no motion.
+/// The reason why [`plan()`] finds no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The shapes have different numbers of faces.

@@ -75,7 +75,7 @@ pub enum InvalidTruss {
     },
     /// A loop has fewer than two struts.
     ShortLoop,
-    /// At the start a strut is nearer to an obstacle than its clearance.
+    /// A strut is nearer to an obstacle than its clearance at the start.
     NearObstacle {
         /// The name of the strut.
         strut: String,
@@ -84,7 +84,7 @@ pub enum InvalidTruss {
         /// The clearance, m.
         clearance: f64,
     },
-    /// At the start a strut is deeper in uneven ground than `depth_max`.
+    /// A strut is deeper in uneven ground than `depth_max` at the start.
     BelowGround {
         /// The name of the strut.
         strut: String,
@@ -93,7 +93,7 @@ pub enum InvalidTruss {
         /// The depth allowed, m.
         depth_max: f64,
     },
-    /// At the start a node is inside an obstacle.
+    /// A node is inside an obstacle at the start.
     InsideObstacle {
         /// The index of the obstacle.
         obstacle: usize,
