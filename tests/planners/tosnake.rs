@@ -293,3 +293,24 @@ fn rust_calls_the_planners_without_the_language() {
     assert_eq!((both.report.both.docks, both.report.both.undocks), (2, 2));
     assert!(both.report.verdict.is_none() && !both.report.history.is_empty());
 }
+
+#[test]
+fn a_cache_has_no_plan_for_other_settings() {
+    use modl::plan::World;
+    use modl::planners::NoProgress;
+    use modl::planners::tosnake::{self, SearchCache, Settings, inverse_kinematics};
+    let (robot, start) = twisted("E");
+    let problem = tosnake::Problem { robot: &robot, start: &start, world: World::FREE };
+    let mut cache = SearchCache::default();
+    let settings = Settings { budget: 20_000, ..Settings::default() };
+    let mut unwound =
+        |settings: &Settings| tosnake::plan_with_cache(&problem, settings, &mut cache, &mut NoProgress);
+    let found = unwound(&settings).expect("it unwinds").report;
+    let again = Settings { threads: 2, ..settings };
+    assert_eq!(unwound(&again).expect("threads change nothing").report, found);
+    // Without iterations no loop ever closes.
+    let iterations_max = 0;
+    let idle = inverse_kinematics::Settings { iterations_max, ..settings.inverse_kinematics };
+    let refused = unwound(&Settings { inverse_kinematics: idle, ..settings }).expect_err("nothing meets");
+    assert!(matches!(refused, tosnake::Refusal::BudgetSpent(_)), "{refused}");
+}

@@ -151,8 +151,8 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before; see
-/// [`tosnake::plan_with_cache`] for the settings that the cache compares.
+/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before with the same
+/// settings of the search.
 ///
 /// # Errors
 /// As [`plan()`].

@@ -4,21 +4,25 @@
 use super::gravity::GravityModel;
 use super::robot::Robot;
 use super::search::StepSequence;
-use super::settings::Collisions;
+use super::settings::Settings;
 use std::rc::Rc;
 
 /// Greatest number of stored sequences; beyond it the oldest goes.
 const STORED_MAX: usize = 100;
 
-/// The problem and the settings by which a step sequence is found again. It depends on the other settings as well,
-/// which are not compared.
+/// The problem and the settings that determine a step sequence.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SearchKey {
-    pub(crate) robot: Robot,
-    pub(crate) seed: u64,
-    pub(crate) budget: u64,
-    pub(crate) collisions: Collisions,
-    pub(crate) gravity: Option<GravityModel>,
+    robot: Robot,
+    settings: Settings,
+    gravity: Option<GravityModel>,
+}
+
+impl SearchKey {
+    /// Returns the key of a search. The number of threads is no part of it, for the steps do not depend on that.
+    pub(crate) fn new(robot: Robot, settings: &Settings, gravity: Option<GravityModel>) -> SearchKey {
+        SearchKey { robot, settings: Settings { threads: 1, ..*settings }, gravity }
+    }
 }
 
 /// The step sequences of the last 100 searches that found one. Clones share the sequences, not the list.

@@ -82,9 +82,8 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the same seed,
-/// budget, collision checks and gravity. The cache does not compare the other settings: use one cache for one choice
-/// of them.
+/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the same gravity
+/// and the same settings, but for the number of threads.
 ///
 /// # Errors
 /// As [`plan`].
@@ -144,8 +143,7 @@ impl<'a> Task<'a> {
         progress: &mut dyn Progress,
     ) -> Result<Rc<StepSequence>, Refusal> {
         let (robot, gravity) = (self.start().clone(), self.gravity.clone());
-        let Settings { seed, budget, collisions, .. } = *settings;
-        let key = SearchKey { robot, seed, budget, collisions, gravity };
+        let key = SearchKey::new(robot, settings, gravity);
         if let Some(found) = cache.get(&key) {
             return Ok(found);
         }

@@ -13,7 +13,7 @@ use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The settings of FABRIK.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Greatest number of iterations, each a backward and a forward pass. Default 1000, as the paper's program.
     pub iterations_max: usize,

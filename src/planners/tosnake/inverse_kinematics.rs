@@ -21,7 +21,7 @@ use std::f64::consts::FRAC_PI_2;
 /// The mode of the inverse kinematics that closes a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IkMode {
-    /// Only the loop's joints move, and only the last posture has to be free of overlap: before it balls repel each
+    /// The loop's joints alone move, and the last posture alone has to be free of overlap: before it balls repel each
     /// other, and may pass through each other.
     Endpoint,
     /// All joints of the robot move, and constraints keep balls in contact from approaching, so that the whole descent
@@ -30,7 +30,7 @@ pub enum IkMode {
 }
 
 /// The settings of the descent. Lengths are in pitches, angles in radians.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Greatest number of iterations, before [`Settings::loop_scale`]. Default 200; most loops close in 20.
     pub iterations_max: usize,

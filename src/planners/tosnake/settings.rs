@@ -4,7 +4,7 @@ use super::fabrik;
 use super::inverse_kinematics;
 
 /// The settings of the whole search. The defaults are those of the language.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Seed of all random numbers; the same seed gives the same plan. Default 0.
     pub seed: u64,
