@@ -1,10 +1,10 @@
 //! `morph`: how near the robot of the paper comes to its two targets, both ways, and what it never does.
 
-use crate::support::trusses::{cube, distance, ell, looked_at, robot, truth};
+use crate::support::trusses::{actuator, cube, distance, ell, looked_at, robot, truth};
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
 use modl::planners::morph::{Descent, Distance, End, Settings, Surface, Target, descend, outer};
-use modl::planners::truss::Limits;
+use modl::planners::truss::{Limits, Structure};
 
 fn morphed(goal: &Target, steps_max: usize) -> Descent {
     let (truss, start) = robot();
@@ -188,6 +188,25 @@ fn other_orientations_are_reached_as_well() {
         found.sort_by(f64::total_cmp);
         assert!((found[1] + found[2]) / 2.0 <= median, "{name}: {found:?}");
     }
+}
+
+/// With springs of one weight a step does not depend on the number of steps allowed.
+#[test]
+fn a_target_reached_with_the_last_step_allowed_is_reached() {
+    let (side, up) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
+    let start = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, side, 0.0], [0.5, side / 3.0, up]].map(Vec3::from);
+    let struts = [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3), (2, 3)];
+    let truss = Structure::new(&actuator(), &start, &struts);
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let goal = Target::surface(faces.map(|face| face.map(|node| start[node] * 1.5)).to_vec(), 0.125);
+    let morphed = |steps_max: usize| {
+        let settings = Settings { steps_max, springs: (1e-6, 1e-6), ..Settings::default() };
+        descend(&truss, &start, &goal, &settings, &mut NoProgress).expect("it has a surface")
+    };
+    let needed = morphed(300).steps.len();
+    assert!(needed > 1, "{needed}");
+    assert_eq!(morphed(needed).end, End::Done);
+    assert_eq!(morphed(needed - 1).end, End::Steps);
 }
 
 #[test]

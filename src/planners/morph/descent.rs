@@ -75,7 +75,7 @@ impl Default for Settings {
 pub enum End {
     /// The target is reached: both distances are within the tolerance.
     Done,
-    /// The steps allowed were made; the last may have come within the tolerance.
+    /// The steps allowed were made, and the target is not reached.
     Steps,
     /// No step was found, not even a shortened one; the error is that of the longest.
     Stuck(StepError),
@@ -174,15 +174,15 @@ fn descend_to(
     let first = found.distance;
     let mut steps: Vec<Vec<Vec3>> = Vec::new();
     let mut best = (0, found.distance);
-    let mut end = End::Steps;
-    while steps.len() < settings.steps_max {
+    let end = loop {
         if found.distance.within(settings.tolerance) {
-            end = End::Done;
-            break;
+            break End::Done;
+        }
+        if steps.len() >= settings.steps_max {
+            break End::Steps;
         }
         if !monitor.should_continue(steps.len(), &found.distance, settings) {
-            end = End::Cancelled;
-            break;
+            break End::Cancelled;
         }
         // The springs vanish over the first four fifths of the steps.
         let part = (steps.len() as f64 / (0.8 * settings.steps_max as f64)).min(1.0);
@@ -214,17 +214,14 @@ fn descend_to(
                 None
             }
         });
-        let Some(next) = next else {
-            end = End::Stuck(stuck.expect("an attempt was made"));
-            break;
-        };
+        let Some(next) = next else { break End::Stuck(stuck.expect("an attempt was made")) };
         x = next;
         steps.push(x.clone());
         found = fit(faces, &x, target, &mut guesses);
         if found.distance.both() < best.1.both() {
             best = (steps.len(), found.distance);
         }
-    }
+    };
     steps.truncate(best.0);
     Descent { steps, start: first, distance: best.1, end }
 }

@@ -78,7 +78,7 @@ pub struct Report {
     pub distance: Distance,
     /// The distances at the start, with the target in its final orientation.
     pub start: Distance,
-    /// The reason why the motion ends; the tolerance is reached for certain if it is [`End::Done`].
+    /// The reason why the motion ends; unless it is [`End::Done`], short of the tolerance.
     pub end: End,
     /// The reason why the motion ends in words, for a message.
     pub ended: String,
