@@ -265,7 +265,7 @@ impl<'a> Checker<'a> {
         expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed })
     }
 
-    /// Returns checked arguments in the order of the parameters.
+    /// Returns checked arguments in the order of the parameters; `None` for one that is left out.
     pub(super) fn arguments_of(
         &mut self,
         scope: &mut Scope,
@@ -290,7 +290,7 @@ impl<'a> Checker<'a> {
         args: &'a [ast::Arg],
     ) -> (Vec<Option<Expr>>, Bindings) {
         let params = &signature.params;
-        // What each parameter takes so far, and the next one that is filled by position.
+        // The arguments so far by parameter, and the next parameter that is filled by position.
         let mut bindings = Bindings::new(&signature.type_params);
         let mut out: Vec<Option<Expr>> = vec![None; params.len()];
         let mut filled = vec![false; params.len()];

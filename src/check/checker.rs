@@ -58,7 +58,7 @@ pub(super) struct DefInfo<'a> {
     pub whole: Span,
     /// Its file, an index into the loaded files.
     pub file: usize,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its tree.
     pub item: DefItem<'a>,
@@ -157,7 +157,7 @@ pub(super) struct MemberInfo<'a> {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its kind, with its tree.
     pub kind: MemberInfoKind<'a>,
@@ -189,11 +189,11 @@ pub(super) struct JointInfo<'a> {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// The clause that declares it.
     pub clause: &'a ast::ModuleClauseKind,
-    /// A further clause `joint b = -a` by which a joint between links follows others.
+    /// A further clause `joint b = -a` by which a joint between links follows others; `None` if there is none.
     pub follows: Option<&'a ast::ModuleClauseKind>,
     /// The dimension of its position.
     pub dimension: crate::units::Dimension,
@@ -205,7 +205,7 @@ pub(super) struct PortInfo {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// True for an array.
     pub array: bool,
@@ -215,7 +215,7 @@ pub(super) struct PortInfo {
 pub(super) struct BehaviorInfo<'a> {
     /// Its tree.
     pub ast: &'a ast::Behavior,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its parameters; the result is a behaviour.
     pub signature: Rc<Signature>,
@@ -231,7 +231,7 @@ pub(super) struct Checker<'a> {
     pub defs: Vec<DefInfo<'a>>,
     /// The scope of each file; entries of a session use that of the first entry.
     scopes: Vec<HashMap<Symbol, Entity>>,
-    /// The index of the file whose scope the entries of a session share.
+    /// The index of the file whose scope the entries of a session share; `None` outside of a session.
     shared: Option<usize>,
     /// The spans at which declarations are named.
     pub uses: RefCell<Vec<(Span, DefId)>>,
@@ -286,7 +286,8 @@ impl<'a> Checker<'a> {
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
     }
 
-    /// Returns the entity of a name at the top of a file, and records the use at `span`.
+    /// Returns the entity of a name at the top of a file, and records the use at `span`; `None` for an unknown
+    /// name.
     pub(super) fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
         let found = self.entity(file, name);
         if let Some(Entity::Def(id)) = found {

@@ -335,7 +335,7 @@ impl<'a> Checker<'a> {
         statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
     }
 
-    /// Checks a statement; `mark` is that of the block it is in.
+    /// Checks a statement; `mark` is that of the block it is in. `None` for an unreadable one.
     fn statement(&mut self, scope: &mut Scope, mark: (usize, u32), s: &'a ast::Stmt) -> Option<Stmt> {
         use ast::StmtKind as K;
         let kind = match &s.kind {

@@ -15,7 +15,8 @@ pub(super) struct LoadedFile {
     pub imports: Vec<Import>,
     /// True for an entry of a session: all entries have one scope.
     pub entry: bool,
-    /// The declaration that `_` stands for in an entry: the value of the last expression before it.
+    /// The declaration that `_` stands for in an entry: the value of the last expression before it, if there is
+    /// one.
     pub last: Option<Symbol>,
 }
 
@@ -47,9 +48,9 @@ pub(super) enum ImportTarget {
 pub(super) struct Loaded {
     /// The files.
     pub files: Vec<LoadedFile>,
-    /// The index of the file to run.
+    /// The index of the file to run; `None` if it could not be read.
     pub root: Option<usize>,
-    /// The index of the prelude.
+    /// The index of the prelude; `None` if it could not be read.
     pub prelude: Option<usize>,
 }
 
@@ -84,7 +85,7 @@ pub(super) struct Loader<'a> {
 /// A file being read.
 struct OpenFile {
     name: String,
-    /// The import of this file that is being followed.
+    /// The import of this file that is being followed; `None` before the first.
     via: Option<Span>,
 }
 

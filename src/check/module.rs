@@ -71,7 +71,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the arguments of a hinge, in the order of the prelude's `revolute`.
+    /// Returns the arguments of a hinge, in the order of the parameters of the prelude's `revolute`; `None` for
+    /// one that is left out.
     fn args_like_revolute(
         &mut self,
         scope: &mut Scope,

@@ -9,7 +9,7 @@ use crate::source::Symbol;
 pub(super) struct Scope {
     /// The file, an index into the loaded files.
     pub file: usize,
-    /// The declaration in whose body the expression is.
+    /// The declaration with instances in whose body the expression is; `None` elsewhere.
     pub this: Option<DefId>,
     /// The type parameters of the `extern fn` being checked.
     pub type_params: Vec<TypeParam>,
@@ -47,7 +47,7 @@ impl Frame {
         local
     }
 
-    /// Returns the innermost local of a name, captures included.
+    /// Returns the innermost local of a name, captures included; `None` if there is none.
     fn find(&self, name: Symbol) -> Option<&Binding> {
         let own = self.locals.iter().rev().find(|b| b.name == name);
         own.or_else(|| self.captured.iter().map(|(b, _)| b).find(|b| b.name == name))

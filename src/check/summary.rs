@@ -14,7 +14,7 @@ pub(crate) struct Inside {
     pub name: Symbol,
     /// Its text without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
 }
 

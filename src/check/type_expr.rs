@@ -30,7 +30,8 @@ const PLAIN: &[(&str, Type)] = &[
     ("Terrain", Type::Terrain),
 ];
 
-/// Returns the built-in type of a name without arguments: one of [`PLAIN`], or the supertype of a family.
+/// Returns the built-in type of a name without arguments: one of [`PLAIN`], or the supertype of a family;
+/// `None` for other names.
 fn plain(name: &str) -> Option<Type> {
     let listed = PLAIN.iter().find(|(n, _)| *n == name).map(|(_, ty)| ty.clone());
     let family = || Family::ALL.into_iter().find(|family| family.name() == name).map(Type::AnyOf);

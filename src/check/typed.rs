@@ -213,7 +213,7 @@ pub struct Member {
     pub ty: Type,
     /// Its kind, with the expression that gives its value.
     pub kind: MemberKind,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
 }
 
@@ -315,8 +315,7 @@ pub struct PartDef {
 pub enum PartCount {
     /// A number of equal parts: `part m[n]: ...`.
     Number(Expr),
-    /// One part for each element of a list or range, which its arguments can refer to: `part m[i in range]:
-    /// ...`.
+    /// One part for each element of a list or range, which its arguments can refer to: `part m[i in 0..4]`.
     Each {
         /// The local that holds the element.
         binder: Local,
@@ -332,7 +331,7 @@ pub struct BehaviorDef {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// The parameters.
     pub params: Vec<Param>,

@@ -62,7 +62,7 @@ pub struct JointDef {
     /// The dimension of its position: length for a prismatic joint, angle for a revolute or fixed one, and for
     /// a mimic joint that of the first joint that it follows.
     pub dimension: Dimension,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its kind: between two links, or a mimic joint.
     pub kind: JointDefKind,
@@ -105,7 +105,7 @@ pub struct PortGroup {
     pub span: Span,
     /// True for an array of ports.
     pub array: bool,
-    /// The text of its doc comment.
+    /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
 }
 
@@ -116,7 +116,8 @@ pub struct MotorDef {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The joints that it drives (indices into `joints`), each with its transmission factor.
+    /// The linear combination of joints (indices into `joints`, each with its factor) that its limits are
+    /// about.
     pub joints: Vec<(usize, Expr)>,
     /// The greatest speed of the motor, an angular speed; `None` if it is not stated.
     pub max_speed: Option<Expr>,

@@ -28,8 +28,8 @@ pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
     interpreter.display_value(value)
 }
 
-/// Returns a line about what a declaration declares, with its defaults: `config Walker: order 1, 4 modules, 600
-/// g`.
+/// Returns a line about what a declaration declares, with its defaults, such as `config Walker: order 1, 4
+/// modules, 600g`.
 ///
 /// # Errors
 /// A halt while it is elaborated.

@@ -270,7 +270,8 @@ impl Drawer<'_> {
         }
     }
 
-    /// Returns the time at which an action ends, s: by its duration, or by the segments of its joint's track.
+    /// Returns the time at which an action ends, s: by its duration, or by the segments of its joint's track;
+    /// never `None`.
     fn action_end(&self, action: &Action, from: f64) -> Option<f64> {
         let (joint, pieces) = match &action.command {
             Command::Wait { duration } => return Some(from + duration),

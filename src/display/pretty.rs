@@ -29,6 +29,7 @@ impl Interpreter<'_> {
         Ok(shown)
     }
 
+    /// Returns a value as a session shows it, however long.
     fn display_whole(&mut self, value: &Value) -> Eval<String> {
         Ok(match value {
             Value::Text(text) => quoted(text),

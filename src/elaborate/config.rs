@@ -321,6 +321,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Reports the requirements whose conditions are false.
     pub(super) fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
         for Deferred { require, mut frame } in requirements {
             self.check_requirement(require, &mut frame)?;

@@ -47,8 +47,8 @@ impl Interpreter<'_> {
         diagnostic.hint("a `part` of a module, or of a configuration with modules, is missing").into()
     }
 
-    /// Assembles the robot of a design in its start state; `None` where a connector is broken. Where no base is
-    /// named, it is the most central of the candidates.
+    /// Assembles the robot of a design in its start state; `None` where a connector is broken. The base, if
+    /// none is named, is the most central of the candidates.
     fn build_robot(&mut self, design: &Rc<Design>) -> Eval<Option<Robot>> {
         let Some((library, kinds)) = self.library_of(design)? else { return Ok(None) };
         let modules = kinds

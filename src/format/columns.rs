@@ -9,7 +9,7 @@ pub(super) struct Line {
     pub indent: usize,
     /// The text without indentation. A text literal or comment in it may contain line breaks.
     pub text: String,
-    /// The comment `// ...` behind the text.
+    /// The comment `// ...` after the text; `None` if there is none.
     pub comment: Option<String>,
 }
 

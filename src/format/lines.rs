@@ -45,7 +45,7 @@ pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
 struct Layout<'t> {
     open: Vec<OpenBracket>,
     lines: Vec<Line>,
-    /// The last token of the chunk so far that is not a comment.
+    /// The last token of the chunk so far that is not a comment; `None` at its beginning.
     before: Option<Piece<'t>>,
     /// True if the last line ended with an opening bracket.
     opened: bool,

@@ -9,7 +9,7 @@ pub(super) struct Piece<'t> {
     pub token: Token,
     /// Its text.
     pub text: &'t str,
-    /// Its role in the grammar.
+    /// Its role in the grammar, if it has one.
     pub role: Option<Role>,
     /// True if an item, clause or statement begins with it.
     pub begins: bool,
@@ -89,7 +89,8 @@ pub(super) fn before_last(line: &[Piece]) -> usize {
     1
 }
 
-/// Returns the number of spaces at a bracket: none, except inside braces.
+/// Returns the number of spaces at a bracket: 0, except inside braces. `None` if neither token is such a
+/// bracket.
 fn in_brackets(before: &Piece, after: &Piece) -> Option<usize> {
     match (before.opens(), after.closes()) {
         (true, true) => Some(0),

@@ -81,6 +81,7 @@ impl PlanCauses {
         self.renumber_shared(node, &mut HashMap::new())
     }
 
+    /// Returns a node with the plan's own numbers; `done`: the nodes that have been renumbered, by address.
     fn renumber_shared(&mut self, node: &Arc<Node>, done: &mut HashMap<*const Node, Arc<Node>>) -> Arc<Node> {
         if let Some(known) = done.get(&Arc::as_ptr(node)) {
             return known.clone();

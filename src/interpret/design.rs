@@ -148,8 +148,8 @@ pub struct SetRecord {
     pub value: f64,
     /// The clause.
     pub span: Span,
-    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
-    /// empty.
+    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a module of a RoFI file; may
+    /// be empty.
     pub instance: Rc<str>,
 }
 
@@ -216,8 +216,8 @@ impl TrussDesign {
         motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
     }
 
-    /// Returns the position of a node, or the list of those of an array in order of the index; `None` where
-    /// there is no such node.
+    /// Returns the position of a node, or the list of those of an array in the order of the declaration; `None`
+    /// where there is no such node.
     pub fn position_of(&self, name: Symbol) -> Option<Value> {
         let position = |node: &Node| Value::Vec3(node.position, Dimension::LENGTH);
         let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();

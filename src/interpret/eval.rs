@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub struct Frame {
     /// The values, by slot; unknown where none was put yet.
     pub slots: Vec<Value>,
-    /// The instance whose body is evaluated.
+    /// The instance whose body is evaluated; `None` outside of declarations with instances.
     pub this: Option<Rc<Instance>>,
 }
 

@@ -57,7 +57,7 @@ pub enum Mode {
 pub struct Options {
     /// The text that the names of the tests to run contain; `None`: all tests.
     pub filter: Option<String>,
-    /// The seed of planners that are given none.
+    /// The seed that a plan records whose planner takes none. Planners take theirs from their parameter `seed`.
     pub seed: u64,
     /// True if a page is drawn of every plan that is emitted; where there is none, of the declared robots.
     pub pages: bool,
@@ -67,11 +67,12 @@ pub struct Options {
     pub picture: Option<(usize, usize)>,
     /// Bounds on what the program may use.
     pub limits: Limits,
-    /// The number of threads that a planner may use, at least one; no result depends on it.
+    /// The number of threads that a planner may use; 0 counts as 1. No result depends on it.
     pub threads: usize,
 }
 
-/// Bounds on what a program may use. Going beyond one is an error, and ends the run or leaves a value unknown.
+/// Bounds on what a program may use. Going beyond one is an error: it ends the run, leaves a value unknown, or
+/// a plan unverified.
 #[derive(Clone, Debug)]
 pub struct Limits {
     /// The greatest number of evaluation steps: expressions, and passes of loops over ranges.

@@ -225,6 +225,7 @@ fn small(op: BinaryOp, x: i64, y: i64) -> Option<i64> {
     }
 }
 
+/// Returns the result of arithmetic with quantities; that of `%` is never negative.
 fn real(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<Value> {
     let (Some(x), Some(y)) = (a.as_number(), b.as_number()) else { return Err(operands_do_not_fit(span)) };
     let (Some(dx), Some(dy)) = (a.as_dimension(), b.as_dimension()) else {
@@ -247,6 +248,8 @@ fn real(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<Val
     finite(value, dimension, span)
 }
 
+/// Returns the result of an operator with a vector: a sum, a difference, or a product or quotient with a
+/// number.
 fn vectors(op: BinaryOp, a: &Value, b: &Value, span: Span, right: Span) -> Eval<Value> {
     match (op, a, b) {
         (BinaryOp::Add, Value::Vec3(x, d), Value::Vec3(y, e)) => {

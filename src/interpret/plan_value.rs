@@ -156,7 +156,8 @@ impl PlanValue {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }
 
-    /// Returns the number of intervals between one change of commands and the next.
+    /// Returns the number of intervals between the instants at which the law of motion changes, begin and end
+    /// included.
     pub fn steps(&self) -> usize {
         self.plan.body.instants().len().saturating_sub(1)
     }

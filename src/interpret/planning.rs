@@ -163,8 +163,8 @@ impl Interpreter<'_> {
         issues.is_empty()
     }
 
-    /// Returns a kept plan of the same behaviour of the same robot. Causes may differ: the same commands
-    /// called from another line have other causes, and then the behaviour is planned again.
+    /// Returns a kept plan of the same behaviour of the same robot; `None` if there is none. The causes must be
+    /// the same, too: the same commands called from another line have others, and are planned again.
     fn kept_plan(
         &self,
         design: &Rc<Design>,

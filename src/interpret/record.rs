@@ -124,8 +124,8 @@ impl StateValue {
         self.planned.clearances(times).get(*own).copied().flatten()
     }
 
-    /// Returns the pose of the base module's body in the world, with all standing, rolling and tipping up to
-    /// its time.
+    /// Returns the pose of the base module's body in the world: if the plan assumes ground, with all standing,
+    /// rolling and tipping up to its time, as the judge finds it; otherwise as the state has it.
     pub fn base(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {

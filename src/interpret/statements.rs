@@ -79,7 +79,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns a comparison that is false with the values of its sides, `1.2 mm > 2 mm is false`; empty for
+    /// Returns a comparison that is false with the values of its sides, `1.2mm > 2mm is false`; empty for
     /// other expressions. The sides are evaluated again.
     ///
     /// # Errors

@@ -103,7 +103,7 @@ pub enum Callable {
         captured: Vec<(Local, Value)>,
         /// The number of slots of its frame.
         frame: usize,
-        /// The instance in whose body it is written.
+        /// The instance in whose body it is written; `None` outside of such a body.
         this: Option<Rc<Instance>>,
     },
     /// A declared function.

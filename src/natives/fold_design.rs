@@ -38,6 +38,8 @@ impl Joined<'_> {
         (design, robot)
     }
 
+    /// Returns the configuration of the panels, with a bond for each hinge of the layout and the root as its
+    /// base.
     fn joined(&self) -> Rc<Design> {
         let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
         let panels = self.designs.iter().enumerate();

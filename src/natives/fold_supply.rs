@@ -250,7 +250,7 @@ fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
 pub(super) struct Passive<'c> {
     /// The numbers of the faces, the argument `passive`.
     pub(super) faces: &'c [Value],
-    /// The module, the argument `passive_module`.
+    /// The module, the argument `passive_module`; `None` if it is left out.
     pub(super) module: Option<&'c Rc<Instance>>,
 }
 

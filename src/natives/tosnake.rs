@@ -97,7 +97,7 @@ struct Options {
     world: World,
     seed: u64,
     budget: u64,
-    /// The time limit of each search, s.
+    /// The time limit of each search, s; `None` for no limit.
     timeout: Option<f64>,
     collisions: Collisions,
 }

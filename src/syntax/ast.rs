@@ -43,7 +43,7 @@ pub struct Comment {
 /// The kinds of comments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentKind {
-    /// A line comment: `//`.
+    /// A line comment: `//`, also with four or more slashes.
     Line,
     /// A block comment: `/* */`.
     Block,

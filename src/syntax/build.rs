@@ -24,7 +24,7 @@ pub(super) struct Builder<'t> {
     pub(super) least: usize,
     /// The end of all spans: text behind it was added so that the piece can be parsed.
     pub(super) limit: usize,
-    /// The offset of a hole that stands for a value that could not be parsed.
+    /// The offset of a hole that stands for a value that could not be parsed, if there is one.
     pub(super) faulty_value: Option<usize>,
     /// The diagnostics so far.
     pub(super) diagnostics: Vec<Diagnostic>,
@@ -32,7 +32,7 @@ pub(super) struct Builder<'t> {
     pub(super) depth: usize,
     /// The recursion depth of the type builder.
     pub(super) type_depth: usize,
-    /// The offset of the last piece for which deep nesting was reported.
+    /// The offset of the last piece for which deep nesting was reported; `None` if it was not.
     pub(super) deep_reported: Option<usize>,
     /// The names that unreadable pieces would have declared.
     pub(super) unread: Vec<Symbol>,
@@ -114,7 +114,7 @@ impl<'t> Builder<'t> {
         node.into_inner().map(|word| self.word(word)).collect()
     }
 
-    /// Returns the text of the `///` lines before an offset, without the marks.
+    /// Returns the text of the `///` lines before an offset, without the marks; `None` if there are none.
     pub(super) fn doc(&self, start: u32) -> Option<String> {
         let before = self.comments.partition_point(|comment| comment.span.start < start);
         let mut lines = Vec::new();
@@ -133,7 +133,7 @@ impl<'t> Builder<'t> {
         (!lines.is_empty()).then(|| lines.join("\n"))
     }
 
-    /// Returns the text of the `//!` lines of the file, without the marks.
+    /// Returns the text of the `//!` lines of the file, without the marks; `None` if there are none.
     pub(super) fn file_doc(&self) -> Option<String> {
         let lines: Vec<&str> = (self.comments.iter())
             .filter(|comment| comment.kind == CommentKind::FileDoc)

@@ -426,7 +426,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Reports something else than a name in front of `=>`.
+    /// Reports something else than a name in front of `=>`; always `None`.
     fn not_a_param(&mut self, span: Span) -> Option<Name> {
         self.error(code::SYNTAX, "what stands before `=>` must be a name", span)
             .hints

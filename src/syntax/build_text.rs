@@ -72,7 +72,7 @@ impl Builder<'_> {
         (text, span)
     }
 
-    /// Returns the character of an escape; reports an unknown one.
+    /// Returns the character of an escape; `None` (and a diagnostic) for an unknown one.
     fn escape(&mut self, escape: &str, span: Span) -> Option<char> {
         let known = match &escape[1..] {
             "n" => Some('\n'),

@@ -80,7 +80,7 @@ fn named(c: char) -> String {
     }
 }
 
-/// Returns the name of an invisible character.
+/// Returns the name of an invisible character; `None` for a visible one.
 fn invisible_name(c: char) -> Option<&'static str> {
     Some(match c {
         '\0' => "the character NUL",

@@ -107,7 +107,7 @@ pub(super) fn explain(
     (mistake.explain(whole), mistake.misspelt.get())
 }
 
-/// Returns the tokens in the `{ }` of a text that holds the offset `at`.
+/// Returns the tokens in the `{ }` of a text that holds the offset `at`; `None` if that is in no text.
 fn inside_text(all: &[Token], found: usize, at: usize, text: &str) -> Option<Vec<Token>> {
     let token = all.get(found)?;
     let is_text = matches!(token.kind, TokenKind::Text { .. }) && token.start < at;
@@ -498,7 +498,7 @@ impl Mistake<'_> {
     }
 }
 
-/// Returns the kind of body in which this keyword is used.
+/// Returns the kind of body in which this keyword is used; `None` for other words.
 fn elsewhere(word: &str) -> Option<BodyKind> {
     let places = [BodyKind::Items, BodyKind::Config, BodyKind::Module, BodyKind::Truss];
     places.into_iter().find(|place| place.keywords().contains(&word))

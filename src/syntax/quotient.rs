@@ -38,8 +38,8 @@ impl Quotient {
     }
 }
 
-/// Returns the quotient that is meant if a comment behind an operand of an integer expression looks like its
-/// divisor: `n // 2`, or `(n // k)`, whose bracket is in the comment.
+/// Returns the quotient that is meant if a comment after an operand of an integer expression looks like its
+/// divisor, as in `n // 2`, or in `(n // k)`, whose bracket is in the comment; otherwise `None`.
 ///
 /// `before` is the token before the comment on its line.
 pub(super) fn meant(source: &str, before: Token, comment: Token, span: Span) -> Option<Quotient> {

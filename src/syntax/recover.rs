@@ -239,7 +239,7 @@ impl<'t> Parser<'t> {
         node
     }
 
-    /// Returns the block behind `=` that ends a piece.
+    /// Returns the inside of the block after `=` that ends a piece; `None` if none does.
     fn block_value(&self, range: &Range<usize>) -> Option<Range<usize>> {
         let start = self.value_start(range)?;
         let first = *tokens(&self.scan.text, start..range.end).first()?;
@@ -362,7 +362,8 @@ impl<'t> Parser<'t> {
         text
     }
 
-    /// Parses a piece with the value behind `=` replaced by a hole, so that its name is declared.
+    /// Parses a piece with the value after `=` replaced by a hole, so that its name is declared; `None` if that
+    /// fails, too.
     fn with_faulty_value<T>(
         &mut self,
         range: &Range<usize>,
@@ -386,7 +387,7 @@ impl<'t> Parser<'t> {
         built
     }
 
-    /// Returns the offset behind the first `=` outside all brackets.
+    /// Returns the offset after the first `=` outside all brackets; `None` if there is none.
     fn value_start(&self, range: &Range<usize>) -> Option<usize> {
         let mut depth = 0usize;
         for token in tokens(&self.scan.text, range.clone()) {

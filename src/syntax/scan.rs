@@ -86,13 +86,13 @@ struct Scanner<'t> {
     scan: Scan<'t>,
     /// True once deep nesting was reported for the current chunk.
     deep_reported: bool,
-    /// The previous token on the same line.
+    /// The previous token on the same line; `None` at its beginning.
     previous: Option<Token>,
-    /// The offset of the previous character that is not allowed.
+    /// The offset of the previous character of the line that is not allowed, if there is one.
     stray: Option<usize>,
     /// All such characters of the line.
     strays: Vec<char>,
-    /// The offset at which scanning continues behind what was meant as a comment.
+    /// The offset at which scanning continues after what was meant as a comment, if something was.
     skip_to: Option<usize>,
     /// The brackets whose closing ones are in comments that look like divisors.
     swallowed: Vec<(usize, Quotient)>,
@@ -367,7 +367,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
-    /// Returns the span of the token at which a missing bracket is noticed.
+    /// Returns the span of the token at which a missing bracket is noticed; `None` at the end of the text.
     fn found_at(&self, at: usize) -> Option<Span> {
         let token = Lexer::new(self.source, at).next()?;
         Some(self.span(token.start, token.end))

@@ -114,7 +114,7 @@ const FORMS: &[(&str, &str)] = &[
     ("if", "if condition { ... } else { ... }"),
 ];
 
-/// Returns the form of the item or clause that begins with this word.
+/// Returns the form of the item or clause that begins with this word; `None` for words without one.
 pub(super) fn form(word: &str) -> Option<&'static str> {
     FORMS.iter().find(|(first, _)| *first == word).map(|(_, form)| *form)
 }
