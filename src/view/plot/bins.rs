@@ -3,7 +3,7 @@
 use super::scale::round_edges;
 use super::{Plot, PlotSeries};
 
-/// The greatest number of bins that is chosen without being asked for.
+/// The greatest number of bins where the plot states none.
 const BINS_MAX: usize = 60;
 
 /// The bins of a histogram.

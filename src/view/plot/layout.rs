@@ -57,7 +57,7 @@ impl Frame {
     }
 }
 
-/// Returns the width and height of a plot in pixels.
+/// Lays a plot out: returns its marks in pixels, with the size of the whole.
 pub(super) fn lay_out(plot: &Plot) -> Sheet {
     let bins = (plot.kind == PlotKind::Histogram).then(|| Bins::of(plot));
     let (x, y) = scales(plot, bins.as_ref());
@@ -308,7 +308,7 @@ impl Mark {
     }
 }
 
-/// Says what is not drawn.
+/// Adds a note of the number of values that are not drawn.
 fn notes(sheet: &mut Sheet, plot: &Plot, frame: &Frame) {
     let gaps = plot.gaps();
     if gaps > 0 {

@@ -19,7 +19,7 @@ pub use png::png;
 pub use svg::svg;
 pub use text::text;
 
-/// The way in which values are drawn.
+/// The kind of a plot: the way in which its values are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
     /// Lines from point to point.
@@ -30,7 +30,7 @@ pub enum PlotKind {
     Histogram,
 }
 
-/// An axis with what it measures.
+/// An axis of a plot: its label and the dimension of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotAxis {
     /// The label without unit; may be empty.
@@ -39,20 +39,20 @@ pub struct PlotAxis {
     pub dimension: Dimension,
 }
 
-/// Values with a name.
+/// A series of a plot: values with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotSeries {
     /// The name in the legend; may be empty.
     pub name: String,
-    /// Points in SI units; `None` where a value is missing or infinite, which leaves a gap. A histogram reads the
-    /// second value of each.
+    /// The points (x, y) in SI units, in the order in which a curve joins them; `None` for a missing or infinite value,
+    /// which leaves a gap. A histogram reads the second value of each.
     pub points: Vec<Option<[f64; 2]>>,
 }
 
 /// A plot of one or more series over common axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// The way of drawing.
+    /// The kind of plot, the same for all series.
     pub kind: PlotKind,
     /// The title; may be empty.
     pub title: String,
@@ -62,7 +62,8 @@ pub struct Plot {
     pub y: PlotAxis,
     /// The series, at least one, with at least one point that is drawn.
     pub series: Vec<PlotSeries>,
-    /// The number of bins of a histogram; `None`: as many as suit the number of values.
+    /// The number of bins of a histogram, at least 1; `None`: as many as the rule of Rice gives, at round edges. Other
+    /// plots do not read it.
     pub bins: Option<usize>,
 }
 
@@ -72,12 +73,12 @@ impl Plot {
         self.series.iter().flat_map(|series| series.points.iter().flatten().copied())
     }
 
-    /// Returns the number of values that leave a gap.
+    /// Returns the number of missing or infinite values, over all series.
     pub fn gaps(&self) -> usize {
         self.series.iter().flat_map(|series| &series.points).filter(|point| point.is_none()).count()
     }
 
-    /// Returns the plot on one line: what is drawn over what.
+    /// Returns the content of the plot in words, by the labels of its axes, such as `a curve of height over time`.
     pub fn describe(&self) -> String {
         let named = |axis: &PlotAxis, other: &str| {
             if axis.label.is_empty() { other.to_string() } else { axis.label.clone() }

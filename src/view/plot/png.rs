@@ -10,10 +10,11 @@ use super::marks::{Anchor, Colour, Mark, Sheet};
 use crate::view::picture::encode_rgb;
 use crate::view::tolerances::TOLERANCES;
 
-/// The corners of a circle.
+/// The number of corners of a circle.
 const ROUND: usize = 16;
 
-/// Returns a plot as the bytes of a PNG file, its width in pixels as given; its height follows.
+/// Returns a plot as the bytes of a PNG file with red, green and blue of 8 bits each. `width`: in pixels, at least 1;
+/// the height follows from the shape of plots. Panics for a width of 0.
 pub fn png(plot: &Plot, width: usize) -> Vec<u8> {
     let sheet = lay_out(plot);
     let scale = width as f64 / sheet.size[0];
@@ -31,7 +32,7 @@ struct Picture {
     scale: f64,
     /// Red, green and blue of each pixel, 0 to 255, row by row from the top.
     pixels: Vec<f32>,
-    /// The coverage of the mark at hand, one number more than pixels in a row.
+    /// The coverage of the mark that is being drawn, two numbers more than pixels in each row.
     coverage: Vec<f32>,
 }
 
@@ -72,7 +73,8 @@ impl Picture {
         }
     }
 
-    /// Fills closed outlines: what is inside of one, counted by its direction, and more often in than out.
+    /// Fills closed outlines by their winding number: a point is inside where outlines of one direction outnumber
+    /// those of the other.
     fn fill(&mut self, outlines: &[Vec<[f64; 2]>], colour: Colour) {
         let scale = self.scale;
         let (mut top, mut bottom) = (self.height, 0);
