@@ -197,7 +197,8 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns a hint that names the field for which two records can't be compared.
+    /// Returns a hint that names the field for which two records can't be compared; `None` where no field is to
+    /// blame.
     pub(super) fn incomparable_field(&mut self, a: &Type, b: &Type) -> Option<String> {
         let (path, ty) = self.join(a, b).and_then(|ty| self.incomparable(&ty))?;
         let words = self.words(&ty);

@@ -24,14 +24,14 @@ pub(super) const STDIN_NAME: &str = "<stdin>";
 pub(super) struct Project {
     /// The root: absolute, without links.
     root: PathBuf,
-    /// The folder that replaces the embedded library; absolute, without links.
+    /// The folder that replaces the embedded library, absolute, without links; `None` for the embedded one.
     stdlib: Option<PathBuf>,
     /// The program's name relative to the root; empty without a program.
     pub name: String,
     bytes: Vec<u8>,
     /// The root as the user would name it; empty for the working folder.
     pub folder: String,
-    /// The record of files that are read or searched, for `modl watch`.
+    /// The record of files that are read or searched, for `modl watch`; `None` for other commands.
     pub watched: Option<Arc<Watched>>,
 }
 

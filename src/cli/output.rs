@@ -84,7 +84,10 @@ fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
     }
 }
 
-/// Writes a file under a temporary name and renames it.
+/// Writes a file under a temporary name in `parent`, and renames it to `target`.
+///
+/// # Errors
+/// The failure of the system; the file is then as it was, or whole.
 fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);

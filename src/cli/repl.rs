@@ -131,6 +131,9 @@ impl<'g> Repl<'g> {
     }
 
     /// Reads and evaluates entries until the user leaves.
+    ///
+    /// # Errors
+    /// A message if the terminal can't be read.
     fn interact(&mut self) -> Result<Ending, CallError> {
         let mut lines = Lines::new(self.style.color)?;
         let mut typed = 0;

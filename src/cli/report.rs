@@ -42,7 +42,7 @@ pub(super) struct Report {
     /// The verdicts on plan files; `None` for commands that judge none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
-    /// The number of programs of folders that were checked.
+    /// The number of programs of folders that were checked; `None` if no folder was named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub programs: Option<usize>,
     #[serde(skip)]

@@ -88,6 +88,8 @@ fn library_pages(files: &dyn Files) -> Vec<Page> {
     pages
 }
 
+/// Adds the files of a site to `site`: a page for each of `pages`, the guide, the index, and what they link to;
+/// and the broken links of the pages.
 fn write(pages: &[Page], request: &Request, site: &mut Site) {
     let addresses = addresses(pages);
     let taken = RefCell::default();

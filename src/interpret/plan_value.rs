@@ -131,7 +131,8 @@ impl PlanValue {
         self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
     }
 
-    /// Returns what the judge knows at these times (s), as far as it gets; kept for the next who asks the same.
+    /// Returns what the judge knows at these times (s), one for each; fewer where it took all samples that are
+    /// allowed before the last. Kept for the next who asks the same.
     pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
         let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
         if kept.0 != *times {

@@ -238,6 +238,9 @@ impl Interpreter<'_> {
 
     /// Returns the start pose of a robot as a plan of duration 0, not judged yet; `None` where its design is
     /// broken or no robot.
+    ///
+    /// # Errors
+    /// As [`robot_of`](Self::robot_of).
     pub fn plan_pose(
         &mut self,
         design: &Rc<Design>,
@@ -304,6 +307,9 @@ impl Interpreter<'_> {
     /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose of
     /// an instance's robot; `None` for other values, and where a plan could not be made, which has been
     /// reported.
+    ///
+    /// # Errors
+    /// As [`plan_from`](Self::plan_from).
     pub fn plan_of(&mut self, value: &Value, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         match value {
             Value::Behavior(behavior) => self.plan_behavior(behavior, span),

@@ -72,7 +72,7 @@ pub struct StateValue {
     pub planned: Rc<PlanValue>,
     /// The pose of the base in the world, once it was asked for.
     pub base: OnceCell<Pose>,
-    /// The times of the states that it was made together with, and its own among them.
+    /// The times (s) of the states that it was made together with, and the index of its own among them, from 0.
     pub among: (Rc<Vec<f64>>, usize),
 }
 

@@ -199,7 +199,7 @@ pub enum Measure {
     Sensed(plan::Signal),
     /// The force (N) or torque (N·m) that the motor of a joint supplies.
     Effort(JointId),
-    /// The distance of the centre of mass inside the support, m.
+    /// The distance of the centre of mass inside the area that the robot stands on, m; negative outside.
     Margin,
     /// The least distance of links that may not touch, m.
     Clearance,

@@ -85,6 +85,7 @@ fn contains(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().any(|value| value.same(item) == Some(true))))
 }
 
+/// Runs `reduce(list, f, from)`: carries a value through a list.
 fn reduce(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let f = call.get::<&Rc<Callable>>("f")?;
     let mut carried = call.get::<&Value>("from")?.clone();
@@ -97,6 +98,10 @@ fn reduce(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(carried)
 }
 
+/// Runs `iterate(f, from, until)`: carries a value on until `until` holds.
+///
+/// # Errors
+/// A fault where it does not hold after `max` steps.
 fn iterate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (f, until) = (call.get::<&Rc<Callable>>("f")?, call.get::<&Rc<Callable>>("until")?);
     let max = call.count("max", "a number of steps")?;

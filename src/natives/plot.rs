@@ -42,6 +42,11 @@ impl Choice for PlotKind {
 /// Values in SI units with their dimension; `None` where one is missing or infinite.
 type Numbers = (Vec<Option<f64>>, Dimension);
 
+/// Runs `plot(y)`: makes a `Plot` of one list or of several.
+///
+/// # Errors
+/// A fault where a list is empty, all values are missing, an axis mixes dimensions, lists do not pair up, or
+/// the bins or names do not fit.
 fn plot_values(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let kind: PlotKind = call.get("kind")?;
     let y = lists(call, "y", call.get("y")?)?;
@@ -90,6 +95,10 @@ fn plot_values(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(PlotValue(plot))))))
 }
 
+/// Returns the number of bins that the call states; `None` for `auto`.
+///
+/// # Errors
+/// A fault where the plot is no histogram, or the number is not between 1 and [`BINS_MAX`].
 fn bins(call: &Call, kind: PlotKind) -> Eval<Option<usize>> {
     match call.get::<WordOr<Auto, usize>>("bins")? {
         WordOr::Word(Auto) => Ok(None),
@@ -102,6 +111,9 @@ fn bins(call: &Call, kind: PlotKind) -> Eval<Option<usize>> {
 }
 
 /// Returns the lists of an argument that is one list of quantities or several.
+///
+/// # Errors
+/// A fault where there is no list, or an empty one.
 fn lists(call: &Call, argument: &str, value: &Value) -> Eval<Vec<Numbers>> {
     let Value::List(elements) = value else { unreachable!("`check` lets only lists through") };
     let several = elements.iter().any(|element| matches!(element, Value::List(_)));
@@ -115,12 +127,18 @@ fn lists(call: &Call, argument: &str, value: &Value) -> Eval<Vec<Numbers>> {
     Ok(found)
 }
 
+/// Returns the values of a list, with the dimension of the first that is not missing; `None` for what is no
+/// list.
 fn numbers(list: &Value) -> Option<Numbers> {
     let Value::List(elements) = list else { return None };
     let dimension = elements.iter().find_map(Value::as_dimension).unwrap_or(Dimension::NUMBER);
     Some((elements.iter().map(|x| x.as_number().filter(|x| x.is_finite())).collect(), dimension))
 }
 
+/// Returns the dimension of all these lists. Panics if there is none.
+///
+/// # Errors
+/// A fault at `argument` where two differ.
 fn common_dimension(call: &Call, argument: &str, lists: &[Numbers]) -> Eval<Dimension> {
     let first = lists[0].1;
     match lists.iter().all(|(_, dimension)| *dimension == first) {
@@ -129,7 +147,10 @@ fn common_dimension(call: &Call, argument: &str, lists: &[Numbers]) -> Eval<Dime
     }
 }
 
-/// Refuses lists whose values do not pair up.
+/// Checks that the values of the lists pair up: one list of `x` serves all of `y`.
+///
+/// # Errors
+/// A fault where the number of lists, or of values in two of them, differs.
 fn check_lengths(call: &Call, y: &[Numbers], x: Option<&[Numbers]>) -> Eval<()> {
     let Some(x) = x else { return Ok(()) };
     if x.len() > 1 && x.len() != y.len() {
@@ -146,7 +167,10 @@ fn check_lengths(call: &Call, y: &[Numbers], x: Option<&[Numbers]>) -> Eval<()> 
     Ok(())
 }
 
-/// Returns the names of the series: those given, or the words of the arguments.
+/// Returns the names of the series: those given, or the words of the arguments; empty where neither gives one.
+///
+/// # Errors
+/// A fault where names are given, and not one for each of the `count` series.
 fn names(interpreter: &Interpreter, call: &Call, count: usize) -> Eval<Vec<String>> {
     let given = call.get::<&[Value]>("names")?;
     if !given.is_empty() && given.len() != count {
@@ -165,8 +189,8 @@ fn names(interpreter: &Interpreter, call: &Call, count: usize) -> Eval<Vec<Strin
 }
 
 impl Interpreter<'_> {
-    /// Returns the name of the quantity that an expression lists, for an axis: that of a field, of a signal, or of a
-    /// value.
+    /// Returns the name of the quantity that an expression lists, for an axis: that of a field, of a signal, or
+    /// of a value; `None` where the expression names none, or several.
     fn quantity_name(&self, e: &Expr) -> Option<String> {
         match &e.kind {
             ExprKind::Field { field, .. } => Some(field.to_string()),
@@ -193,7 +217,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the name of one series among several, as it is written; of `p.series(...)` the signal.
+    /// Returns the name of one series among several, as it is written; of `p.series(...)` the signal. `None` if
+    /// that is longer than [`NAME_MAX`] characters or one line.
     fn series_name(&self, e: &Expr) -> Option<String> {
         if let ExprKind::Call { def, args } = &e.kind
             && let DefKind::Native(native) = &self.shared.program.def(*def).kind
@@ -212,12 +237,12 @@ impl Interpreter<'_> {
     }
 }
 
-/// A plot.
+/// The value of a `Plot`: what is drawn, without its size.
 #[derive(Debug)]
 pub struct PlotValue(Plot);
 
 impl PlotValue {
-    /// Returns the plot as text, small.
+    /// Returns the plot as a small drawing of characters, in several lines.
     pub fn text(&self) -> String {
         plot::text(&self.0)
     }

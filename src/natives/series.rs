@@ -70,7 +70,7 @@ fn modules_of(instance: &Instance) -> Range<usize> {
     instance.offset..instance.offset + instance.design.module_count()
 }
 
-/// Returns the plan that a method is called of.
+/// Returns the plan that a method is called of; `None` where it could not be made, which has been reported.
 fn planned(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<PlanValue>>> {
     interpreter.plan_of(call.arg("self"), call.at("self"))
 }
@@ -103,7 +103,10 @@ fn plan_states(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::list(states.map(|state| Value::Record(Rc::new(Record::State(state)))).collect()))
 }
 
-/// Returns what the judge knows at these times of a plan.
+/// Returns what the judge knows at these times (s) of a plan, one for each.
+///
+/// # Errors
+/// A fault where the judge took all samples that are allowed before the last time.
 fn instants(call: &Call, plan: &PlanValue, times: &Rc<Vec<f64>>, detail: Detail) -> Eval<Rc<Vec<Instant>>> {
     let instants = plan.instants(times, detail);
     if instants.len() == times.len() {
@@ -114,6 +117,10 @@ fn instants(call: &Call, plan: &PlanValue, times: &Rc<Vec<f64>>, detail: Detail)
     Err(fault(code::NOT_VERIFIED, call.at("self"), message, "of this plan"))
 }
 
+/// Runs `p.series(of, step)`: lists the values of a signal over a plan, at the times of `p.times(step)`.
+///
+/// # Errors
+/// A fault where the plan's robot has no joints, the signal is of another robot, or a value is not known.
 fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(plan) = planned(interpreter, call)? else { return Ok(Value::Unknown) };
     let Value::Signal(signal) = call.get::<&Value>("of")? else {

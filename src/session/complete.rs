@@ -327,7 +327,7 @@ fn open_bracket(text: &str) -> Option<usize> {
     open.pop()
 }
 
-/// Returns the record whose fields a text is about to change: `d` in `d with {`.
+/// Returns the record whose fields a text is about to change: `d` in `d with {`; `None` if it changes none.
 fn changed_record(before_brace: &str) -> Option<&str> {
     let object = before_brace.trim_end().strip_suffix("with")?;
     object.ends_with(char::is_whitespace).then(|| receiver(object.trim_end()))?

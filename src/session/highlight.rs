@@ -48,7 +48,8 @@ fn begins_a_line(text: &str, at: usize) -> bool {
     text[..at].rsplit('\n').next().is_none_or(|before| before.trim().is_empty())
 }
 
-/// Returns the class of a word; `begins` is true at the beginning of a statement or clause.
+/// Returns the class of a word, `None` for a plain one; `begins` is true at the beginning of a statement or
+/// clause.
 fn word(word: &str, begins: bool) -> Option<Class> {
     let clauses = [ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS];
     if RESERVED.contains(&word) && word.len() > 1 || begins && clauses.iter().any(|c| c.contains(&word)) {

@@ -63,7 +63,7 @@ fn blanks(text: &str) -> usize {
     text.len() - text.trim_start().len()
 }
 
-/// Returns the next word of a text, and the text behind it.
+/// Returns the next word of a text, and the text behind it; `None` where no word follows.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let start = text.find(is_word)?;

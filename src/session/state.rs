@@ -22,7 +22,7 @@ pub struct Session {
     pub(super) entries: Vec<Entry>,
     /// The program that they make.
     pub(super) checked: Arc<Checked>,
-    /// The declaration that `_` stands for.
+    /// The declaration that `_` stands for; `None` while there is none.
     pub(super) last: Option<Symbol>,
     /// The files that were loaded, or failed to load.
     pub(super) loaded: Vec<String>,

@@ -18,7 +18,7 @@ pub(super) struct Builder<'t> {
     pub(super) comments: &'t [Comment],
     /// The offset in the whole text of the piece being built.
     pub(super) base: usize,
-    /// The bytes by which the first word of the piece is longer than the misspelt one in the file.
+    /// The number of bytes by which the first word of the piece is longer than the misspelt one in the file.
     pub(super) longer: usize,
     /// The start of all spans.
     pub(super) least: usize,

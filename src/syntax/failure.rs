@@ -46,14 +46,21 @@ impl BodyKind {
 
 /// A parse error: the tokens of the piece, and the token that the grammar could not take.
 pub(super) struct Mistake<'t> {
+    /// The text of the piece.
     pub(super) text: &'t str,
+    /// The offset of the piece in the whole text.
     base: usize,
+    /// The file of the piece.
     file: FileId,
+    /// The tokens of the piece; of the `{ }` of a text where the mistake is in one.
     pub(super) tokens: Vec<Token>,
     /// The index of the faulty token; the number of tokens if the piece ends too early.
     pub(super) found: usize,
+    /// The failure that the parser reported.
     failure: &'t Failure,
+    /// The body that the piece stands in.
     pub(super) place: BodyKind,
+    /// True if the mistake is in the `{ }` of a text.
     pub(super) in_text: bool,
     /// The misspelt keyword, once that explains the mistake.
     misspelt: Cell<Option<Misspelt>>,
@@ -155,6 +162,7 @@ impl Mistake<'_> {
         self.found.checked_sub(1).map_or("", |before| self.token_text(before))
     }
 
+    /// Returns the kind of a token; `None` behind the last one.
     pub(super) fn kind_of(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
@@ -188,10 +196,12 @@ impl Mistake<'_> {
         self.text[before.end..end].contains('\n')
     }
 
+    /// Returns an error at the faulty token; never `None`.
     pub(super) fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
         self.error_at(code::SYNTAX, self.found, message)
     }
 
+    /// Returns an error at a token, or behind the last one; never `None`.
     pub(super) fn error_at(
         &self,
         code: Code,

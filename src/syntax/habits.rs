@@ -9,6 +9,7 @@ use crate::source::{Diagnostic, code};
 /// The greatest length of a piece of the program that a hint repeats, in bytes.
 const REPEATED_MAX: usize = 60;
 
+// All that explain return `None` where the mistake is another one.
 impl Mistake<'_> {
     /// Explains notation of other languages.
     pub(super) fn foreign_mark(&self) -> Option<Diagnostic> {

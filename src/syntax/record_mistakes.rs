@@ -5,6 +5,7 @@ use super::lex::TokenKind;
 use super::words;
 use crate::source::{Diagnostic, code};
 
+// All that explain return `None` where the mistake is another one.
 impl Mistake<'_> {
     /// Explains `Design { bend: 30deg }`, with which other languages build a record.
     pub(super) fn built_in_braces(&self) -> Option<Diagnostic> {
