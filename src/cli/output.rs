@@ -98,6 +98,9 @@ fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Writes the bytes and renames the file. Bytes and name are on the disk when it returns: after a failure of
 /// the machine the file is whole, or as it was.
+///
+/// # Errors
+/// The failure of the system.
 fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
@@ -106,6 +109,9 @@ fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()
 }
 
 /// Waits until the entries of a folder are on the disk. File systems that know no such thing are not waited for.
+///
+/// # Errors
+/// The failure of the system.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     match fs::File::open(folder)?.sync_all() {

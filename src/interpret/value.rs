@@ -367,7 +367,8 @@ impl Value {
     }
 
     /// Returns true if two values are equal, as `==` says; `None` where one is unknown, or where values of
-    /// these types can't be compared. Elements of lists that can't be compared count as different.
+    /// these types can't be compared. Elements of lists and fields of records that can't be compared count as
+    /// different.
     pub fn same(&self, other: &Value) -> Option<bool> {
         Comparison::default().same(self, other)
     }
@@ -377,11 +378,14 @@ impl Value {
 /// compared once.
 #[derive(Default)]
 struct Comparison {
+    /// The pairs of lists that were found to be equal.
     equal: HashSet<(*const Vec<Value>, *const Vec<Value>)>,
+    /// The pairs of records that were found to be equal.
     equal_records: HashSet<(*const Record, *const Record)>,
 }
 
 impl Comparison {
+    /// Compares two lists, element by element.
     fn lists(&mut self, a: &Rc<Vec<Value>>, b: &Rc<Vec<Value>>) -> bool {
         let pair = (Rc::as_ptr(a), Rc::as_ptr(b));
         if a.len() != b.len() || self.equal.contains(&pair) {
@@ -409,6 +413,8 @@ impl Comparison {
         equal
     }
 
+    /// Returns true if two values are the same; `None` where one is unknown, or they are of kinds that can't be
+    /// compared.
     fn same(&mut self, a: &Value, b: &Value) -> Option<bool> {
         use Value::*;
         Some(match (a, b) {

@@ -110,7 +110,10 @@ impl<'c> Supply<'c> {
         Ok(panel)
     }
 
-    /// Refuses a face whose sides differ from those of `panel`, which has three equal ones.
+    /// Checks that the sides of a face are those of `panel`, which has three equal ones.
+    ///
+    /// # Errors
+    /// A fault where they differ.
     pub(super) fn check_side(
         &self,
         shape: &'static str,

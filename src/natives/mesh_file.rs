@@ -24,7 +24,10 @@ pub(super) fn read(
     Ok((path, Mesh { vertices, faces: read.faces }))
 }
 
-/// Returns the points (m) in the file that the argument `name` names; `scale` and errors as in [`read`].
+/// Returns the points (m) in the file that the argument `name` names; `scale` as in [`read`].
+///
+/// # Errors
+/// A fault where the file can't be read, or its name or text is none of a cloud.
 pub(super) fn read_cloud(
     interpreter: &mut Interpreter,
     call: &Call,

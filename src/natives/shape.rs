@@ -135,6 +135,9 @@ fn axis(call: &Call, name: &str) -> Eval<Vec3> {
 }
 
 /// Returns the points of the list in the argument `name`.
+///
+/// # Errors
+/// A fault where something else is in the list.
 pub(super) fn points(call: &Call, name: &str) -> Eval<Vec<Vec3>> {
     let point = |value: &Value| match value {
         Value::Vec3(p, _) => Ok(*p),

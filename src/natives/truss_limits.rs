@@ -42,6 +42,9 @@ pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArgument
 }
 
 /// Returns the shapes of each of the obstacles `around`, in the world's frame.
+///
+/// # Errors
+/// A fault where one of them is no shape.
 pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
     let shape = |value: &Value| match value {
         Value::Shape(shape) => Ok(shape.parts.clone()),

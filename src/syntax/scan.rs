@@ -99,6 +99,7 @@ struct Scanner<'t> {
 }
 
 impl<'t> Scanner<'t> {
+    /// Returns a scanner that has read nothing yet.
     fn new(file: FileId, source: &'t str, resync: Resync) -> Scanner<'t> {
         let scan = Scan {
             text: Cow::Borrowed(source),
@@ -127,6 +128,7 @@ impl<'t> Scanner<'t> {
         }
     }
 
+    /// Reads the whole text, and returns what was found.
     fn run(mut self) -> Scan<'t> {
         let start = if self.source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         self.scan.chunks.push(start);
