@@ -8,6 +8,8 @@
 
 #[path = "../tests/support"]
 mod support {
+    #[allow(dead_code)]
+    pub mod numbers;
     pub mod robots;
 }
 #[allow(dead_code, unused_imports)]

@@ -1,5 +1,6 @@
 //! Self-collision at every instant, against closed forms and against dense sampling.
 
+use crate::support::numbers::Numbers;
 use crate::support::robots::{self, boxed};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
@@ -229,24 +230,6 @@ fn tilting_by_its_whole_range_a_module_does_not_meet_itself_or_its_neighbours() 
     let found = judged(&plan(robots::chain(3), tracks.to_vec(), 5.0));
     assert_eq!(found.status, Status::Proved, "{found:?}");
     assert!((found.clearance.expect("many pairs").value - DISC_TO_WHEEL).abs() < 2.1e-5);
-}
-
-/// Numbers that look random and are the same everywhere.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 11) as f64) / ((1u64 << 53) as f64)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() * n as f64) as usize
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
 }
 
 /// A random tree of modules; ports are used once.

@@ -4,6 +4,7 @@
 
 use crate::robots::urdf;
 use crate::support::motions::Motion;
+use crate::support::numbers::Numbers;
 use crate::support::robots::{self, Design};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
@@ -39,36 +40,6 @@ const RIGID: usize = 0;
 const GUIDED: usize = 1;
 const HINGED: usize = 2;
 
-/// Numbers that look random and are the same everywhere.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 11) as f64) / ((1u64 << 53) as f64)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() * n as f64) as usize
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0))
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        self.vector().try_normalize(0.1).unwrap_or(Vec3::x())
-    }
-
-    fn rotation(&mut self) -> Pose {
-        turned(self.direction(), self.between(-3.0, 3.0))
-    }
-}
-
 /// A convex shape of 15 to 70 mm.
 fn shape(n: &mut Numbers) -> Shape {
     let (radius, length, axis) = (n.between(0.008, 0.03), n.between(0.015, 0.06), n.direction());
@@ -87,7 +58,9 @@ fn link(n: &mut Numbers, name: String, pose: Pose) -> Link {
     if n.below(3) == 0 {
         shapes.push(Placed { pose: shifted(n.direction() * 0.02) * n.rotation(), shape: shape(n) });
     }
-    let mass = robots::link(&name, shapes, 0.1, Vec3::zeros(), 0.5);
+    // The link's origin may be outside of a random hull, where no mass can be.
+    let (low, high) = Solid::new(&shapes).expect("the shapes are sound").bounds;
+    let mass = robots::link(&name, shapes, 0.1, (low + high) / 2.0, 0.5);
     Link { pose, ..mass }
 }
 

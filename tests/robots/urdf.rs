@@ -2,6 +2,7 @@
 //! link poses for random joints. Skipped, with a message, where Python or the library is missing.
 #![allow(non_snake_case)]
 
+use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::Pose;
 use modl::robot::mate;
@@ -147,15 +148,12 @@ fn an_independent_library_has_the_same_link_poses() {
             .expect("stderr is open");
         return;
     };
-    let mut seed = 7u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 3.0
-    };
+    let mut numbers = Numbers(7);
     for robot in [robots::chain(3), robots::walk4(), robots::car(), robots::backhoe(4), robots::ring12()] {
         let kinematics = Kinematics::new(&robot, &vec![true; robot.bonds.len()], robot.base);
         let urdf = Urdf::new(&robot, &kinematics);
-        let states: Vec<Vec<f64>> = (0..5).map(|_| urdf.joints.iter().map(|_| random()).collect()).collect();
+        let states: Vec<Vec<f64>> =
+            (0..5).map(|_| urdf.joints.iter().map(|_| (numbers.next() - 0.5) * 3.0).collect()).collect();
         let links = kinematics.link_count();
         let task = json!({ "urdf": urdf.text, "links": links, "joints": urdf.joints, "states": states });
         let theirs = run(&python, POSES, &task);

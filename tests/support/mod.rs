@@ -5,6 +5,7 @@ pub mod fences;
 pub mod generated;
 pub mod lattices;
 pub mod motions;
+pub mod numbers;
 pub mod programs;
 pub mod properties;
 pub mod recount;
