@@ -80,9 +80,8 @@ impl Judgement<'_> {
         if step.interpolation != Interpolation::Linear {
             return;
         }
-        for near in
-            strut_distance::nearest(self.paths, step, self.strut.clearance, self.tolerances.strut_distance)
-        {
+        let limits = (self.strut.clearance, self.tolerances.strut_distance);
+        for near in strut_distance::nearest(self.paths, step, limits, &self.samples) {
             let names = || vec![self.strut_name(near.struts.0), self.strut_name(near.struts.1)];
             let time = step.start + step.duration * near.part;
             keep_least(&mut ledger.verdict.clearance, near.distance, time, names);

@@ -1,5 +1,6 @@
 //! A truss plan under judgement, one of its steps, and how failures are recorded.
 
+use super::sample_budget::SampleBudget;
 use super::shape::Corner;
 use super::surroundings::Obstacle;
 use super::tolerances::Tolerances;
@@ -27,6 +28,8 @@ pub(super) struct Judgement<'a> {
     pub paths: &'a NodePaths,
     /// The tolerances of all checks.
     pub tolerances: Tolerances,
+    /// The samples that the checks may still take.
+    pub samples: SampleBudget,
     /// The pairs of struts that share a node, if the plan limits angles; otherwise empty.
     pub corners: Vec<Corner>,
     /// The type of all struts.

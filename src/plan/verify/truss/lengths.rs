@@ -2,6 +2,7 @@
 //! and rates are known in closed form.
 
 use super::judgement::Step;
+use crate::geometry::Vec3;
 
 /// Extremes of the length of one strut on a step.
 pub(super) struct Lengths {
@@ -30,17 +31,25 @@ impl Lengths {
 pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     let (from, to) = (step.from[a] - step.from[b], step.to[a] - step.to[b]);
     let change = to - from;
-    // |from + u change|² is least where its slope is zero.
-    let slope = change.norm_squared();
-    let u = if slope > 0.0 { (-from.dot(&change) / slope).clamp(0.0, 1.0) } else { 0.0 };
+    let (least, u) = least(from, to);
     let time = |u: f64| step.start + u * step.duration;
     let (start, end) = (from.norm(), to.norm());
     let most = if start >= end { (start, time(0.0)) } else { (end, time(1.0)) };
     // A length along a straight line is convex, so its rate is greatest at an end. At a length of
     // nothing the rate is the whole speed.
-    let rate = |d: &crate::geometry::Vec3, length: f64| {
+    let rate = |d: &Vec3, length: f64| {
         if length > 0.0 { (change.dot(d) / length).abs() } else { change.norm() }
     };
     let rate = rate(&from, start).max(rate(&to, end)) / step.duration;
-    Lengths { least: ((from + change * u).norm(), time(u)), most, rate }
+    Lengths { least: (least, time(u)), most, rate }
+}
+
+/// Returns the least length of a vector that goes straight from `from` to `to` (m), and the part of the way, from 0 to
+/// 1, at which it has it.
+pub(super) fn least(from: Vec3, to: Vec3) -> (f64, f64) {
+    // |from + u change|² is least where its slope is zero.
+    let change = to - from;
+    let slope = change.norm_squared();
+    let u = if slope > 0.0 { (-from.dot(&change) / slope).clamp(0.0, 1.0) } else { 0.0 };
+    ((from + change * u).norm(), u)
 }

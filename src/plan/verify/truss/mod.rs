@@ -10,6 +10,7 @@
 mod checks;
 mod judgement;
 mod lengths;
+mod sample_budget;
 mod shape;
 mod stated_margins;
 mod strut_distance;
@@ -22,6 +23,7 @@ use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
 use crate::plan::{CheckKind, Interpolation, NodePaths, Plan, Verdict};
 use judgement::{Judgement, Step};
+use sample_budget::SampleBudget;
 use support::StabilityMonitor;
 use tolerances::Tolerances;
 
@@ -34,6 +36,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut judged = Judgement {
         paths,
         tolerances: Tolerances::default(),
+        samples: SampleBudget::new(),
         corners,
         strut,
         obstacles: Vec::new(),

@@ -13,8 +13,6 @@ use crate::units::number;
 use crate::units::{Dimension, quantity};
 use nalgebra::DMatrix;
 
-/// Greatest number of samples of one angle, or intervals of one sum, on one step.
-const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 /// Number of singular values that belong to rigid motions of the whole truss.
 const RIGID_MOTIONS: usize = 6;
 
@@ -52,31 +50,34 @@ impl Judgement<'_> {
         // Advancement: the angle changes no faster than both directions turn.
         let speed = turns(p) + turns(q);
         let (mut part, mut least) = (0.0, (angle_between(at(p, 1.0), at(q, 1.0)), 1.0));
-        let mut proved = false;
-        for _ in 0..ADVANCEMENT_STEPS_MAX {
+        let decided = self.samples.advance(|| {
             let found = angle_between(at(p, part), at(q, part));
             if found < least.0 {
                 least = (found, part);
             }
             let spare = found - limit + self.tolerances.angle;
-            proved = spare >= 0.0 && (part >= 1.0 || spare >= speed * (1.0 - part));
+            let proved = spare >= 0.0 && (part >= 1.0 || spare >= speed * (1.0 - part));
             if proved || spare < 0.0 {
-                break;
+                return Some(proved);
             }
             part = (part + spare / speed).min(1.0);
-        }
+            None
+        });
         let time = step.start + step.duration * least.1;
         let names = || vec![self.strut_name(i), self.strut_name(j)];
         keep_least(&mut ledger.verdict.angle, least.0, time, names);
-        if proved {
+        if decided == Some(true) {
             return;
         }
         let [found, wanted] = [least.0, limit].map(|x| quantity(x, Dimension::ANGLE));
-        let message = format!(
-            "the struts {} and {} come to an angle of {found}; the plan keeps {wanted}",
-            self.strut_name(i),
-            self.strut_name(j)
-        );
+        let (i, j) = (self.strut_name(i), self.strut_name(j));
+        let message = if least.0 < limit {
+            format!("the struts {i} and {j} come to an angle of {found}; the plan keeps {wanted}")
+        } else {
+            format!(
+                "the angle between the struts {i} and {j} stays so near to {wanted} that it is not proved"
+            )
+        };
         let failure = self.failure(CheckKind::JointRange, time, names(), message);
         ledger.fail(Failure { value: least.0, limit, ..failure });
     }
@@ -90,32 +91,35 @@ impl Judgement<'_> {
             ends.map(|(a, b)| (at(a) - at(b)).norm()).sum()
         };
         let tolerance = self.tolerances.length_sum;
+        let (low, high) = sum.range;
         let mut parts = vec![(0.0, 1.0)];
-        for _ in 0..ADVANCEMENT_STEPS_MAX {
-            let Some((from, to)) = parts.pop() else { return };
-            let (low, high) = sum.range;
+        let decided = self.samples.advance(|| {
+            let Some((from, to)) = parts.pop() else { return Some(None) };
             let ends = [(lengths(from), from), (lengths(to), to)];
             let bad = ends.iter().find(|(length, _)| *length < low - tolerance || *length > high + tolerance);
-            if let Some(&(length, part)) = bad {
-                return self.sum_fails(step, sum, (length, part), ledger);
+            if bad.is_some() {
+                return Some(bad.copied());
             }
-            let piece = Step {
-                from: step.from.iter().zip(&step.to).map(|(p, q)| p * (1.0 - from) + q * from).collect(),
-                to: step.from.iter().zip(&step.to).map(|(p, q)| p * (1.0 - to) + q * to).collect(),
-                ..*step
-            };
-            let extremes = sum.struts.iter().map(|&strut| {
+            let least = |&strut: &usize| {
                 let (a, b) = self.paths.struts[strut];
-                lengths::along(&piece, a, b)
-            });
-            let least: f64 = extremes.map(|found| found.least.0).sum();
+                let across = |part: f64| {
+                    let at = |node: usize| step.from[node] * (1.0 - part) + step.to[node] * part;
+                    at(a) - at(b)
+                };
+                lengths::least(across(from), across(to)).0
+            };
             // Lengths are convex, so their sum is greatest at an end.
-            if least < low - tolerance {
+            if sum.struts.iter().map(least).sum::<f64>() < low - tolerance {
                 let middle = (from + to) / 2.0;
                 parts.extend([(from, middle), (middle, to)]);
             }
+            None
+        });
+        match decided {
+            Some(None) => {}
+            Some(Some(bad)) => self.sum_fails(step, sum, bad, ledger),
+            None => self.sum_fails(step, sum, (lengths(0.5), 0.5), ledger),
         }
-        self.sum_fails(step, sum, (lengths(0.5), 0.5), ledger);
     }
 
     /// Records that a sum of lengths leaves its range.
@@ -126,7 +130,15 @@ impl Judgement<'_> {
             [one] => format!("the strut {one} would be {found} long"),
             _ => format!("the lengths of {} would add up to {found}", names.join(", ")),
         };
-        let message = format!("{what}; the plan keeps {low} to {high}");
+        let within = (sum.range.0..=sum.range.1).contains(&length);
+        let message = if within {
+            let names = names.join(", ");
+            format!(
+                "the lengths of {names} add up to so near to {low} that it is not proved that they keep it"
+            )
+        } else {
+            format!("{what}; the plan keeps {low} to {high}")
+        };
         let failure = self.failure(CheckKind::JointRange, step.start + part * step.duration, names, message);
         let limit = if length < sum.range.0 { sum.range.0 } else { sum.range.1 };
         ledger.fail(Failure { value: length, limit, ..failure });

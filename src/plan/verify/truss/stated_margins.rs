@@ -44,12 +44,8 @@ impl Judgement<'_> {
                 start: time,
                 duration: 1.0,
             };
-            let near = strut_distance::nearest(
-                self.paths,
-                &step,
-                self.strut.clearance,
-                self.tolerances.strut_distance,
-            );
+            let limits = (self.strut.clearance, self.tolerances.strut_distance);
+            let near = strut_distance::nearest(self.paths, &step, limits, &self.samples);
             near.iter().map(|near| near.distance - self.strut.clearance).reduce(f64::min)
         };
         let beside = || self.nearest_obstacle(x).map(|distance| distance - self.strut.clearance);

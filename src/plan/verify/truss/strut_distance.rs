@@ -3,12 +3,10 @@
 //! for some time, and the next sample is taken when that time is over.
 
 use super::judgement::Step;
+use super::sample_budget::SampleBudget;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::closest_points::segment_segment_distance;
 use crate::plan::NodePaths;
-
-/// Greatest number of samples for one pair on one step. A pair that stays at its clearance needs many.
-const ADVANCEMENT_STEPS_MAX: usize = 100_000;
 
 /// Two struts near each other on a step.
 pub(super) struct NearPair {
@@ -25,7 +23,12 @@ pub(super) struct NearPair {
 /// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the
 /// `clearance` (m), with their distances. Narrow phase: conservative advancement, with `tolerance` (m) below the
 /// clearance.
-pub(super) fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance: f64) -> Vec<NearPair> {
+pub(super) fn nearest(
+    paths: &NodePaths,
+    step: &Step,
+    (clearance, tolerance): (f64, f64),
+    samples: &SampleBudget,
+) -> Vec<NearPair> {
     let shares = |i: usize, j: usize| {
         let ((a, b), (c, d)) = (paths.struts[i], paths.struts[j]);
         a == c || a == d || b == c || b == d
@@ -40,7 +43,7 @@ pub(super) fn nearest(paths: &NodePaths, step: &Step, clearance: f64, tolerance:
     let mut found = Vec::new();
     near_boxes(&boxes, reach, cell, |i, j| {
         if !shares(i, j) {
-            found.push(pair(paths, step, (i, j), (clearance, tolerance)));
+            found.push(pair(paths, step, (i, j), (clearance, tolerance), samples));
         }
     });
     found.sort_by_key(|near| near.struts);
@@ -53,6 +56,7 @@ fn pair(
     step: &Step,
     struts: (usize, usize),
     (clearance, tolerance): (f64, f64),
+    samples: &SampleBudget,
 ) -> NearPair {
     let ((a, b), (c, d)) = (paths.struts[struts.0], paths.struts[struts.1]);
     let way = |node: usize| step.to[node] - step.from[node];
@@ -68,20 +72,21 @@ fn pair(
     if end < near.distance {
         (near.distance, near.part) = (end, 1.0);
     }
-    for _ in 0..ADVANCEMENT_STEPS_MAX {
+    let decided = samples.advance(|| {
         let distance = apart(part);
         if distance < near.distance {
             (near.distance, near.part) = (distance, part);
         }
         let spare = distance - clearance + tolerance;
         if spare < 0.0 {
-            return near;
+            return Some(false);
         }
         if part >= 1.0 || spare >= speed * (1.0 - part) {
-            near.holds = true;
-            return near;
+            return Some(true);
         }
         part = (part + spare / speed).min(1.0);
-    }
+        None
+    });
+    near.holds = decided.unwrap_or(false);
     near
 }

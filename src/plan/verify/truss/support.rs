@@ -8,8 +8,6 @@ use crate::plan::verify::support_polygon::{self, Point};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-const ADVANCEMENT_STEPS_MAX: usize = 100_000;
-
 /// Judges static stability step after step, and records the slip.
 pub(super) struct StabilityMonitor<'a> {
     judgement: &'a Judgement<'a>,
@@ -134,26 +132,28 @@ impl<'a> StabilityMonitor<'a> {
         // The last sample, until stability is proved to the end of the step.
         let mut lost = Some((f64::NAN, step.start));
         // Advancement: a margin lasts at least as long as that speed takes to use it up.
-        for _ in 0..ADVANCEMENT_STEPS_MAX {
+        let judgement = self.judgement;
+        judgement.samples.advance(|| {
             let inside = self.margin(step, &feet, part);
             let time = step.start + part * step.duration;
             let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
             keep_least(&mut ledger.verdict.margin, inside, time, names);
             lost = Some((inside, time));
-            if inside < -self.judgement.tolerances.support_margin {
-                break;
+            if inside < -judgement.tolerances.support_margin {
+                return Some(());
             }
             if part >= 1.0 {
                 lost = None;
-                break;
+                return Some(());
             }
             let advance = if fastest > 0.0 {
-                (inside + 2.0 * self.judgement.tolerances.support_margin) / fastest
+                (inside + 2.0 * judgement.tolerances.support_margin) / fastest
             } else {
                 1.0
             };
             part = (part + advance).min(1.0);
-        }
+            None
+        });
         // The failure, if stability was not proved to the end.
         if let Some((inside, time)) = lost {
             let message = if inside >= -self.judgement.tolerances.support_margin {

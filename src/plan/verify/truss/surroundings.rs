@@ -11,9 +11,6 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-/// Greatest number of samples of one strut and one part, or of one node or strut on uneven ground, on one step.
-const ADVANCEMENT_STEPS_MAX: usize = 100_000;
-
 /// An obstacle of the plan's surroundings.
 pub(super) struct Obstacle {
     solid: Solid,
@@ -94,28 +91,27 @@ impl Judgement<'_> {
         };
         // Conservative advancement: a spare distance lasts as long as the fastest end takes to use it up.
         let (mut at, mut least) = (0.0, (sample(1.0), 1.0));
-        let mut holds = false;
-        for _ in 0..ADVANCEMENT_STEPS_MAX {
+        let tolerance = self.tolerances.obstacle_distance;
+        let decided = self.samples.advance(|| {
             let distance = sample(at);
             if distance < least.0 {
                 least = (distance, at);
             }
-            let spare = distance - clearance + self.tolerances.obstacle_distance;
-            holds = spare >= 0.0
-                && least.0 >= clearance - self.tolerances.obstacle_distance
-                && spare >= fastest * (1.0 - at);
+            let spare = distance - clearance + tolerance;
+            let holds = spare >= 0.0 && least.0 >= clearance - tolerance && spare >= fastest * (1.0 - at);
             if holds || spare < 0.0 || at >= 1.0 {
-                break;
+                return Some(holds);
             }
             at = (at + spare / fastest).min(1.0);
-        }
+            None
+        });
         // The least distance found goes to the verdict.
         let time = step.start + step.duration * least.1;
         let names = || vec![self.strut_name(strut), obstacle.name.clone()];
         if least.0 <= 2.0 * clearance {
             keep_least(&mut ledger.verdict.clearance, least.0, time, names);
         }
-        if holds {
+        if decided == Some(true) {
             return;
         }
         let [found, wanted] = [least.0, clearance].map(|x| quantity(x, Dimension::LENGTH));
@@ -170,13 +166,20 @@ impl Judgement<'_> {
         let Some((depth, at, ends)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
         let names: Vec<String> = ends.iter().map(|&node| self.paths.node_names[node].clone()).collect();
         let deep = quantity(depth, Dimension::LENGTH);
-        let message = match &names[..] {
-            [node] => format!("the node {node} goes {deep} into the ground"),
-            _ => format!(
-                "the strut {} goes {deep} into the ground; between its nodes it may go {}",
-                names.join(" -- "),
-                quantity(self.strut.clearance / 2.0, Dimension::LENGTH)
-            ),
+        let sink = if ends.len() > 1 { self.strut.clearance / 2.0 } else { 0.0 };
+        let allowed = quantity(sink, Dimension::LENGTH);
+        let what = match &names[..] {
+            [node] => format!("the node {node}"),
+            _ => format!("the strut {}", names.join(" -- ")),
+        };
+        let message = match ends.len() {
+            _ if depth <= sink + self.tolerances.uneven_ground => {
+                format!(
+                    "{what} stays so near to {allowed} below the ground that it is not proved to go no deeper"
+                )
+            }
+            1 => format!("{what} goes {deep} into the ground"),
+            _ => format!("{what} goes {deep} into the ground; between its nodes it may go {allowed}"),
         };
         let failure = self.failure(CheckKind::Ground, step.start + at * step.duration, names, message);
         ledger.fail(Failure { value: depth, ..failure });
@@ -199,19 +202,20 @@ impl Judgement<'_> {
             [] => f64::INFINITY,
         };
         let mut at = 0.0;
-        for _ in 0..ADVANCEMENT_STEPS_MAX {
+        let decided = self.samples.advance(|| {
             let height = sample(at);
             if height < -sink - self.tolerances.uneven_ground {
-                return Some((-height, at));
+                return Some(Some((-height, at)));
             }
             let lasts = height + sink + 2.0 * self.tolerances.uneven_ground;
             if at >= 1.0 || lasts >= falls * (1.0 - at) {
                 // The end counts as every sample does.
                 let last = sample(1.0);
-                return (last < -sink - self.tolerances.uneven_ground).then_some((-last, 1.0));
+                return Some((last < -sink - self.tolerances.uneven_ground).then_some((-last, 1.0)));
             }
             at = (at + lasts / falls).min(1.0);
-        }
-        Some((-sample(at), at))
+            None
+        });
+        decided.unwrap_or_else(|| Some((-sample(at), at)))
     }
 }
