@@ -8,7 +8,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Value;
 use crate::robot::validation::{check_cell, check_strut};
-use crate::robot::{Cell, Strut};
+use crate::robot::{Cell, LibraryFault, Strut};
 use crate::source::{Span, code};
 use std::rc::Rc;
 
@@ -91,13 +91,13 @@ impl Interpreter<'_> {
         match def.family {
             FactsFamily::Cell => {
                 let cell = stated.cell(title);
-                if cell.shrinks_to >= cell.size {
-                    let (span, message) =
-                        (stated.span("shrinks_to"), "`shrinks_to` must be less than `size`");
-                    let label = "no smaller than the cell";
-                    return self.attempt(|_| Err(fault(code::BAD_MODULE, span, message, label)));
-                }
-                let checked = check_cell(&cell).map_err(|found| unsound(&found.to_string()));
+                let checked = check_cell(&cell).map_err(|found| match found {
+                    LibraryFault::NoShrinking => {
+                        let span = stated.span("shrinks_to");
+                        fault(code::BAD_MODULE, span, found.to_string(), "no smaller than the cell")
+                    }
+                    found => unsound(&found.to_string()),
+                });
                 Ok(self.attempt(|_| checked)?.map(|()| DesignKind::Cell(cell)))
             }
             FactsFamily::Strut => {

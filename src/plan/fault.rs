@@ -375,7 +375,7 @@ impl fmt::Display for PlanFault {
             }
             PlanFault::BoundAbove { bound, reached } => write!(
                 f,
-                "the provenance states a lower bound of {bound}, above the {reached} that this plan reaches: no                  plan is below its bound"
+                "the provenance states a lower bound of {bound}, above the {reached} that this plan reaches: no plan is below its bound"
             ),
             PlanFault::FirstWorld => write!(f, "the first world must hold from 0 on"),
             PlanFault::ExemptionOrder => write!(f, "an exemption ends before it begins"),
