@@ -256,7 +256,7 @@ config Puma4 {
   port tool = hand.top
 
   /// Moves all five joints at once, each to its angle.
-  behavior reach(
+  behavior posture(
     waist_to: Angle = 0deg, shoulder: Angle = -30deg, elbow: Angle = -60deg, wrist: Angle = 30deg, roll: Angle = 0deg,
   ) = Pc(
     move(waist.pan, to: waist_to),
@@ -658,7 +658,10 @@ config Driver5Puma4 {
   behavior drive(v: AngularSpeed = 2rad/s, t: Time = 5s) = car.drive(v, t)
 
   /// Reaches out in the direction `to` of the waist.
-  behavior reach(to: Angle = 0deg) = Sc(arm.reach(waist_to: to, shoulder: 0deg, elbow: 0deg, wrist: 0deg), arm.reach(to, shoulder: -90deg, elbow: 0deg, wrist: 0deg))
+  behavior reach_out(to: Angle = 0deg) = Sc(
+    arm.posture(waist_to: to, shoulder: 0deg, elbow: 0deg, wrist: 0deg),
+    arm.posture(to, shoulder: -90deg, elbow: 0deg, wrist: 0deg),
+  )
 }
 
 /// Two cars side by side, docked at both axles: a robot with a closed loop.

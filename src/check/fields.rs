@@ -207,7 +207,9 @@ impl<'a> Checker<'a> {
         let name = self.def(id).name;
         let mut d = Diagnostic::error(code::UNKNOWN_MEMBER, format!("no {what} `{}` in {name}", field.text))
             .label(field.span, format!("{name} has none of this name"));
-        if let Some(near) = near {
+        if let Some(new) = foreign::renamed(name.as_str(), field.text.as_str()) {
+            d = d.hint(format!("`{}` is now called `{new}`", field.text));
+        } else if let Some(near) = near {
             d = d.hint(format!("`{near}`?"));
         }
         self.report(d);

@@ -42,6 +42,9 @@ pub(super) enum ImportTarget {
     Error,
 }
 
+/// Calls of built-in functions whose results are made of what a file of the library declares, with that file.
+const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
+
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
 /// session the file to run is the newest entry, and an entry never changes the indices of those before it.
 #[derive(Default)]
@@ -203,8 +206,21 @@ impl<'a> Loader<'a> {
             }
         }
         self.open.pop();
+        if let FilePlace::Project(_) = place {
+            self.load_needed(text);
+        }
         self.loaded[index] = Some(LoadedFile { ast: parsed.file, imports, entry: false, last: None });
         index
+    }
+
+    /// Loads the files of the library that a text needs without importing them.
+    fn load_needed(&mut self, text: &str) {
+        for (call, file) in NEEDED {
+            if text.contains(call) {
+                // A library without the file is reported where the call is evaluated.
+                drop(self.load(FilePlace::Library((*file).into())));
+            }
+        }
     }
 
     /// Reads a text and adds it to the sources; one that is not UTF-8 is reported and read as empty.
@@ -272,11 +288,17 @@ impl<'a> Loader<'a> {
         match self.open_import(place, path, span) {
             Some(file) => match &u.names {
                 Some(names) => import_names(names, file, imports),
-                None => self.diagnostics.push(
-                    Diagnostic::error(code::UNKNOWN_IMPORT, "this import names nothing")
-                        .label(span, "which names of the file are wanted?")
-                        .hint(format!("`use \"{path}\".{{Name}}`")),
-                ),
+                None => match namespace(path) {
+                    Some(name) => imports.push(Import { name, span, target: ImportTarget::File(file) }),
+                    None => self.diagnostics.push(
+                        Diagnostic::error(
+                            code::UNKNOWN_IMPORT,
+                            "this file's name is no name of the language",
+                        )
+                        .label(span, "so it can't stand before the names in it")
+                        .hint(format!("say which are wanted: `use \"{path}\".{{Name}}`, or rename the file")),
+                    ),
+                },
             },
             None => unknown_names(u, imports),
         }
@@ -432,6 +454,15 @@ fn block_of(span: Span, statements: &[ast::Stmt]) -> Option<ast::Expr> {
     Some(ast::Expr { span, kind: ast::ExprKind::Block { statements: before.to_vec(), value } })
 }
 
+/// Returns the name under which `use "path"` brings in a file: that of the file without `.mod`; `None` if it is no
+/// name of the language.
+fn namespace(path: &str) -> Option<Symbol> {
+    let name = path.rsplit('/').next().unwrap_or(path).strip_suffix(".mod")?;
+    let begins = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let word = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    (begins && word && !syntax::RESERVED.contains(&name)).then(|| Symbol::new(name))
+}
+
 /// Adds the names of a failed import as erroneous entities.
 fn unknown_names(u: &ast::Use, imports: &mut Vec<Import>) {
     let mut push = |name: ast::Name| {
@@ -440,6 +471,12 @@ fn unknown_names(u: &ast::Use, imports: &mut Vec<Import>) {
     match (&u.names, &u.source) {
         (Some(names), _) => names.iter().for_each(|n| push(n.rename.unwrap_or(n.name))),
         (None, ast::UseSource::Path(path)) => push(path[path.len() - 1]),
-        (None, ast::UseSource::File { .. }) => {}
+        (None, ast::UseSource::File { path, span }) => {
+            imports.extend(namespace(path).map(|name| Import {
+                name,
+                span: *span,
+                target: ImportTarget::Error,
+            }));
+        }
     }
 }

@@ -36,12 +36,9 @@ impl<'a> Checker<'a> {
             Some(Entity::Error) => error_expr(span),
             Some(Entity::File(_)) => {
                 self.report(
-                    Diagnostic::error(
-                        code::TYPE_MISMATCH,
-                        format!("`{name}` is a file of the library, no value"),
-                    )
-                    .label(span, "a value is wanted here")
-                    .hint(format!("name one of its items: `{name}.item`")),
+                    Diagnostic::error(code::TYPE_MISMATCH, format!("`{name}` is a file, no value"))
+                        .label(span, "a value is wanted here")
+                        .hint(format!("name one of its items: `{name}.item`")),
                 );
                 error_expr(span)
             }

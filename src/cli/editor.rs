@@ -7,7 +7,7 @@ use crate::session::highlight::{Class, classes};
 use rustyline::completion::{Completer, Pair};
 use rustyline::error::ReadlineError;
 use rustyline::highlight::{CmdKind, Highlighter};
-use rustyline::hint::Hinter;
+use rustyline::hint::{Hint, Hinter};
 use rustyline::history::FileHistory;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{CompletionType, Config, Context, Editor, Helper};
@@ -27,6 +27,9 @@ const COLOURED_MAX: usize = 2000;
 
 /// The prompt of the first line of an entry.
 const PROMPT: &str = "modl> ";
+
+/// The prompt on a new line of an entry that is not complete yet, until something is typed there.
+const MORE: &str = "...";
 
 /// The result of reading one entry.
 pub(super) enum Typed {
@@ -161,12 +164,32 @@ impl Completer for CompletionHelper {
     }
 }
 
-impl Hinter for CompletionHelper {
-    type Hint = String;
+/// A dimmed text behind what is typed.
+struct Dimmed {
+    text: String,
+    /// True if the right arrow key takes it over.
+    completes: bool,
+}
 
-    fn hint(&self, line: &str, at: usize, _: &Context<'_>) -> Option<String> {
+impl Hint for Dimmed {
+    fn display(&self) -> &str {
+        &self.text
+    }
+
+    fn completion(&self) -> Option<&str> {
+        self.completes.then_some(&self.text)
+    }
+}
+
+impl Hinter for CompletionHelper {
+    type Hint = Dimmed;
+
+    fn hint(&self, line: &str, at: usize, _: &Context<'_>) -> Option<Dimmed> {
+        if at == line.len() && at <= COLOURED_MAX && line.ends_with('\n') && is_incomplete(line) {
+            return Some(Dimmed { text: MORE.to_owned(), completes: false });
+        }
         let knowledge = self.knowledge.as_ref().filter(|_| at == line.len() && at <= COLOURED_MAX)?;
-        complete::hint(knowledge, line)
+        complete::hint(knowledge, line).map(|text| Dimmed { text, completes: true })
     }
 }
 

@@ -178,6 +178,11 @@ impl<'g> Repl<'g> {
     /// Evaluates an entry or executes a command. `first_line` is the line of the whole input at which it
     /// begins, for diagnostics.
     fn act(&mut self, text: &str, first_line: usize) -> Next {
+        if let Some((word, command)) = command::parse_word(text)
+            && !self.session.declares(word)
+        {
+            return self.execute(command);
+        }
         match command::parse(text) {
             Some(Ok(command)) => return self.execute(command),
             Some(Err(why)) => self.print_failure(&why),

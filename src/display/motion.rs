@@ -10,7 +10,6 @@ use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
 use crate::plan::{self, Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner};
-use crate::source::{FileId, Span};
 use crate::units::{Dimension, quantity};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -37,10 +36,11 @@ impl Interpreter<'_> {
         let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             return Ok("a behaviour that moves no robot".to_owned());
         };
-        let planned = self.quietly(|this| this.plan_behavior(behavior, Span::new(FileId(0), 0, 0)))?;
+        let declared = self.shared.program.def(design.def).span;
+        let planned = self.quietly(|this| this.plan_behavior(behavior, declared))?;
         let robot = match &planned {
             Some(planned) => planned.body.clone(),
-            None => self.quietly(|this| this.robot_of(&design, Span::new(FileId(0), 0, 0)))?,
+            None => self.quietly(|this| this.robot_of(&design, declared))?,
         };
         let Some(robot) = robot else { return Ok(format!("a behaviour of {}", design.name)) };
         let program = planned.as_ref().and_then(|planned| planned.plan.program.as_ref());

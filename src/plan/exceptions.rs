@@ -1,6 +1,7 @@
 //! The headline of a verdict, with what it excuses.
 
 use super::cause::Cause;
+use super::listing::listed;
 use super::motion_plan::Plan;
 use super::verdict::{CheckKind, Verdict};
 use super::world::ExemptionKind;
@@ -56,11 +57,4 @@ fn place(cause: &Cause) -> (&str, usize) {
 
 fn line_of(file: &str, line: usize, named: bool) -> String {
     if named { format!("line {line} of {file}") } else { format!("line {line}") }
-}
-
-fn listed(words: &[String]) -> String {
-    match words {
-        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
-        _ => words.concat(),
-    }
 }

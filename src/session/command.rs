@@ -56,6 +56,24 @@ pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
     Some(command(word, rest.trim()))
 }
 
+/// Parses a line as a command that is written as a word of its own, as other sessions have it: `quit`, `exit`, `help`
+/// and `help NAME`, with or without `( )`. `None` for any other line. A program may declare these names: then the
+/// caller does not ask.
+pub(crate) fn parse_word(line: &str) -> Option<(&str, Command)> {
+    let line = line.trim();
+    let (word, rest) = line.split_once([' ', '(']).unwrap_or((line, ""));
+    let rest = rest.trim_matches([' ', '(', ')']);
+    let command = match (word, rest) {
+        ("quit" | "exit", "") => Command::Quit,
+        ("help", "") => Command::Help,
+        ("help", name) if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '.')) => {
+            Command::Doc(name.to_owned())
+        }
+        _ => return None,
+    };
+    Some((word, command))
+}
+
 /// Returns the command with this name or unique prefix of a name, with the argument `rest`.
 ///
 /// # Errors

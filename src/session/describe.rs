@@ -56,6 +56,11 @@ impl Session {
         }
     }
 
+    /// Returns true if a name is declared in the session, or in what it imports.
+    pub fn declares(&self, name: &str) -> bool {
+        self.find(name).is_some()
+    }
+
     /// Returns the signature of a built-in function, for a text that is only its name; `None` if the text names
     /// no built-in function. Functions with arguments of several types are no values, so the text alone would
     /// be an error.

@@ -142,9 +142,10 @@ impl<'c> Saved<'c> {
     }
 }
 
-/// Returns a text with ranges replaced. Edits inside of others are left out.
+/// Returns a text with ranges replaced. Edits inside of others are left out; an insertion comes before the edit of
+/// what begins there.
 fn edited(text: &str, mut edits: Vec<Edit>) -> String {
-    edits.sort_by_key(|(range, _)| (range.start, std::cmp::Reverse(range.end)));
+    edits.sort_by_key(|(range, _)| (range.start, !range.is_empty(), std::cmp::Reverse(range.end)));
     let mut out = String::new();
     let mut at = 0;
     for (range, replacement) in edits {

@@ -330,24 +330,23 @@ impl Session {
                 };
             }
         };
-        let known = self.checked.sources.files().count();
         let input = Input { text: "", name: "", first_line: 1, shown: Shown::Nothing, keep: true };
         let mut reply = self.take(entry, &input, host);
         if reply.ok {
-            let names = self.names_since(known);
+            let names = self.names_of(path);
             reply.notes.insert(0, format!("loaded {path}: {}", names.join(", ")));
         }
         reply
     }
 
-    /// Returns the visible names declared in the texts from an index on.
-    fn names_since(&self, known: usize) -> Vec<String> {
-        let new = |id: DefId| self.checked.program.def(id).file.0 as usize >= known;
-        meant(&self.checked)
-            .into_iter()
-            .filter(|(_, id)| new(*id))
-            .map(|(name, _)| name.to_string())
-            .collect()
+    /// Returns the visible names that a file declares.
+    fn names_of(&self, path: &str) -> Vec<String> {
+        let here = |id: DefId| {
+            let file = self.checked.sources.file(self.checked.program.def(id).file);
+            !file.library && *file.name == *path
+        };
+        let visible = meant(&self.checked).into_iter().filter(|(_, id)| here(*id));
+        visible.map(|(name, _)| name.to_string()).collect()
     }
 
     /// Reads all files again, evaluates what changed, and forgets the values that depend on it. If there are

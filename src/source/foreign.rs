@@ -21,15 +21,19 @@ pub(crate) fn measure(name: &str) -> Option<&'static str> {
     MEASURES.iter().find(|(names, _)| names.contains(&name)).map(|(_, measure)| *measure)
 }
 
-/// Returns the present name of a renamed parameter or field `word` of the function or record `of`; `None` if it
+/// Returns the present name of a renamed parameter, field or behaviour `word` of the declaration `of`; `None` if it
 /// was not renamed.
 pub(crate) fn renamed(of: &str, word: &str) -> Option<&'static str> {
     RENAMED.iter().find(|(owner, old, _)| (*owner, *old) == (of, word)).map(|(_, _, new)| *new)
 }
 
-/// Renamed parameters and fields: function or record, old name, new name.
-const RENAMED: &[(&str, &str, &str)] =
-    &[("locomote", "ladder", "fallbacks"), ("Travel", "eased", "relaxed_steps")];
+/// Renamed parameters, fields and behaviours: function, record or configuration, old name, new name.
+const RENAMED: &[(&str, &str, &str)] = &[
+    ("locomote", "ladder", "fallbacks"),
+    ("Travel", "eased", "relaxed_steps"),
+    ("Puma4", "reach", "posture"),
+    ("Driver5Puma4", "reach", "reach_out"),
+];
 
 /// Words of other languages with their hints.
 const INSTEAD: &[(&[&str], &str)] = &[
@@ -80,7 +84,7 @@ const INSTEAD: &[(&[&str], &str)] = &[
     (&["pi", "PI"], "a half turn is `180deg`, or `0.5turn`"),
     (&["pow"], "write `x^2`"),
     (&["self", "this"], "members are named as they are: `a`, not `self.a`"),
-    (&["help", "quit", "exit", "dir", "vars", "doc"], "in a session: `:help`, `:vars`, `:doc NAME`, `:quit`"),
+    (&["help", "quit", "exit", "dir", "vars", "doc"], "in a session: `help`, `:vars`, `:doc NAME`, `quit`"),
     (
         &["input", "open", "eval", "exec"],
         "a program reads nothing but what it names with `use`, `load` and `mesh`",

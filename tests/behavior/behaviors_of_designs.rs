@@ -34,8 +34,8 @@ const BEHAVIORS: &[(&str, &str, f64)] = &[
     ("MobManip8", "Sc(x.raise(), x.forward())", 0.0),
     ("Backhoe", "Sc(x.dig(), x.swing())", 0.0),
     ("Backhoe", "x.drive()", 452.0),
-    ("Driver5Puma4", "x.reach()", 0.0),
-    ("Driver5Puma4", "x.reach(90deg)", 0.0),
+    ("Driver5Puma4", "x.reach_out()", 0.0),
+    ("Driver5Puma4", "x.reach_out(90deg)", 0.0),
     ("TwoCars", "x.drive()", 452.0),
     ("TwoCars", "x.open()", 0.0),
 ];

@@ -48,7 +48,7 @@ fn names_of_others_do_not_command_the_terminal() {
         assert!(text.contains(escape), "{text}");
         assert!(!text.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{text}");
     }
-    // What a program prints is no different.
+    // The same holds for what a program prints.
     let printed = s.run(&["-e", "print(\"\\u{1b}[2J\\tdone\")"]);
     assert_eq!(printed.out, "\\u{1b}[2J\tdone\n");
 }

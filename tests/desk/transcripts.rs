@@ -175,3 +175,67 @@ fn values_are_not_worked_out_again() {
     assert!(ran.out.ends_with("[30000, 30000, 30000]: List<Int>\n"), "{}{}", ran.out, ran.err);
     assert!(ran.code == 1 && ran.err.contains("100000 evaluation steps"), "{}", ran.err);
 }
+
+#[test]
+fn words_of_other_sessions_are_commands_unless_the_program_declares_them() {
+    let sandbox = Sandbox::new(&[]);
+    for leave in ["quit", "exit", "quit()", " exit ( )"] {
+        let ran = piped(&sandbox, &format!("1\n{leave}\n2\n"));
+        assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "1: Int\n", ""), "{leave}");
+    }
+    let help = piped(&sandbox, ":help\n").out;
+    for ask in ["help", "help()"] {
+        assert_eq!(piped(&sandbox, ask).out, help);
+    }
+    assert_eq!(piped(&sandbox, "help sqrt\n").out, piped(&sandbox, ":doc sqrt\n").out);
+    let own = piped(&sandbox, "let quit = 3\nfn exit(a: Int) -> Int = a + 1\nquit\nexit(1)\n");
+    assert_eq!((own.code, own.out.as_str()), (0, "quit: Int\nfn exit(a: Int) -> Int\n3: Int\n2: Int\n"));
+}
+
+/// A library beside which sessions are saved.
+const LIBRARY: &[u8] = b"use std.smores.Smores\n\
+    config Pair {\n  part m[2]: Smores\n  connect m[0].top -- m[1].bottom\n}\n\
+    fn twice(x: Int) -> Int = 2 * x\n";
+
+#[test]
+fn what_is_saved_is_loaded_with_the_values_that_it_had() {
+    let sandbox = Sandbox::new(&[("lib.mod", LIBRARY)]);
+    let entered = [
+        "use \"lib.mod\".{Pair, twice as double}",
+        "use \"lib.mod\"",
+        "let a = double(3)",
+        "a + 1",
+        // The value before is named where the line begins with it, and where it does not.
+        "_ * 2",
+        "_ + 1",
+        "let b = _",
+        "lib.twice(a)",
+        "let c = [_, a]",
+        "fn f(x: Int) -> Int = x + a",
+        "config Nod {\n  part p: Pair\n  behavior nod(to: Angle = 30deg) = move(p.m[1].tilt, to: to)\n}",
+        "let robot = Nod()",
+        // Declared again: what depends on it follows.
+        "let a = 5",
+        "print(\"a statement, which loading does not run\")",
+    ];
+    let asked = "f(1)\nb\nc\nmass(robot)\nrobot.nod().duration\n";
+    let first = piped(&sandbox, &format!("{}\n{asked}:save saved.mod\n", entered.join("\n")));
+    assert_eq!(first.err, "");
+    let again = piped(&sandbox, &format!(":load saved.mod\n{asked}"));
+    assert_eq!((again.code, again.err.as_str()), (0, ""));
+    let (loaded, values) = again.out.split_once('\n').expect("several lines");
+    assert_eq!(loaded, "loaded saved.mod: Nod, a, b, c, f, robot");
+    assert_eq!(values.lines().count(), 5, "{values}");
+    assert!(first.out.contains(values), "{}\n{values}", first.out);
+    let known = ["6: Int", "13: Int", "[10, 5]: List<Int>"];
+    assert!(known.iter().zip(values.lines()).all(|(known, value)| *known == value), "{values}");
+    let run = sandbox.run(&["run", "saved.mod"]);
+    assert_eq!((run.code, run.out.lines().last()), (0, Some("a statement, which loading does not run")));
+}
+
+#[test]
+fn a_file_is_listed_with_its_names_however_often_it_is_loaded() {
+    let sandbox = Sandbox::new(&[("lib.mod", LIBRARY)]);
+    let ran = piped(&sandbox, "use \"lib.mod\".{twice}\n:load lib.mod\n:load lib.mod\n");
+    assert_eq!(ran.out, "loaded lib.mod: Pair, twice\n".repeat(2), "{}", ran.err);
+}

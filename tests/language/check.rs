@@ -96,3 +96,34 @@ fn the_standard_library_has_no_mistakes() {
         .collect();
     assert!(said.is_empty(), "{said:#?}");
 }
+
+#[test]
+fn a_file_of_the_project_is_a_name_before_its_names() {
+    let mut files = MapFiles::of(
+        "use \"parts/claw.mod\"\nconfig C { part c: claw.Claw }\nprint(claw.twice(2), claw._own, claw.thrice(1))\nprint(claw)\n",
+    );
+    let claw = b"use std.smores.Smores\nconfig Claw { part m: Smores }\nfn twice(x: Int) -> Int = 2 * x\nlet _own = 1\n";
+    files.0.insert("parts/claw.mod".into(), claw.to_vec());
+    let told: Vec<String> = observe(&files).diagnostics.into_iter().map(|d| d.message).collect();
+    assert_eq!(told, ["`claw` has no `_own`", "`claw` has no `thrice`", "`claw` is a file, no value"]);
+}
+
+#[test]
+fn a_file_whose_name_is_none_of_the_language_is_imported_name_by_name() {
+    let mut files = MapFiles::of("use \"my-claw.mod\"\nuse \"for.mod\"\nuse \"my-claw.mod\".{a}\nprint(a)\n");
+    files.0.insert("my-claw.mod".into(), b"let a = 1\n".to_vec());
+    files.0.insert("for.mod".into(), b"let a = 1\n".to_vec());
+    let told = observe(&files).diagnostics;
+    assert_eq!(told.len(), 2);
+    assert!(told.iter().all(|d| d.message == "this file's name is no name of the language"));
+    assert!(told[0].hints[0].contains("`use \"my-claw.mod\".{Name}`"), "{:?}", told[0].hints);
+}
+
+#[test]
+fn an_import_that_fails_leaves_no_other_message_behind() {
+    let told = observe(&MapFiles::of("use \"claw.mod\"\nprint(claw.a)\n")).diagnostics;
+    assert_eq!(
+        told.iter().map(|d| d.message.as_str()).collect::<Vec<_>>(),
+        ["can't read `claw.mod`: there is no such file"]
+    );
+}

@@ -214,7 +214,7 @@ fn comments_are_kept_with_their_places() {
     assert_eq!(parsed(text).file.doc.as_deref(), Some("file"));
 }
 
-/// What is deeper than the limit is counted, not kept: five million brackets cost what five million blanks do.
+/// Brackets deeper than the limit are counted, not kept: five million of them cost what five million blanks do.
 #[test]
 fn millions_of_brackets_are_told_once() {
     for open in ["(", "[", "{", "f(", "[1, "] {

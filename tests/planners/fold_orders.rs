@@ -13,7 +13,7 @@ use nalgebra::{Rotation3, Unit};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 
-/// What sums may differ by that are taken in another order.
+/// The greatest difference of sums that are taken in another order.
 const ROUNDING: f64 = 1e-11;
 
 /// Shapes of four to six triangles, shaken, with faces taken away.

@@ -394,7 +394,10 @@ fn what_is_wrong_in_a_file_is_told_with_its_place() {
         assert_eq!(diagnostic.code, code::CANNOT_READ);
         assert!(diagnostic.message.contains(place), "{}", diagnostic.message);
     }
+    // The library's module is there where `load` is called, imported or not.
     let done = loaded("C\nM 0 0 0 0\n", "print(count(load(\"x.rofi\")))\n");
+    assert!(done.outcome.diagnostics.is_empty(), "{:?}", done.outcome.diagnostics);
+    let done = loaded("C\nM 0 0 0 0\n", "let read = load\nprint(count(read(\"x.rofi\")))\n");
     assert_eq!(done.outcome.diagnostics[0].code, code::UNKNOWN_IMPORT);
     let done = loaded("", "use std.smores.Smores\nsave(Smores(), \"s.rofi\")\n");
     assert_eq!(done.outcome.diagnostics[0].code, code::BAD_VALUE);

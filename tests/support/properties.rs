@@ -1,4 +1,4 @@
-//! How properties of random inputs are tested.
+//! Tests of properties of random inputs.
 
 use proptest::test_runner::{Config, RngSeed};
 

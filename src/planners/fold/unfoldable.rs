@@ -1,5 +1,6 @@
 //! The reasons why a mesh can't be folded from one sheet.
 
+use crate::plan::listed;
 use std::fmt;
 
 /// The reason why a mesh is no target. Faces are indices in the mesh, from 0.
@@ -133,12 +134,3 @@ impl fmt::Display for Unfoldable {
 }
 
 impl std::error::Error for Unfoldable {}
-
-/// Returns `1, 2 and 3`.
-fn listed(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}
