@@ -279,6 +279,39 @@ extern fn reversed<T>(list: List<T>) -> List<T>
 /// ```
 extern fn sorted<T: Quantity>(list: List<T>) -> List<T>
 
+/// The places of the elements of a list from the least to the greatest; of equal ones the first comes first.
+///
+/// Example:
+/// ```modl
+/// let speeds = [30mm/s, 10mm/s, 20mm/s]
+/// print(ranking(speeds), [speeds[i] for i in ranking(speeds)])
+/// ```
+extern fn ranking<T: Quantity>(list: List<T>) -> List<Int>
+
+/// The values from the beginning of a range to its end, by steps of one size.
+///
+/// As always, the end of a range of whole numbers is not among them; that of other quantities is, where a step comes to
+/// it. A step of zero, or one that leads away from the end, is refused.
+///
+/// Example:
+/// ```modl
+/// print(steps(0..10, by: 2), steps(10..0, by: -5), steps(0deg..90deg, by: 30deg))
+/// ```
+extern fn steps<T: Quantity>(range: Range<T>, by: T) -> List<T>
+
+/// Pseudorandom numbers from 0 up to, but without, 1, all equally likely: the same for the same `seed`, on every
+/// machine and in every version.
+///
+/// They are those of SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014), begun
+/// with `seed`; of the 64 bits of each the first 53 are taken. The first numbers of a longer list are those of a shorter
+/// one.
+///
+/// Example:
+/// ```modl
+/// print(random(1, 3), [10mm + 5mm * r for r in random(2, 3)])
+/// ```
+extern fn random(seed: Int, count: Int) -> List<Number>
+
 /// The elements of the lists of a list, in order.
 ///
 /// Example:
@@ -321,6 +354,16 @@ extern fn all(list: List<Bool>) -> Bool
 /// print(reduce([3, 1, 2], (total, x) => 10 * total + x, from: 0))
 /// ```
 extern fn reduce<T, A>(list: List<T>, f: fn(A, T) -> A, from: A) -> A
+
+/// What came of the elements of a list after each of them: `reduce` with all values on the way.
+///
+/// The list is as long as `list`; its last element is what `reduce` gives.
+///
+/// Example:
+/// ```modl
+/// print(scan([100g, 50g, 20g], (total, x) => total + x, from: 0g))
+/// ```
+extern fn scan<T, A>(list: List<T>, f: fn(A, T) -> A, from: A) -> List<A>
 
 /// What comes of `from` when `f` is applied again and again, until `until` holds of it.
 ///

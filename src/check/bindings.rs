@@ -141,6 +141,17 @@ impl Bindings {
         Bindings { types: vec![None; n], dimensions: vec![None; n], bounds }
     }
 
+    /// Returns the bindings of a function's own type parameters in its body: each to itself, as a type of which
+    /// nothing is known.
+    pub(super) fn opaque(params: &[TypeParam]) -> Bindings {
+        let mut bindings = Bindings::new(params);
+        for (i, param) in params.iter().enumerate() {
+            bindings.types[i] = Some(Type::Opaque(i as u8, param.name));
+            bindings.dimensions[i] = Some(Dimension::PARAM);
+        }
+        bindings
+    }
+
     /// Returns a type with the bound parameters substituted.
     pub(super) fn apply(&self, ty: &Type) -> Type {
         let inner = |t: &Arc<Type>| Arc::new(self.apply(t));

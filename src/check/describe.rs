@@ -110,6 +110,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
         Type::Terrain => "Terrain".into(),
         Type::Instance(id) | Type::Record(id) => def_name(*id).to_string(),
         Type::AnyOf(family) => family.name().into(),
+        Type::Opaque(_, name) => name.to_string(),
         Type::Param(_) => "any type".into(),
         Type::QuantityParam { .. } => "Quantity".into(),
     }

@@ -1,8 +1,8 @@
 //! Items and statements: signatures and bodies, each checked when first needed.
 
-use super::checker::{Bound, Checker, DefItem, ParamInfo, Signature, TypeParam};
+use super::bindings::Bindings;
+use super::checker::{Checker, DefItem, ParamInfo, Signature};
 use super::expr::{Role, error_expr};
-use super::family::Family;
 use super::scope::Scope;
 use super::typed::{
     Body, DefId, DefKind, Expr, FnDef, LetDef, MemberId, NativeDef, Param, RecordDef, RecordField, Stmt,
@@ -30,11 +30,19 @@ impl<'a> Checker<'a> {
         }
         let mut scope = Scope::new(self.def(id).file, None);
         let signature = match self.def(id).item {
-            DefItem::Fn(f) => Signature {
-                params: self.params(&scope, &f.params),
-                result: f.result.as_ref().map(|ty| self.type_expr(&scope, ty)),
-                ..Signature::default()
-            },
+            DefItem::Fn(f) => {
+                scope.type_params = self.type_params(&f.type_params);
+                Signature {
+                    params: self.params(&scope, &f.params),
+                    result: match &f.result {
+                        Some(ty) => Some(self.type_expr(&scope, ty)),
+                        // It is reported where the body is checked, from which it can't be told for a call.
+                        None => (!f.type_params.is_empty()).then_some(Type::Error),
+                    },
+                    type_params: scope.type_params,
+                    fields: false,
+                }
+            }
             DefItem::Record(x) => {
                 Signature { params: self.params(&scope, &x.fields), fields: true, ..Signature::default() }
             }
@@ -64,7 +72,7 @@ impl<'a> Checker<'a> {
         f: &'a ast::ExternFn,
         record: Option<DefId>,
     ) -> Signature {
-        scope.type_params = self.type_params(f);
+        scope.type_params = self.type_params(&f.type_params);
         let mut params = Vec::new();
         if let Some(record) = record {
             params.push(ParamInfo {
@@ -264,12 +272,18 @@ impl<'a> Checker<'a> {
     fn check_fn(&mut self, id: DefId, f: &'a ast::Fn) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, None);
-        let params = self.typed_params(&mut scope, &f.params, &signature.params, true);
-        let body = match &signature.result {
+        self.check_type_params(f, &signature);
+        (scope.type_params, scope.in_body) = (signature.type_params.clone(), true);
+        let own = Bindings::opaque(&signature.type_params);
+        let in_body = |p: &ParamInfo| ParamInfo { ty: own.apply(&p.ty), ..p.clone() };
+        let infos: Vec<ParamInfo> = signature.params.iter().map(in_body).collect();
+        let params = self.typed_params(&mut scope, &f.params, &infos, true);
+        let result = signature.result.as_ref().map(|ty| own.apply(ty));
+        let body = match &result {
             Some(ty) => self.expect(&mut scope, &f.body, ty, Role::Place("the result")),
             None => self.expr(&mut scope, &f.body, None),
         };
-        let result = signature.result.clone().unwrap_or_else(|| body.ty.clone());
+        let result = result.unwrap_or_else(|| body.ty.clone());
         let inferred = &mut self.def_mut(id).inferred;
         inferred.get_or_insert_with(|| result.clone());
         DefKind::Fn(FnDef { params, result, body, frame: scope.frame() })
@@ -446,29 +460,5 @@ impl<'a> Checker<'a> {
             out.push(super::typed::Member { name: info.name, span: info.span, ty, kind, doc });
         }
         out
-    }
-
-    /// Returns the type parameters of an `extern fn` with their bounds.
-    fn type_params(&mut self, f: &'a ast::ExternFn) -> Vec<TypeParam> {
-        let bound = |checker: &mut Checker<'a>, name: ast::Name| match name.text.as_str() {
-            "Dimension" => Bound::Dimension,
-            "Quantity" => Bound::Quantity,
-            "Module" => Bound::Family(Family::Module),
-            "Config" => Bound::Family(Family::Config),
-            _ => {
-                checker.report(
-                    Diagnostic::error(code::NOT_A_TYPE, format!("`{}` bounds no type parameter", name.text))
-                        .label(name.span, "one of Dimension, Quantity, Module, Config is wanted"),
-                );
-                Bound::Anything
-            }
-        };
-        let params = f.type_params.iter();
-        params
-            .map(|p| TypeParam {
-                name: p.name.text,
-                bound: p.bound.map_or(Bound::Anything, |b| bound(self, b)),
-            })
-            .collect()
     }
 }

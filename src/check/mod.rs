@@ -32,6 +32,7 @@ mod reserve;
 mod scope;
 pub(crate) mod summary;
 mod type_expr;
+mod type_params;
 pub mod typed;
 mod typed_expr;
 mod typed_module;

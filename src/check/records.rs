@@ -178,7 +178,12 @@ impl<'a> Checker<'a> {
 
     fn incomparable_within(&mut self, ty: &Type, known: &mut Vec<DefId>) -> Option<(String, Type)> {
         let id = match ty {
-            Type::Fn(_) | Type::Behavior | Type::Condition | Type::Signal(_) | Type::Nothing => {
+            Type::Opaque(..)
+            | Type::Fn(_)
+            | Type::Behavior
+            | Type::Condition
+            | Type::Signal(_)
+            | Type::Nothing => {
                 return Some((String::new(), ty.clone()));
             }
             Type::Record(id) if !known.contains(id) => *id,

@@ -13,6 +13,8 @@ pub(super) struct Scope {
     pub this: Option<DefId>,
     /// The type parameters of the `extern fn` being checked.
     pub type_params: Vec<TypeParam>,
+    /// True in the body of the function that has them, where they are types of which nothing is known.
+    pub in_body: bool,
     frame: Frame,
     /// Frames around a lambda, innermost last.
     outer: Vec<Frame>,
@@ -57,7 +59,14 @@ impl Frame {
 impl Scope {
     /// Returns a scope without locals.
     pub(super) fn new(file: usize, this: Option<DefId>) -> Scope {
-        Scope { file, this, type_params: Vec::new(), frame: Frame::default(), outer: Vec::new() }
+        Scope {
+            file,
+            this,
+            type_params: Vec::new(),
+            in_body: false,
+            frame: Frame::default(),
+            outer: Vec::new(),
+        }
     }
 
     /// Adds a local to the innermost scope.

@@ -1,5 +1,6 @@
 //! Types as they are written, and the subtype relation.
 
+use super::bindings::Bindings;
 use super::checker::{Bound, Checker, DefItem, Entity};
 use super::family::Family;
 use super::scope::Scope;
@@ -92,7 +93,8 @@ impl<'a> Checker<'a> {
         if let [(name, power)] = unit.factors.as_slice()
             && let Some(param) = scope.type_params.iter().position(|p| p.name == name.text)
         {
-            return Type::QuantityParam { param: param as u8, power: *power as i8 };
+            let ty = Type::QuantityParam { param: param as u8, power: *power as i8 };
+            return if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty };
         }
         match self.unit(unit) {
             Some((dimension, _)) => Type::Quantity(dimension),
@@ -146,10 +148,11 @@ impl<'a> Checker<'a> {
     fn plain_type(&mut self, scope: &Scope, path: &[ast::Name]) -> Type {
         if let [name] = path {
             if let Some(index) = scope.type_params.iter().position(|p| p.name == name.text) {
-                return match scope.type_params[index].bound {
+                let ty = match scope.type_params[index].bound {
                     Bound::Dimension => Type::QuantityParam { param: index as u8, power: 1 },
                     _ => Type::Param(index as u8),
                 };
+                return if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty };
             }
             if let Some(ty) = plain(name.text.as_str()) {
                 return ty;

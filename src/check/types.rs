@@ -70,6 +70,8 @@ pub enum Type {
     Record(DefId),
     /// A type parameter of the `extern fn` being checked, by index from 0.
     Param(u8),
+    /// A type parameter in the body of its function, a type of which nothing is known: its index and name.
+    Opaque(u8, Symbol),
     /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
     QuantityParam {
         /// The index of the type parameter, from 0.

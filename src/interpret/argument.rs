@@ -293,6 +293,16 @@ impl<'c> Argument<'c> for (f64, f64) {
     }
 }
 
+/// The ends of a range as they are written.
+impl<'c> Argument<'c> for (&'c Value, &'c Value) {
+    const KIND: Kind = Kind::Range;
+
+    fn read(value: &'c Value) -> Result<(&'c Value, &'c Value), ArgumentError> {
+        let Value::Range(ends) = value else { return Err(ArgumentError::Type) };
+        Ok((&ends.0, &ends.1))
+    }
+}
+
 impl<'c> Argument<'c> for &'c StateValue {
     const KIND: Kind = Kind::Record("State");
 

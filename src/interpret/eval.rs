@@ -6,7 +6,7 @@ use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Callable, Lazy, Value};
 use crate::check::family::Instantiable;
-use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId};
+use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId, StmtKind};
 use crate::source::{Diagnostic, Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -154,7 +154,12 @@ impl Interpreter<'_> {
             },
             ExprKind::Block { statements, value } => {
                 for statement in statements {
+                    let errors = self.reported.errors;
                     self.execute(statement, frame)?;
+                    // Nothing is computed for which a requirement that failed was to make sure.
+                    if matches!(statement.kind, StmtKind::Expect { .. }) && self.failed_since(errors) {
+                        return Ok(Value::Unknown);
+                    }
                 }
                 Ok(self.eval_optional(value.as_deref(), frame)?.unwrap_or(Value::Nothing))
             }

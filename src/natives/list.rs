@@ -5,12 +5,9 @@ use super::math::order;
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
-use crate::interpret::nesting;
 use crate::interpret::stop::Eval;
-use crate::interpret::value::{Callable, Value};
-use crate::source::{Diagnostic, code};
+use crate::interpret::value::Value;
 use std::cmp::Ordering;
-use std::rc::Rc;
 
 /// The natives of this file.
 pub(super) const TABLE: &[Native] = &[
@@ -36,12 +33,6 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("all", parameters![list: &[Value]], |_, call| {
         Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().all(is_true)))
     }),
-    Native::pure("reduce", parameters![list: &[Value], f: &Rc<Callable>, from: &Value], reduce),
-    Native::pure(
-        "iterate",
-        parameters![f: &Rc<Callable>, from: &Value, until: &Rc<Callable>, max: usize],
-        iterate,
-    ),
     Native::pure("join", parameters![list: &[Value], with: &str], join),
     Native::pure("split", parameters![text: &str, on: &str], split),
     Native::pure("characters", parameters![text: &str], characters),
@@ -83,70 +74,6 @@ fn flatten(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn contains(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let item = call.arg("item");
     Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().any(|value| value.same(item) == Some(true))))
-}
-
-/// Runs `reduce(list, f, from)`: carries a value through a list.
-fn reduce(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let f = call.get::<&Rc<Callable>>("f")?;
-    let mut carried = call.get::<&Value>("from")?.clone();
-    for (step, element) in call.get::<&[Value]>("list")?.iter().enumerate() {
-        carried = carried_on(interpreter, call, f, vec![carried, element.clone()], step)?;
-        if carried.is_unknown() {
-            break;
-        }
-    }
-    Ok(carried)
-}
-
-/// Runs `iterate(f, from, until)`: carries a value on until `until` holds.
-///
-/// # Errors
-/// A fault where it does not hold after `max` steps.
-fn iterate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (f, until) = (call.get::<&Rc<Callable>>("f")?, call.get::<&Rc<Callable>>("until")?);
-    let max = call.count("max", "a number of steps")?;
-    let mut carried = call.get::<&Value>("from")?.clone();
-    for step in 0.. {
-        match interpreter.apply(until, vec![carried.clone()], call.at("until"))? {
-            Value::Bool(true) => break,
-            Value::Bool(false) if step < max => {}
-            Value::Bool(false) => {
-                let message = format!("`until` does not hold after {max} steps");
-                return Err(Diagnostic::error(code::BAD_VALUE, message)
-                    .label(call.at("until"), "this stays false")
-                    .hint("`max:` allows more steps, if it gets nearer with each")
-                    .into());
-            }
-            _ => return Ok(Value::Unknown),
-        }
-        carried = carried_on(interpreter, call, f, vec![carried], step)?;
-        if carried.is_unknown() {
-            break;
-        }
-    }
-    Ok(carried)
-}
-
-/// Returns what a function makes of the value that a native carries along; refuses one that has become too deep,
-/// which is looked at after 1, 2, 4, ... steps, so that all looks together cost little.
-fn carried_on(
-    interpreter: &mut Interpreter,
-    call: &Call,
-    f: &Callable,
-    values: Vec<Value>,
-    step: usize,
-) -> Eval<Value> {
-    interpreter.step(call.span)?;
-    let carried = interpreter.apply(f, values, call.at("f"))?;
-    if (step + 1).is_power_of_two() && nesting::depth(&carried) > nesting::DEPTH_MAX {
-        let message =
-            format!("a value of more than {} values within each other is not allowed", nesting::DEPTH_MAX);
-        return Err(Diagnostic::error(code::SIZE_LIMIT, message)
-            .label(call.at("f"), format!("each step adds to it; these were {}", step + 1))
-            .hint("a list holds many values side by side")
-            .into());
-    }
-    Ok(carried)
 }
 
 fn join(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -38,6 +38,7 @@ pub mod refold;
 mod robot;
 mod rofi;
 mod save;
+mod sequence;
 mod series;
 mod shape;
 mod show;
@@ -70,6 +71,7 @@ const fn natives(natives: &'static [Native]) -> Subject {
 const SUBJECTS: &[Subject] = &[
     natives(math::TABLE),
     natives(list::TABLE),
+    natives(sequence::TABLE),
     natives(shape::TABLE),
     natives(family::TABLE),
     natives(robot::TABLE),

@@ -74,8 +74,11 @@ const INSTEAD: &[(&[&str], &str)] = &[
         "what is not given is left out; `x else y` takes `y` where `x` is missing",
     ),
     (&["range", "xrange"], "`0..n` are the whole numbers from 0 up to, but without, `n`"),
-    (&["enumerate"], "write `for i in 0..len(list) { ... list[i] ... }`"),
-    (&["zip", "map", "filter"], "a list is made by `[e for x in list if c]`"),
+    (&["map", "filter"], "a list is made by `[e for x in list if c]`"),
+    (
+        &["foldl", "accumulate"],
+        "a value is carried along a list by `reduce(list, f, from: ...)`; `scan` keeps all on the way",
+    ),
     (&["str", "repr", "format", "to_string"], "a text takes a value in: `\"{value}\"`"),
     (&["int", "float"], "`floor(x)`, `ceil(x)` and `round(x)` give whole numbers; every `Int` is a `Number`"),
     (&["is"], "`==` compares, `!=` tells what differs"),

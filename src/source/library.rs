@@ -11,6 +11,7 @@ macro_rules! embed {
 pub const FILES: &[(&str, &str)] = embed![
     "crystal.mod",
     "gaits.mod",
+    "lists.mod",
     "mori.mod",
     "prelude.mod",
     "rofi.mod",
@@ -27,8 +28,19 @@ pub fn text(name: &str) -> Option<&'static str> {
 /// Returns the library file, without its ending, that declares a public name: `smores` for `Smores`; `None` if
 /// none does. The prelude is not searched.
 pub fn declares(name: &str) -> Option<&'static str> {
-    let keywords =
-        ["module", "config", "connector", "cell", "strut", "lattice", "truss", "fn", "let", "extern fn"];
+    let keywords = [
+        "module",
+        "config",
+        "connector",
+        "cell",
+        "strut",
+        "lattice",
+        "truss",
+        "fn",
+        "let",
+        "record",
+        "extern fn",
+    ];
     let begins = |line: &str| {
         let named = keywords.iter().find_map(|word| line.strip_prefix(word)?.strip_prefix(' '));
         let rest = named.and_then(|named| named.strip_prefix(name));

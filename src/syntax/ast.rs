@@ -168,6 +168,8 @@ pub struct Let {
 pub struct Fn {
     /// Its name.
     pub name: Name,
+    /// The type parameters, in order.
+    pub type_params: Vec<TypeParam>,
     /// The parameters.
     pub params: Vec<Param>,
     /// The declared type of the result; `None` if it is to be inferred.
@@ -181,7 +183,7 @@ pub struct Fn {
 pub struct ExternFn {
     /// Its name.
     pub name: Name,
-    /// The type parameters. The checker takes at most one.
+    /// The type parameters, in order.
     pub type_params: Vec<TypeParam>,
     /// The parameters.
     pub params: Vec<Param>,
@@ -189,7 +191,7 @@ pub struct ExternFn {
     pub result: Option<TypeExpr>,
 }
 
-/// A type parameter of an `extern fn`.
+/// A type parameter of a function.
 #[derive(Clone, Debug)]
 pub struct TypeParam {
     /// Its name.

@@ -63,9 +63,11 @@ impl Builder<'_> {
     fn fn_item(&mut self, node: Node) -> Fn {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
+        let type_params = next_if(&mut nodes, Rule::type_params).map(|params| self.type_params(params));
         let params = self.plain_params(next(&mut nodes));
         let result = next_if(&mut nodes, Rule::type_expr).map(|ty| self.ty(ty));
-        Fn { name, params, result, body: self.body(next(&mut nodes)) }
+        let type_params = type_params.unwrap_or_default();
+        Fn { name, type_params, params, result, body: self.body(next(&mut nodes)) }
     }
 
     fn record(&mut self, node: Node) -> Record {

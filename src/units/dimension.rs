@@ -12,10 +12,13 @@ pub struct Dimension {
     pub time: i8,
     /// Exponent of the radian.
     pub angle: i8,
+    /// Exponent of the dimension parameter of the function whose body is being checked, of which nothing else is
+    /// known; 0 everywhere else, and in every value.
+    pub param: i8,
 }
 
 const fn dim(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
-    Dimension { length, mass, time, angle }
+    Dimension { length, mass, time, angle, param: 0 }
 }
 
 /// The named dimensions. Torque and energy are one dimension under two names; the first name that
@@ -40,6 +43,8 @@ pub const NAMED: &[(&str, Dimension)] = &[
 ];
 
 impl Dimension {
+    /// The dimension parameter of a function, in its body.
+    pub const PARAM: Dimension = Dimension { param: 1, ..Dimension::NUMBER };
     /// No dimension: a plain number.
     pub const NUMBER: Dimension = dim(0, 0, 0, 0);
     /// Length, m.
@@ -90,39 +95,46 @@ impl Dimension {
     /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
     pub fn power(self, n: i32) -> Option<Dimension> {
         let n = i8::try_from(n).ok()?;
-        Some(dim(
-            self.length.checked_mul(n)?,
-            self.mass.checked_mul(n)?,
-            self.time.checked_mul(n)?,
-            self.angle.checked_mul(n)?,
-        ))
+        Some(Dimension {
+            length: self.length.checked_mul(n)?,
+            mass: self.mass.checked_mul(n)?,
+            time: self.time.checked_mul(n)?,
+            angle: self.angle.checked_mul(n)?,
+            param: self.param.checked_mul(n)?,
+        })
     }
 
     /// Returns the dimension of a square root, half of every exponent; `None` when one is odd.
     pub fn root(self) -> Option<Dimension> {
-        let all = [self.length, self.mass, self.time, self.angle];
-        all.iter()
-            .all(|e| e % 2 == 0)
-            .then(|| dim(self.length / 2, self.mass / 2, self.time / 2, self.angle / 2))
+        let all = [self.length, self.mass, self.time, self.angle, self.param];
+        all.iter().all(|e| e % 2 == 0).then_some(Dimension {
+            length: self.length / 2,
+            mass: self.mass / 2,
+            time: self.time / 2,
+            angle: self.angle / 2,
+            param: self.param / 2,
+        })
     }
 
     fn combine(self, o: Dimension, op: fn(i8, i8) -> Option<i8>) -> Option<Dimension> {
-        Some(dim(
-            op(self.length, o.length)?,
-            op(self.mass, o.mass)?,
-            op(self.time, o.time)?,
-            op(self.angle, o.angle)?,
-        ))
+        Some(Dimension {
+            length: op(self.length, o.length)?,
+            mass: op(self.mass, o.mass)?,
+            time: op(self.time, o.time)?,
+            angle: op(self.angle, o.angle)?,
+            param: op(self.param, o.param)?,
+        })
     }
 
     /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one
     /// that radians were dropped from. Radians are dropped, never invented, and only where a length
     /// or a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular
-    /// speed no frequency.
+    /// speed no frequency. Nothing is dropped from a dimension that is not known.
     pub fn fits(self, wanted: Dimension) -> bool {
         self == wanted
             || (self.angle > 0
                 && wanted.angle == 0
+                && self.param == 0
                 && (self.length != 0 || self.mass != 0)
                 && Dimension { angle: 0, ..self } == wanted)
     }

@@ -61,10 +61,16 @@ pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     (name.to_string(), factor)
 }
 
-/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`.
+/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`; `D` is a dimension
+/// parameter.
 pub fn base_units(dimension: Dimension) -> String {
-    let parts =
-        [("kg", dimension.mass), ("m", dimension.length), ("rad", dimension.angle), ("s", dimension.time)];
+    let parts = [
+        ("D", dimension.param),
+        ("kg", dimension.mass),
+        ("m", dimension.length),
+        ("rad", dimension.angle),
+        ("s", dimension.time),
+    ];
     let power = |name: &str, n: i8| if n == 1 { name.to_string() } else { format!("{name}^{n}") };
     let above: Vec<String> = parts.iter().filter(|(_, n)| *n > 0).map(|(s, n)| power(s, *n)).collect();
     let below: Vec<String> = parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, -*n)).collect();

@@ -17,7 +17,7 @@ const fn u(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
     Unit { name, dimension, factor }
 }
 
-const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0 };
+const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0, param: 0 };
 
 /// Every unit. Factors below one are written as quotients, so that `76mm` is exactly `76 / 1000`
 /// rounded once (see [`to_si`]).

@@ -20,6 +20,7 @@ const FORMS: &[(&str, &[&str])] = &[
             "use \"a/b.mod\".{Part}",
             "use std.gaits",
             "fn <n>(<param>) = <body>",
+            "fn f<A, D: Dimension>(a: List<A>, <param>) -> <type> = <body>",
             "fn <n>(<param>, <param>) -> <type> = <body>",
             "/// Says what it is.\nconnector C { mates <n>, D, turns 4, holds <e>, capture 2mm 3deg hinge(axis: X) }",
             "record R { a: <type> }",

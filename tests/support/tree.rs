@@ -11,7 +11,9 @@ fn item(item: &Item) -> String {
         ItemKind::Use(u) => use_item(u),
         ItemKind::Let(l) => let_item(l),
         ItemKind::Fn(f) => {
-            format!("(fn {}{}{} {})", f.name.text, params(&f.params), result(&f.result), expr(&f.body))
+            let type_params = type_params(&f.type_params);
+            let params = params(&f.params);
+            format!("(fn {}{type_params}{params}{} {})", f.name.text, result(&f.result), expr(&f.body))
         }
         ItemKind::Record(r) => {
             let field = |(p, doc): (&Param, &Option<String>)| format!(" {}", documented(doc, param(p)));
@@ -89,13 +91,17 @@ fn result(result: &Option<TypeExpr>) -> String {
     optional(result, "->", ty)
 }
 
-fn extern_fn(f: &ExternFn) -> String {
+fn type_params(params: &[TypeParam]) -> String {
     let type_param = |p: &TypeParam| match p.bound {
         Some(bound) => format!("{}:{}", p.name.text, bound.text),
         None => p.name.text.to_string(),
     };
-    let type_params = each(&f.type_params, type_param);
-    let type_params = if type_params.is_empty() { type_params } else { format!(" <{}>", type_params.trim()) };
+    let listed = each(params, type_param);
+    if listed.is_empty() { listed } else { format!(" <{}>", listed.trim()) }
+}
+
+fn extern_fn(f: &ExternFn) -> String {
+    let type_params = type_params(&f.type_params);
     format!("(extern-fn {}{type_params}{}{})", f.name.text, params(&f.params), result(&f.result))
 }
 

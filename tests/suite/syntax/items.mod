@@ -13,6 +13,8 @@ fn f(a: Length = 3mm, b: List<Vec3<Length>>, c: T?,) -> Range<Quantity<kg*m^2>> 
 //> (fn f (a:Length=3'mm b:List<Vec3<Length>> c:T?) ->Range<<kg*m^2>> a)
 fn g(m: exact | heuristic = exact, r: auto | Int = auto) = m
 //> (fn g (m:exact|heuristic=exact r:auto|Int=auto) m)
+fn k<A, D: Dimension>(a: List<A>, d: Quantity<D>) -> A = a
+//> (fn k <A D:Dimension> (a:List<A> d:<D>) ->A a)
 let h: fn(A, B) -> (C | D)? = x
 //> (let h :fn(A B)->C|D? x)
 let i: std.smores.Smores = x
