@@ -604,6 +604,46 @@ extern fn ports(of: Config) -> List<Port>
 /// ```
 extern fn modules<M: Module>(of: Config, kind: M) -> List<M>
 
+/// Two ports of a robot that are docked to each other.
+record Connection {
+  /// The first port, as the connection is written.
+  a: Port
+  /// The second port.
+  b: Port
+  /// The turn of the second connector about their common normal.
+  turn: Angle
+}
+
+/// The connections of a robot, in the order in which they are made; those of a part are between its own modules.
+///
+/// A module alone has none.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// for c in connections(Chain3) { print(c.a, c.b, c.turn) }
+/// ```
+extern fn connections(of: Config) -> List<Connection>
+
+/// Whether two robots are the same but for the names of their modules: as many modules of the same types, docked at the
+/// same ports with the same turns, and with their joints in the same positions.
+///
+/// Joints agree within a millionth of a radian or of a metre, endless ones up to whole turns; a module may lie turned
+/// round where it is the same then. Which module is the base makes no difference.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Smores, Chain3}
+/// config Row {
+///   part head: Smores
+///   part tail[2]: Smores
+///   connect tail[0].bottom -- head.top
+///   connect tail[1].bottom -- tail[0].top
+/// }
+/// print(same(Row, Chain3), same(Row, Smores))
+/// ```
+extern fn same(a: Config, b: Config) -> Bool
+
 /// Where a port or a module's body is in the start pose, in the frame of the base module.
 ///
 /// Example:

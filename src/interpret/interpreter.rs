@@ -10,7 +10,7 @@ use super::routines::Routines;
 use super::stop::{Eval, Stop};
 use super::value::{Behavior, BehaviorCall, Lazy, Value};
 use crate::check::Checked;
-use crate::check::typed::{DefId, Program};
+use crate::check::typed::{Def, DefId, DefKind, Program};
 use crate::interrupt;
 use crate::planners::tosnake::SearchCache;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
@@ -173,6 +173,18 @@ impl<'a> Interpreter<'a> {
     /// Returns the name of a declaration.
     pub fn name(&self, def: DefId) -> Symbol {
         self.shared.program.def(def).name
+    }
+
+    /// Returns a record that the prelude declares by `record`. Panics if there is none.
+    pub fn prelude_record(&self, name: &str) -> DefId {
+        let declared = |def: &Def| {
+            def.name == name
+                && &*self.shared.sources.file(def.file).name == "std/prelude.mod"
+                && matches!(&def.kind, DefKind::Record(record) if record.build.is_some())
+        };
+        let index = self.shared.program.defs.iter().position(declared);
+        let index = index.and_then(|index| u32::try_from(index).ok());
+        DefId(index.expect("natives name records that the prelude declares"))
     }
 
     /// Counts an evaluation step.

@@ -6,13 +6,14 @@ use crate::interpret::argument::parameters;
 use crate::interpret::design::{Design, DesignKind, Instance};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
-use crate::interpret::record::Record;
-use crate::interpret::record::StateValue;
+use crate::interpret::record::{DeclaredRecord, Record, StateValue};
 use crate::interpret::robot::Robot;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::{JointValue, PortValue, Value};
-use crate::robot::PortRef;
+use crate::plan::TOLERANCES;
+use crate::robot::{Bond, PortRef, matching};
 use crate::units::Dimension;
+use std::f64::consts::TAU;
 use std::rc::Rc;
 
 /// The natives of this file.
@@ -26,6 +27,8 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("footprint", parameters![of: &Rc<Instance>], footprint),
     Native::pure("ports", parameters![of: &Rc<Instance>], ports),
     Native::pure("modules", parameters![of: &Rc<Instance>, kind: &Rc<Instance>], modules),
+    Native::pure("connections", parameters![of: &Rc<Instance>], connections),
+    Native::pure("same", parameters![a: &Rc<Instance>, b: &Rc<Instance>], same),
     Native::pure("pose", parameters![of: &Value], pose),
     Native::pure("distance", parameters![a: &Value, b: &Value], distance),
     Native::pure("nodes", parameters![of: &Rc<Instance>], |_, call| {
@@ -58,8 +61,47 @@ fn mass(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Returns the robot of the design in the argument `of`, which may be a part of another: it is then taken by
 /// itself. `None` where it can't be assembled.
 fn own_robot(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<Rc<Robot>>> {
-    let design = call.get::<&Rc<Instance>>("of")?.design.clone();
-    interpreter.robot_at(&design, call.at("of"))
+    robot_in(interpreter, call, "of")
+}
+
+/// Returns the robot of the design in the argument `name`, taken by itself; `None` where it can't be assembled.
+fn robot_in(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Option<Rc<Robot>>> {
+    let design = call.get::<&Rc<Instance>>(name)?.design.clone();
+    interpreter.robot_at(&design, call.at(name))
+}
+
+/// Runs `connections(of)`: a `Connection` for each bond of a robot.
+fn connections(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let instance = call.get::<&Rc<Instance>>("of")?;
+    if instance.design.module().is_some() {
+        return Ok(Value::list(Vec::new()));
+    }
+    let Some(robot) = own_robot(interpreter, call)? else { return Ok(Value::Unknown) };
+    let def = interpreter.prelude_record("Connection");
+    let assembly = &robot.assembly;
+    let port = |end: PortRef| {
+        Value::Port(PortValue {
+            robot: instance.robot.clone(),
+            module: instance.offset + end.module,
+            port: end.port,
+        })
+    };
+    let connection = |bond: &Bond| {
+        let connector = assembly.module_type(bond.a.module).ports[bond.a.port].connector;
+        let turns = assembly.library.connectors[connector].turns;
+        let turn = TAU * f64::from(bond.turn) / f64::from(turns);
+        let fields = vec![port(bond.a), port(bond.b), Value::Quantity(turn, Dimension::ANGLE)];
+        Value::Record(Rc::new(Record::Declared(DeclaredRecord { def, fields })))
+    };
+    Ok(Value::list(assembly.bonds.iter().map(connection).collect()))
+}
+
+/// Runs `same(a, b)`: true if there is an isomorphism of the two robots in their start states.
+fn same(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (a, b) = (robot_in(interpreter, call, "a")?, robot_in(interpreter, call, "b")?);
+    let (Some(a), Some(b)) = (a, b) else { return Ok(Value::Unknown) };
+    let found = matching((&a.assembly, &a.start), (&b.assembly, &b.start), TOLERANCES.join_joint);
+    Ok(Value::Bool(found.is_ok()))
 }
 
 fn com(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -95,6 +95,26 @@ fn tab_completes_with_types() {
     talk.ends();
 }
 
+/// Fields behind a dot, in the call that builds a record, and where one is changed.
+#[test]
+fn tab_knows_the_fields_of_records() {
+    let sandbox = Sandbox::new(&[]);
+    let mut command = sandbox.command(&["repl"]);
+    command.env("MODL_HISTORY", sandbox.path("history"));
+    let mut terminal = Terminal::begin(command);
+    terminal.sees(PROMPT);
+    terminal.types("record Design { bend: Angle = 30deg, size: Length }\r");
+    terminal.sees("record Design { bend: Angle, size: Length }");
+    terminal.types("let d = Design(size: 1m)\r");
+    terminal.sees("d: Design");
+    offered(&mut terminal, "d.", &["bend  Angle", "size  Length"]);
+    offered(&mut terminal, "Design(", &["bend:  Angle", "size:  Length"]);
+    offered(&mut terminal, "Design(bend: 3deg, ", &["size: "]);
+    offered(&mut terminal, "d with { ", &["bend:  Angle", "size:  Length"]);
+    offered(&mut terminal, "d with { bend: 3deg, ", &["size: "]);
+    offered(&mut terminal, "fn f(x: Design) -> Length = (x with { ", &["bend:  Angle", "size:  Length"]);
+}
+
 /// What is offered behind a text that is being typed, in a session with `HINGE`.
 fn offered(terminal: &mut Terminal, text: &str, wanted: &[&str]) {
     terminal.types(text);
