@@ -158,7 +158,7 @@ impl Bindings {
         match ty {
             Type::Param(i) => self.types[*i as usize].clone().unwrap_or_else(|| ty.clone()),
             Type::QuantityParam { param, power } => match self.dimensions[*param as usize] {
-                Some(d) => d.power(i32::from(*power)).map_or(Type::Error, Type::Quantity),
+                Some(d) => d.power(i64::from(*power)).map_or(Type::Error, Type::Quantity),
                 None => ty.clone(),
             },
             Type::List(t) => Type::List(inner(t)),

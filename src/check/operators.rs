@@ -168,7 +168,9 @@ impl<'a> Checker<'a> {
         let ty = match (&left.ty, &right.ty) {
             (Type::Int, Type::Int) => Some(if is_negative(&right) { Type::NUMBER } else { Type::Int }),
             (Type::Quantity(Dimension::NUMBER), Type::Int) => Some(Type::NUMBER),
-            (Type::Quantity(d), Type::Int) => literal(&right).and_then(|n| d.power(n)).map(Type::Quantity),
+            (Type::Quantity(d), Type::Int) => {
+                literal(&right).and_then(|n| d.power(n.into())).map(Type::Quantity)
+            }
             _ => None,
         };
         let Some(ty) = ty else {

@@ -112,7 +112,7 @@ impl<'a> Checker<'a> {
                 self.unknown_unit(name);
                 return None;
             };
-            let Some(sum) = known.dimension.power(*power).and_then(|d| dimension.times(d)) else {
+            let Some(sum) = known.dimension.power(i64::from(*power)).and_then(|d| dimension.times(d)) else {
                 self.report(
                     Diagnostic::error(code::UNKNOWN_UNIT, "this unit has too large a power")
                         .label(unit.span, "too large a power"),

@@ -292,7 +292,7 @@ fn power(x: f64, dimension: Dimension, n: i64, span: Span, right: Span) -> Eval<
         base *= base;
         left /= 2;
     }
-    finite(result, i32::try_from(n).ok().and_then(|n| dimension.power(n)), span)
+    finite(result, dimension.power(n), span)
 }
 
 /// Returns a result that is a finite number; an overflow is a fault, so that no infinity spreads.

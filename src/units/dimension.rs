@@ -93,14 +93,14 @@ impl Dimension {
     }
 
     /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
-    pub fn power(self, n: i32) -> Option<Dimension> {
-        let n = i8::try_from(n).ok()?;
+    pub fn power(self, n: i64) -> Option<Dimension> {
+        let scaled = |exponent: i8| i8::try_from(i64::from(exponent).checked_mul(n)?).ok();
         Some(Dimension {
-            length: self.length.checked_mul(n)?,
-            mass: self.mass.checked_mul(n)?,
-            time: self.time.checked_mul(n)?,
-            angle: self.angle.checked_mul(n)?,
-            param: self.param.checked_mul(n)?,
+            length: scaled(self.length)?,
+            mass: scaled(self.mass)?,
+            time: scaled(self.time)?,
+            angle: scaled(self.angle)?,
+            param: scaled(self.param)?,
         })
     }
 

@@ -71,14 +71,16 @@ pub fn base_units(dimension: Dimension) -> String {
         ("rad", dimension.angle),
         ("s", dimension.time),
     ];
-    let power = |name: &str, n: i8| if n == 1 { name.to_string() } else { format!("{name}^{n}") };
-    let above: Vec<String> = parts.iter().filter(|(_, n)| *n > 0).map(|(s, n)| power(s, *n)).collect();
-    let below: Vec<String> = parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, -*n)).collect();
+    let power = |name: &str, n: i16| if n == 1 { name.to_string() } else { format!("{name}^{n}") };
+    let above: Vec<String> =
+        parts.iter().filter(|(_, n)| *n > 0).map(|(s, n)| power(s, i16::from(*n))).collect();
+    // Alone they are written with negative exponents, after others as divisors.
+    let sign = if above.is_empty() { 1 } else { -1 };
+    let below = parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, sign * i16::from(*n)));
+    let below: Vec<String> = below.collect();
     match (above.is_empty(), below.is_empty()) {
         (_, true) => above.join("*"),
-        (true, false) => {
-            parts.iter().filter(|(_, n)| *n < 0).map(|(s, n)| power(s, *n)).collect::<Vec<_>>().join("*")
-        }
+        (true, false) => below.join("*"),
         (false, false) => format!("{}/{}", above.join("*"), below.join("/")),
     }
 }

@@ -16,6 +16,14 @@ print(sqrt(3m * 12m), 30deg + 1turn, 1kg * 9.81m/s^2 * 2m)
 print(sin(30deg), atan2(1mm, -1mm), round(2.5), floor(-1.5))
 //> 0.5 135deg 3 -2
 
+--- a plain number has powers of any exponent
+print(2.0^200, 1.0^-3_000_000_000)
+//> 1.60694e60 1
+
+--- the least exponent that a unit can have is shown
+print((1/1s)^127 / 1s, (1/1s)^127 * 1kg / 1s)
+//> 1s^-128 1kg/s^128
+
 --- a missing value has another
 print(first([1mm, 2mm]) else 0mm, last([]) else 3)
 //> 1mm 3
