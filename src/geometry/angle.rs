@@ -6,13 +6,14 @@ use std::f64::consts::FRAC_2_PI;
 /// π/2 in two parts, the first of 33 bits, so that its product with a count of quarter turns is exact.
 const QUARTER: (f64, f64) = (1.570_796_326_734_125_6, 6.077_100_506_506_192e-11);
 
-/// Beyond this, rad, the count of quarter turns would not fit the first part's free bits.
+/// The greatest angle, rad, whose count of quarter turns fits the free bits of the first part.
 const ANGLE_MAX: f64 = 1e5;
 
 /// Adding and subtracting this rounds to the nearest whole number.
 const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// Returns sine and cosine of an angle in radians, to about one unit in the last place.
+/// Returns sine and cosine of an angle in radians, to about one unit in the last place; NaN for an angle that is not
+/// finite.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.is_nan() || angle.abs() > ANGLE_MAX {

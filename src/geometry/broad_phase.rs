@@ -1,4 +1,5 @@
-//! The broad phase of collision detection: which of many things may be near each other, by a uniform grid.
+//! The broad phase of collision detection: finds the pairs of many things that may be near each other, by a uniform
+//! grid.
 //!
 //! One structure for balls of one size ([`near_points`]) and for boxes of many sizes ([`near_boxes`]). A
 //! grid, because modules and struts of a robot are of about the same size, so that a cell holds few of them
@@ -7,17 +8,18 @@
 
 use super::pose::Vec3;
 
-/// Cells of the grid of boxes at most, for each box.
+/// The greatest number of cells of the grid of boxes, for each box.
 const CELLS_PER_BOX: f64 = 8.0;
 
-/// Cells of the sorted grid along each axis: coordinates reach from -2²⁰ to 2²⁰ cells, farther than robots do.
+/// The number of cells of the sorted grid along each axis: coordinates reach from -2²⁰ to 2²⁰ cells, farther than
+/// robots do.
 const CELLS_ALONG: u64 = 1 << 21;
 const CELLS_HALF: i64 = 1 << 20;
 
-/// No box, and the end of a list of boxes in a cell.
+/// The index of no box; also the end of a list of boxes in a cell.
 const NONE: u32 = u32::MAX;
 
-/// An axis-aligned box.
+/// An axis-aligned box, in metres, in a frame of the caller's choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// The corner of least coordinates.
@@ -27,14 +29,14 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// Returns the box around some points, m; for no points, the box that no union with another changes.
+    /// Returns the least box around some points, m; for no points, the box that no union with another changes.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
         let none = Aabb { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
         points.into_iter().fold(none, |all, p| Aabb { low: all.low.inf(&p), high: all.high.sup(&p) })
     }
 
-    /// Returns the gap to another box along each axis, m, 0 where they overlap: its length is the distance of
-    /// the boxes.
+    /// Returns the gap to another box along each axis, m, 0 along axes on which they overlap; the length of this
+    /// vector is the distance of the boxes.
     #[inline]
     pub fn gap(&self, other: &Aabb) -> Vec3 {
         (self.low - other.high).sup(&(other.low - self.high)).sup(&Vec3::zeros())
@@ -92,10 +94,10 @@ pub fn near_points(
     }
 }
 
-/// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0) of each other along every
-/// axis, up to rounding: a superset of those that are nearer than `reach`. Ordered by j, then by cell and i. `cell` (> 0)
-/// is the size of a cell at least, best about that of a box; grids of more than eight cells for each box are
-/// made coarser.
+/// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0, m) of each other along
+/// every axis, up to rounding: a superset of those that are nearer than `reach`. The calls are ordered by j, then by
+/// cell and i. `cell` (> 0, m) is the least size of a cell, best about that of a box; grids of more than eight cells
+/// for each box are made coarser.
 pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, mut found: impl FnMut(usize, usize)) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;

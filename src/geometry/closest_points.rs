@@ -22,18 +22,19 @@ const PARALLEL_SINE_SQUARED: f64 = 1e-9;
 pub struct SegmentPair {
     /// The distance of the two points, m; not negative.
     pub distance: f64,
-    /// The unit vector from the second segment's point to the first's. If the segments meet, it is across both of
-    /// them, with arbitrary sign, and +z where they have no common perpendicular.
+    /// The unit vector from the second segment's point to the first's. If the segments meet, it is perpendicular to
+    /// both of them, with arbitrary sign, and +z where they are parallel or a point.
     pub normal: Vec3,
-    /// The positions of the points along the first and the second segment, as parts of the lengths, 0 to 1.
+    /// The positions of the points along the first and the second segment, as fractions of the lengths, 0 to 1.
     pub along: (f64, f64),
 }
 
 /// Returns the closest points of two segments (Ericson 5.1.9).
 ///
-/// Of parallel segments, which have many closest pairs, it gives one that depends continuously on neither. Segments at
-/// an angle of less than 3e-5 rad count as parallel; the distance is then too great by at most the angle times half
-/// a length. If that matters, [`segment_segment_distance`] is exact at any angle.
+/// Of parallel segments, which have many closest pairs, one pair is returned; it may jump while the segments move a
+/// little. Segments at an angle of less than 3.2e-5 rad count as parallel; the distance is then too great by at most
+/// that angle times the length of the shorter segment. If that matters, [`segment_segment_distance`] is exact at any
+/// angle.
 pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
     let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
@@ -51,7 +52,7 @@ pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     pair_at(p, q, (along_p, along_q))
 }
 
-/// Returns the first or second end (`end` is 0 or 1) of a segment with the point of another that is closest to it.
+/// Returns the first or second end (`end` is 0 or 1) of the segment `p` with the point of `q` that is closest to it.
 pub fn end_segment(p: Segment, end: usize, q: Segment) -> SegmentPair {
     let point = if end == 0 { p.0 } else { p.1 };
     let v = q.1 - q.0;
@@ -69,7 +70,7 @@ fn pair_at(p: Segment, q: Segment, along: (f64, f64)) -> SegmentPair {
 
 /// Returns the distance of two segments, m, exact to rounding at any angle between them.
 ///
-/// It is the least of the four distances from an end to the other segment, and of the distance of the lines where their
+/// It is the least of the four distances from an end to the other segment, and of the distance of the lines if their
 /// closest points, by Cramer's rule from the common perpendicular, lie inside both segments.
 pub fn segment_segment_distance(p: Segment, q: Segment) -> f64 {
     let (u, v) = (p.1 - p.0, q.1 - q.0);
@@ -92,7 +93,7 @@ pub fn segment_segment_distance(p: Segment, q: Segment) -> f64 {
     }
 }
 
-/// Returns the position along a segment, as a part of its length from 0 to 1, of its point closest to `point`
+/// Returns the position along a segment, as a fraction of its length from 0 to 1, of its point closest to `point`
 /// (Ericson 5.1.2); 0 where the segment is a point.
 pub fn point_segment(point: Vec3, (a, b): Segment) -> f64 {
     let along = b - a;
@@ -106,8 +107,9 @@ pub fn point_segment_distance(point: Vec3, segment: Segment) -> f64 {
     (point - a - (b - a) * point_segment(point, segment)).norm()
 }
 
-/// Returns the point of a triangle that is closest to `point`, m, by the region of Voronoi that the point
-/// lies in (Ericson 5.1.5). A triangle whose corners lie on one line is treated as its edges.
+/// Returns the point of a triangle that is closest to `point`, m: its projection on the plane if that is inside,
+/// else the closest point of the three edges (compare Ericson 5.1.5). A triangle whose corners lie on one line is
+/// treated as its edges.
 pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
     let normal = (b - a).cross(&(c - a));
     let area = normal.norm_squared();
@@ -123,14 +125,16 @@ pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
     candidates.into_iter().reduce(nearer).unwrap_or(a)
 }
 
-/// Returns the signed distance of a point from a box, m: negative inside, where it is the depth below the nearest face.
+/// Returns the signed distance of a point from a box, m: outside the distance from the box, inside minus the
+/// distance from the nearest face.
 pub fn point_box(point: Vec3, around: &Aabb) -> f64 {
     let outside = (around.low - point).sup(&(point - around.high));
     if outside.max() < 0.0 { outside.max() } else { outside.sup(&Vec3::zeros()).norm() }
 }
 
-/// Returns the signed distance of a segment from a convex part, both in one frame, and its direction from the segment
-/// to the part; negative where the segment goes through the part. It need not be exact where it is more than `enough`, m.
+/// Returns the signed distance of a segment from a convex part, both in one frame, and its direction from the
+/// segment to the part; negative where the segment goes through the part. Once it is known to be at least `enough`
+/// (m), a lower bound on it of at least `enough` is returned.
 pub fn segment_part((a, b): Segment, part: &Part, enough: f64) -> SignedDistance {
     let segment = Part::capsule((a + b) / 2.0, (b - a) / 2.0, 0.0);
     signed_distance_within(&segment, part, &Pose::identity(), None, enough)

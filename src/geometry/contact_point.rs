@@ -4,7 +4,7 @@ use super::distance::distance_apart;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
 
-/// Rounds of projections at most; parts that overlap take a few.
+/// The greatest number of rounds of projections; parts that overlap take a few.
 const ROUNDS_MAX: usize = 64;
 
 /// The projections have converged where a step is shorter than this, m.
@@ -12,7 +12,8 @@ const TOL_STEP: f64 = 1e-7;
 
 /// Returns a point that is in both parts, or midway between their nearest points where they are apart, in a's frame
 /// (m); `X_AB` is the pose of b's frame in a's. The method is alternating projections onto the one and the other
-/// (von Neumann 1933), from the middle between the parts.
+/// (von Neumann 1933), from the middle between the parts, until a step is less than 1e-7 m, or 64 rounds are done:
+/// then the point is approximate.
 pub fn contact_point(a: &Part, b: &Part, X_AB: &Pose) -> Vec3 {
     let X_BA = X_AB.inverse();
     let into = |X: &Pose, p: &Vec3| X.transform_point(&(*p).into()).coords;

@@ -15,24 +15,25 @@ use parry3d_f64::shape::SupportMap;
 /// The signed distance of two convex parts, with its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
-    /// The distance of the nearest points, m; negative where the parts overlap, and then the length of the shortest
-    /// shift that separates them. 0 where they touch.
+    /// The distance of the nearest points, m. If the parts overlap it is minus the penetration depth, the length of
+    /// the shortest shift that separates them. 0 if they touch.
     pub distance: f64,
-    /// The direction of the distance: a unit vector from the first part towards the second, in the first one's frame. Of
-    /// several equally short directions any one.
+    /// The direction of the distance: a unit vector from the first part towards the second, in the first one's
+    /// frame; any one of several that are equally short.
     pub normal: Vec3,
 }
 
-/// Returns the signed distance of two parts; `X_AB` is the pose of b's frame in a's. It is exact to 1e-8 m where the
-/// parts are apart. For round parts that overlap it is exact to about a micrometre, and the depth is never too
-/// small.
+/// Returns the signed distance of two parts; `X_AB` is the pose of b's frame in a's. Distances of parts that are
+/// apart are exact to about 1e-9 m and 1e-9 of the distance. Depths of round parts that overlap are exact to about a
+/// micrometre, and no depth is too small by more than rounding.
 pub fn signed_distance(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     signed_distance_within(a, b, X_AB, None, f64::MAX)
 }
 
-/// Returns what [`signed_distance`] returns, but stops as soon as the distance is known to be at least `enough` (m): then
-/// a lower bound of the distance that is at least `enough`, with the direction in which it holds. `normal`: a direction
-/// from a to b to begin with, such as that of an instant before; any answer is right without it.
+/// Returns the signed distance of two parts as [`signed_distance`] does, or, once it is known to be at least
+/// `enough` (m), a lower bound on it of at least `enough`, with the direction in which it holds. `normal`: a
+/// direction from a to b to begin with, such as that of an instant before; `None` begins with the line of the
+/// centres. Any direction gives the same result to the tolerance.
 pub fn signed_distance_within(
     a: &Part,
     b: &Part,
@@ -43,7 +44,8 @@ pub fn signed_distance_within(
     distance_apart(a, b, X_AB, normal, enough).unwrap_or_else(|| penetration(a, b, X_AB))
 }
 
-/// Returns the distance by the nearest points of the cores; `None` where the cores overlap or touch.
+/// Returns the distance by the nearest points of the cores, or a lower bound of at least `enough` (m); `None` where
+/// the cores overlap or touch.
 pub(super) fn distance_apart(
     a: &Part,
     b: &Part,
@@ -57,9 +59,9 @@ pub(super) fn distance_apart(
     Some(SignedDistance { distance: found.distance - rounding, normal: found.normal })
 }
 
-/// Returns the penetration of parts whose cores overlap: the least depth that two methods find, each of which has its
-/// blind spots: the expansion of a polytope where bodies touch, the nearest points of shrunk bodies where they are deep
-/// in each other. If even shrunk bodies overlap, about one centre, directions are searched.
+/// Returns the penetration of parts whose cores overlap: the least depth that two methods find, each of which misses
+/// some cases: the expansion of a polytope misses bodies that only touch, the nearest points of shrunk bodies those
+/// that are deep in each other. If even shrunk bodies overlap, about one centre, directions are searched.
 fn penetration(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     let expanded = expanding_polytope(a, b, X_AB);
     let deep = shrunk(a, b, X_AB).or_else(|| Some(direction_search(a, b, X_AB)));
@@ -67,7 +69,8 @@ fn penetration(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     found.max_by(|x, y| x.distance.total_cmp(&y.distance)).expect("directions are searched")
 }
 
-/// Returns the separation along the direction between the parts when shrunk until they are apart.
+/// Returns the separation along the direction between the parts when shrunk until they are apart; `None` if they
+/// overlap even at a fifth of their size.
 fn shrunk(a: &Part, b: &Part, X_AB: &Pose) -> Option<SignedDistance> {
     const FACTORS: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
     FACTORS.iter().find_map(|factor| {
@@ -77,9 +80,9 @@ fn shrunk(a: &Part, b: &Part, X_AB: &Pose) -> Option<SignedDistance> {
     })
 }
 
-/// Returns a penetration with its normal refined, which the expansion of a polytope misses where bodies only touch: the
-/// parts are pulled apart along the normal, and the direction in which they then are nearest is taken, as long as that
-/// makes the depth less.
+/// Returns a penetration with its normal refined, for the expansion of a polytope misses it where bodies only touch:
+/// the parts are pulled apart along the normal, and the direction in which they then are nearest is taken, as long
+/// as that makes the depth less.
 fn refined(a: &Part, b: &Part, X_AB: &Pose, mut best: SignedDistance) -> SignedDistance {
     const ROUNDS_MAX: usize = 20;
     const PULL: f64 = 0.01;
@@ -127,9 +130,9 @@ pub fn separation_along(a: &Part, b: &Part, X_AB: &Pose, normal: &Vec3) -> f64 {
     between.dot(normal) - a.reach(normal) - b.reach(&backward)
 }
 
-/// Returns the signed distance of two solids at their world poses, m: the least of their parts; negative is the
-/// penetration depth of the deepest pair of parts. A solid inside the hollow of a closed mesh is in it, at minus the
-/// distance from its surface. Infinite where one of the solids is empty.
+/// Returns the signed distance of two solids at their world poses, m: the least of their parts; if negative, minus
+/// the penetration depth of the deepest pair of parts. A solid inside the hollow of a closed mesh is in it, at minus
+/// the distance from its surface. Infinite if one of the solids is empty.
 pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64 {
     let X_AB = X_WA.inverse() * X_WB;
     let mut least = f64::INFINITY;
@@ -150,8 +153,9 @@ fn encloses_part(a: &Solid, b: &Solid, X_AB: &Pose) -> bool {
     b.parts.iter().any(|q| a.encloses(&X_AB.transform_point(&q.centre.into()).coords))
 }
 
-/// Returns the penetration of parts about one centre (on which parry's expansion gives up, or takes the first direction): the best of the
-/// directions of a cube's faces, edges and corners, refined by pattern search with steps that shrink by halves.
+/// Returns the penetration of parts about one centre (on which parry's expansion gives up, or takes the first
+/// direction): the best of the directions of a cube's faces, edges and corners, refined by pattern search with steps
+/// that shrink by halves.
 fn direction_search(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     const FIRST_STEP: f64 = 0.5;
     const HALVINGS: usize = 30;

@@ -1,9 +1,10 @@
 //! The nearest points of convex parts that are apart: the method of Gilbert, Johnson and Keerthi (GJK, 1988).
 //!
-//! Ours, because parry's stops some micrometres short on round parts, and the judge between samples needs to know
-//! from which side a distance is off. The method works on the Minkowski difference of the two bodies, of which the point
-//! nearest to the origin is as far from it as the bodies are from each other. The distance is bracketed: every point of
-//! the difference is at least as far as the nearest, and the separation along any direction is at most as large.
+//! Not parry's, because that stops some micrometres short on round parts, and the judge between samples needs to
+//! know from which side a distance is off. The method works on the Minkowski difference of the two bodies, of which
+//! the point nearest to the origin is as far from it as the bodies are from each other. The distance is bracketed:
+//! every point of the difference is at least as far as the nearest, and the separation along any direction is at
+//! most as large.
 
 use super::distance::SignedDistance;
 use super::part::Part;
@@ -15,7 +16,7 @@ const TOL_BRACKET: (f64, f64) = (1e-9, 1e-9);
 /// A point this near to the origin is at it, m.
 const TOL_ORIGIN: f64 = 1e-12;
 
-/// Iterations at most: polytopes take about ten, round parts about thirty.
+/// The greatest number of iterations: polytopes take about ten, round parts about thirty.
 const ROUNDS_MAX: usize = 100;
 
 /// Returns the distance between the cores of two parts (m) and its direction in a's frame; `None` where the cores
@@ -115,14 +116,14 @@ fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
     Some(best.1)
 }
 
-/// Returns the origin's projection on an edge, if it is between the ends.
+/// Returns the origin's projection on an edge; `None` unless it is between the ends.
 fn on_edge(a: &Vec3, b: &Vec3) -> Option<Vec3> {
     let ab = b - a;
     let t = -a.dot(&ab) / ab.norm_squared();
     (t > 0.0 && t < 1.0).then(|| a + ab * t)
 }
 
-/// Returns the origin's projection on a triangle's plane, if it is inside the triangle.
+/// Returns the origin's projection on a triangle's plane; `None` unless it is inside the triangle.
 fn on_face(a: &Vec3, b: &Vec3, c: &Vec3) -> Option<Vec3> {
     let normal = (b - a).cross(&(c - a));
     let area = normal.norm_squared();

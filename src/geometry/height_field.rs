@@ -5,8 +5,9 @@ use super::soundness::EXTENT_MAX;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Heights at the corners of equal squares, each of which is two triangles with a side from its corner
-/// of the least x and y to that of the greatest. Beyond the rim heights are those of the rim.
+/// A height field: heights at the corners of equal squares, each of which is two triangles with a common side from
+/// its corner of the least x and y to that of the greatest. Beyond the rim the height is that of the nearest point
+/// of the rim.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightField {
@@ -16,12 +17,13 @@ pub struct HeightField {
     pub spacing: f64,
     /// The number of heights along x, at least 2.
     pub columns: usize,
-    /// The heights, m, row by row along y; at least two rows.
+    /// The heights in the world, m, row by row along y: that of column i and row j at index `j · columns + i`; at
+    /// least two rows.
     pub heights: Vec<f64>,
 }
 
 impl HeightField {
-    /// Returns what keeps these numbers from being a height field; `None` if nothing does. The other methods need that.
+    /// Returns the fault of the field in words; `None` if it is sound, which the other methods need.
     pub fn fault(&self) -> Option<&'static str> {
         let rows = self.heights.len().checked_div(self.columns).unwrap_or(0);
         let faults = [
@@ -33,7 +35,8 @@ impl HeightField {
         faults.into_iter().find_map(|(bad, why)| bad.then_some(why))
     }
 
-    /// Returns true if all places of the ground are finite and within [`EXTENT_MAX`] along each axis, of so many `rows`.
+    /// Returns true if all points of the ground, of so many `rows`, are finite and within [`EXTENT_MAX`] along each
+    /// axis.
     fn in_reach(&self, rows: usize) -> bool {
         let ends = [(self.corner[0], self.columns), (self.corner[1], rows)];
         let ends = ends.map(|(corner, count)| corner + self.spacing * (count as f64 - 1.0));
@@ -45,21 +48,23 @@ impl HeightField {
         self.heights.len() / self.columns
     }
 
-    /// Returns the height of the ground at a point (x, y), m.
+    /// Returns the height of the ground at a point (x, y) of the world, m; outside the field that of the nearest
+    /// point of its rim.
     pub fn height(&self, x: f64, y: f64) -> f64 {
         let (triangle, [u, v]) = self.triangle(x, y);
         triangle.height + triangle.slope[0] * u + triangle.slope[1] * v
     }
 
-    /// Returns the derivatives of the height by x and by y at a point, without unit; on a crease those of one
-    /// of its sides, and 0 across the rim.
+    /// Returns the derivatives of the height by x and by y at a point (m), without unit; on a crease those of one of
+    /// its sides, and 0 along an axis along which the point is beyond the rim.
     pub fn slope(&self, x: f64, y: f64) -> [f64; 2] {
         let (triangle, _) = self.triangle(x, y);
         let inside = [self.along(0, x), self.along(1, y)].map(|(_, clamped)| !clamped);
         [0, 1].map(|k| if inside[k] { triangle.slope[k] / self.spacing } else { 0.0 })
     }
 
-    /// Returns the greatest slope of all triangles: height by horizontal distance.
+    /// Returns the greatest slope of all triangles, the height gained for a horizontal distance of 1; not negative,
+    /// without unit.
     pub fn steepest(&self) -> f64 {
         let squares =
             (0..self.rows() - 1).flat_map(|row| (0..self.columns - 1).map(move |column| (column, row)));
@@ -68,16 +73,16 @@ impl HeightField {
         slopes.map(|[a, b]| libm::hypot(a, b) / self.spacing).fold(0.0, f64::max)
     }
 
-    /// Returns the height of a point above the ground, m; negative below it.
+    /// Returns the height of a point of the world (m) above the ground, m; negative below it.
     pub fn above(&self, p: Vec3) -> f64 {
         p.z - self.height(p.x, p.y)
     }
 
-    /// Calls `tell` with fractions of a segment's length (0 to 1) and the heights above the ground there (m):
-    /// at its ends and wherever it crosses, seen from above, a side of a triangle. In between the height is
-    /// linear. The calls are in no order.
-    pub fn profile(&self, p: Vec3, q: Vec3, mut tell: impl FnMut(f64, f64)) {
-        let mut sample = |part: f64| tell(part, self.above(p + (q - p) * part));
+    /// Calls `report` with fractions of a segment's length (0 to 1) and the heights above the ground there (m): at
+    /// its ends and wherever it crosses, seen from above, a side of a triangle. In between the height is linear. The
+    /// calls are in no order; the same fraction may come twice.
+    pub fn profile(&self, p: Vec3, q: Vec3, mut report: impl FnMut(f64, f64)) {
+        let mut sample = |part: f64| report(part, self.above(p + (q - p) * part));
         sample(0.0);
         sample(1.0);
         let (columns, rows) = (self.columns as f64, self.rows() as f64);
@@ -99,7 +104,8 @@ impl HeightField {
         }
     }
 
-    /// Returns the point of a segment that is lowest above the ground: the part of its length, and its height, m.
+    /// Returns the point of a segment that is lowest above the ground: its position as a fraction of the length, 0
+    /// to 1, and its height above the ground, m; negative below it.
     pub fn lowest(&self, p: Vec3, q: Vec3) -> (f64, f64) {
         let mut least = (0.0, f64::INFINITY);
         self.profile(p, q, |part, height| {

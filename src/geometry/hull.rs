@@ -5,17 +5,17 @@ use nalgebra::Matrix3;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::BTreeMap;
 
-/// The surface of a convex hull: only the points that are its corners, and triangles
-/// counter-clockwise from outside.
+/// The surface of a convex hull: only the points that are its corners, and triangles.
 #[derive(Clone, Debug)]
 pub struct Faces {
     /// The corners of the hull, m.
     pub points: Vec<Vec3>,
-    /// Indices of corners, counter-clockwise from outside.
+    /// Indices of `points`, from 0, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Returns the surface of the convex hull of points (m); `None` where they do not span a volume.
+/// Returns the surface of the convex hull of points (m); `None` if they span no volume, or rounding keeps parry from
+/// a hull.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
     // An affine map leaves the corners the same: coordinates are whitened, so that a thin hull is as thick as wide
     // and not taken for flat.
@@ -30,9 +30,10 @@ pub fn faces(points: &[Vec3]) -> Option<Faces> {
     Some(Faces { points: corners.collect::<Option<_>>()?, triangles })
 }
 
-/// Returns three perpendicular vectors by which points reach from the first of them, m: in the direction where they reach
-/// farthest; across that; and across both, the flattest direction among the planes through three far apart points.
-/// The three are right-handed. `None` where one is shorter than `least`, or has no length.
+/// Returns three perpendicular vectors by which points reach from the first of them, m: in the direction in which
+/// they reach farthest; across that; and across both, the flattest direction among the planes through three far
+/// apart points. The three are right-handed. `None` if one is shorter than `least` (m), or has no length, and for no
+/// points.
 pub fn extents(points: &[Vec3], least: f64) -> Option<[Vec3; 3]> {
     let first = points.first()?;
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {

@@ -20,13 +20,16 @@ pub(crate) struct PoseText {
 /// and nothing more.
 const NORM_TOLERANCE: f64 = 1e-6;
 
-/// Writes the numbers as they are.
+/// Writes a pose, its numbers as they are.
 pub(crate) fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
     let (t, q) = (&pose.translation.vector, &pose.rotation);
     PoseText { p: [t.x, t.y, t.z], q: [q.w, q.i, q.j, q.k] }.serialize(to)
 }
 
-/// Takes the numbers as they are; a quaternion that is not of unit length is refused.
+/// Reads a pose, its numbers as they are.
+///
+/// # Errors
+/// The deserializer's error, also for a quaternion whose norm differs from 1 by more than 1e-6.
 pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Pose, D::Error> {
     let PoseText { p, q } = PoseText::deserialize(from)?;
     let q = Quaternion::new(q[0], q[1], q[2], q[3]);

@@ -6,13 +6,14 @@
 
 use super::pose::{Pose, Vec3};
 
-/// Directions this near to a cylinder's axis are along it: what is left across it is rounding.
+/// The greatest sine of the angle between a direction and a cylinder's axis at which the direction counts as along
+/// it: what is left across the axis is rounding.
 const TOL_STRAIGHT: f64 = 1e-9;
 
-/// Corners of the polygon around a rim: it is larger by 1/13000 of the radius.
+/// The number of corners of the polygon around a rim: it is larger by 1/13000 of the radius.
 const RIM_CORNERS: usize = 256;
 
-/// A convex body in the frame of its solid.
+/// A convex body in the frame of its solid: a box, cylinder, capsule, ball, or the hull of points.
 #[derive(Clone, Debug)]
 pub struct Part {
     form: Form,
@@ -35,29 +36,31 @@ enum Form {
 }
 
 impl Part {
-    /// Returns a box from half its edges as vectors, which are perpendicular; m.
+    /// Returns the box about `centre` (m) with these halves of its edges, which must be perpendicular; m.
     pub fn boxed(centre: Vec3, half_edges: [Vec3; 3]) -> Part {
         let radius = half_edges.iter().map(Vec3::norm_squared).sum::<f64>().sqrt();
         Part { form: Form::Box(half_edges), centre, radius }
     }
 
-    /// Returns a cylinder from half its axis as a vector, which is not zero, and its radius; m.
+    /// Returns the cylinder about `centre` (m) with this half of its axis, a vector that must not be zero, and this
+    /// radius; m.
     pub fn cylinder(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         let reach = (half_axis.norm_squared() + radius * radius).sqrt();
         Part { form: Form::Cylinder(half_axis, half_axis.normalize(), radius), centre, radius: reach }
     }
 
-    /// Returns all points within a radius of a segment, given by half of it as a vector; both may be zero. m
+    /// Returns the capsule about `centre` (m), all points within `radius` (m) of the segment from `centre -
+    /// half_axis` to `centre + half_axis`. Both the radius and the half axis may be zero.
     pub fn capsule(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         Part { form: Form::Capsule(half_axis, radius), centre, radius: half_axis.norm() + radius }
     }
 
-    /// Returns a ball; m. With a radius of 0 it is a point.
+    /// Returns the ball about `centre` (m) with this radius (m); with a radius of 0 it is a point.
     pub fn sphere(centre: Vec3, radius: f64) -> Part {
         Part { form: Form::Sphere(radius), centre, radius }
     }
 
-    /// Returns the convex hull of these points (m), of which there is at least one.
+    /// Returns the convex hull of these points (m), which may be flat. Panics if there are none.
     pub fn points(points: &[Vec3]) -> Part {
         let bound = |pick: fn(f64, f64) -> f64| points.iter().fold(points[0], |m, p| m.zip_map(p, pick));
         let centre = (bound(f64::min) + bound(f64::max)) / 2.0;
@@ -66,8 +69,8 @@ impl Part {
         Part { form: Form::Points(points), centre, radius }
     }
 
-    /// Returns the support function from the centre, `max n · (p - centre)`, m for a unit vector; `n` may
-    /// have any length.
+    /// Returns the support function from the centre, `max n · (p - centre)` over the part's points, m for a unit
+    /// vector; `n` may have any length, with which the result grows in proportion.
     #[inline]
     pub fn reach(&self, n: &Vec3) -> f64 {
         match &self.form {
@@ -82,7 +85,7 @@ impl Part {
         }
     }
 
-    /// Returns a point of the part that is farthest along `n`, a support point; m.
+    /// Returns a point of the part that is farthest along `n`, a support point, m; `n` may have any length.
     pub fn support(&self, n: &Vec3) -> Vec3 {
         self.core_support(n) + unit_or_zero(n) * self.rounding()
     }
@@ -96,7 +99,7 @@ impl Part {
         }
     }
 
-    /// Returns a point of the core that is farthest along `n`; m.
+    /// Returns a point of the core (see [`rounding`](Self::rounding)) that is farthest along `n`, m.
     pub fn core_support(&self, n: &Vec3) -> Vec3 {
         let toward = |v: &Vec3| if n.dot(v) < 0.0 { -v } else { *v };
         let from_centre = match &self.form {
@@ -145,7 +148,7 @@ impl Part {
         Part { form, centre: X.transform_point(&self.centre.into()).coords, radius: self.radius }
     }
 
-    /// Returns the part scaled about its centre.
+    /// Returns the part scaled about its centre by a positive factor.
     pub fn scaled(&self, factor: f64) -> Part {
         let form = match &self.form {
             Form::Box(e) => Form::Box(e.map(|v| v * factor)),
@@ -157,8 +160,9 @@ impl Part {
         Part { form, centre: self.centre, radius: self.radius * factor }
     }
 
-    /// Returns true if a turn by any angle about the line through `point` along the unit vector `axis` leaves
-    /// the part where it is, to `tol` metres.
+    /// Returns true if a turn by any angle about the line through `point` (m) along the unit vector `axis` leaves
+    /// the part as it is: it is a ball, cylinder or capsule whose centre and half axis are off the line by at most
+    /// `tol`, m.
     pub fn is_round_about(&self, point: &Vec3, axis: &Vec3, tol: f64) -> bool {
         let off_line = |p: &Vec3| (p - axis * axis.dot(p)).norm();
         let centred = off_line(&(self.centre - point)) <= tol;

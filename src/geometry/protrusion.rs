@@ -1,4 +1,4 @@
-//! Protrusion: how far drawn shapes stick out of the shapes that are judged in their place.
+//! Protrusion: the distance by which drawn shapes stick out of the shapes that are judged in their place.
 //!
 //! The distance from a convex body is a convex function, so over a polytope, or over a triangle, it is greatest at a
 //! corner. The least of these maxima over several bodies is an upper bound of the distance from their union; surfaces
@@ -16,12 +16,13 @@ use std::collections::BinaryHeap;
 /// The number of times that triangles of one part are divided. The bound then stands as it is, too large rather than
 /// too small.
 const DIVISIONS_MAX: usize = 2000;
-/// The part of the drawn size within which a bound is near enough.
+/// The fraction of the drawn part's radius within which a bound is near enough.
 const NEAR_ENOUGH: f64 = 1e-4;
 
-/// Returns an upper bound of the distance from `cover` of the points of `shapes`, m: 0 where all of them are
-/// covered. Both are in the same frame. The bound is within a ten-thousandth of the size where at most a few
-/// parts cover one; of a round part that no single part covers it may be larger.
+/// Returns an upper bound on the greatest distance of a point of `shapes` from the union of `cover`, m: 0 if all of
+/// them are covered, infinite if only `cover` is empty. Both are in the same frame. The bound is too large by at
+/// most 1e-4 of a part's radius if 2000 triangles suffice for that; for a ball or capsule that no single part of the
+/// cover holds it may be larger.
 ///
 /// # Errors
 /// The fault of a shape that is no solid.

@@ -44,7 +44,8 @@ impl RigidTransform {
         RigidTransform { rotation: back, translation: -(back * self.translation) }
     }
 
-    /// Returns the coordinates in A of a point whose coordinates in B are `p_B`, m.
+    /// Returns the coordinates in A of a point whose coordinates in B are `p_B`, both in the unit of the
+    /// translation.
     #[inline]
     pub fn transform_point(&self, p_B: &Vec3) -> Vec3 {
         self.rotation * p_B + self.translation

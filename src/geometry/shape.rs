@@ -16,13 +16,13 @@ pub enum Shape {
         #[schemars(with = "[f64; 3]")]
         size: Vec3,
     },
-    /// `axis` is a unit vector; `length` along it.
+    /// A cylinder about the origin of its frame, as long as `length` along `axis`.
     Cylinder {
         /// The radius, m.
         radius: f64,
         /// The length, m.
         length: f64,
-        /// The unit vector along the axis.
+        /// The direction of the axis, as a unit vector.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
@@ -31,13 +31,13 @@ pub enum Shape {
         /// The radius, m.
         radius: f64,
     },
-    /// `length` between the centres of the two caps.
+    /// A capsule about the origin of its frame: all points within `radius` of a segment along `axis`.
     Capsule {
         /// The radius, m.
         radius: f64,
-        /// The length, m.
+        /// The length of the segment, between the centres of the two caps, m; it may be 0.
         length: f64,
-        /// The unit vector along the axis.
+        /// The direction of the axis, as a unit vector.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
@@ -54,7 +54,7 @@ pub enum Shape {
         /// The positions of the vertices, m.
         #[schemars(with = "Vec<[f64; 3]>")]
         vertices: Vec<Vec3>,
-        /// Indices of vertices, counterclockwise as seen from outside.
+        /// Indices of vertices, from 0, counterclockwise as seen from outside.
         triangles: Vec<[u32; 3]>,
     },
     /// Solids that are one; they may overlap.
@@ -65,7 +65,8 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Returns the least extent of the shape, m: of a union that of its thinnest part, and 0 of points in one plane.
+    /// Returns the least extent of the shape, m: of a union that of its thinnest part, infinite if it has none; of a
+    /// hull or mesh the height of its points over three of them that are far apart, 0 if all are in one plane.
     pub fn thickness(&self) -> f64 {
         match self {
             Shape::Box { size } => size.min(),

@@ -13,10 +13,11 @@ const TOL_CONVEX: f64 = 1e-9;
 /// Hulls of more points than this are reduced to their corners.
 const CORNERS_KEPT: usize = 200;
 
-/// A solid for distances: convex parts in the link's frame.
+/// A solid compiled for distances: convex parts in the link's frame.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// The convex parts; together they are the solid, or the surface of a mesh that is not convex.
+    /// The convex parts; together they are the solid, except that a mesh that is not convex is here only as its
+    /// triangles.
     pub parts: Vec<Part>,
     /// Closed surfaces whose triangles are among the parts. Only the surface of a mesh that is not
     /// convex is made of parts: what is wholly inside of it is found by [`Solid::encloses`].
@@ -25,15 +26,17 @@ pub struct Solid {
     pub centre: Vec3,
     /// Radius of that ball, m; 0 for an empty solid.
     pub radius: f64,
-    /// Lowest and highest corner of a box along the frame's axes, m.
+    /// The least and the greatest corner of the axis-aligned box around the whole, m; both 0 for an empty solid.
     pub bounds: (Vec3, Vec3),
 }
 
 impl Solid {
-    /// Compiles placed shapes; a link without shapes is an empty solid.
+    /// Compiles placed shapes, in metres in the link's frame, into convex parts; no shapes give an empty solid.
+    /// Poses must be rigid, which [`soundness::check_placed`] checks.
     ///
     /// # Errors
-    /// The fault of a shape that encloses no volume.
+    /// The first [`Unsound`] fault of a shape: too thin, not finite or larger than
+    /// [`EXTENT_MAX`](soundness::EXTENT_MAX), flat, or not closed.
     pub fn new(shapes: &[Placed]) -> Result<Solid, Unsound> {
         let mut solid = Solid::default();
         shapes.iter().try_for_each(|placed| solid.add(placed, &Pose::identity()))?;
@@ -50,8 +53,8 @@ impl Solid {
         Ok(solid)
     }
 
-    /// Returns true if a point (m) is inside a mesh that is not convex. Its winding number is the sum of the
-    /// solid angles of the triangles over the whole sphere.
+    /// Returns true if a point (m, in the link's frame) is inside a mesh that is not convex: convex parts do not
+    /// count. Its winding number is the sum of the solid angles of the triangles over the whole sphere.
     pub fn encloses(&self, point: &Vec3) -> bool {
         self.shells.iter().any(|shell| {
             let angle: f64 = shell.iter().map(|t| solid_angle(&t.map(|corner| corner - point))).sum();
@@ -59,8 +62,8 @@ impl Solid {
         })
     }
 
-    /// Returns how deep a point (m) is in the parts of the solid, by the nearest way out of the one it is deepest in, m; 0
-    /// outside of all of them.
+    /// Returns the penetration depth of a point (m, in the link's frame), m: that in the part in which it is
+    /// deepest; 0 outside of all, and in the hollow of a mesh that is not convex.
     pub fn depth_of(&self, point: &Vec3) -> f64 {
         let point = Part::sphere(*point, 0.0);
         let depth = |part: &Part| -signed_distance(part, &point, &Pose::identity()).distance;

@@ -1,4 +1,4 @@
-//! Validation of shapes: which are solids, and the fault of those that are not.
+//! Validation of shapes: the conditions under which they are solids, and the faults of those that are not.
 
 use super::hull::extents;
 use super::pose::{Pose, Vec3};
@@ -10,9 +10,9 @@ use std::fmt;
 /// resolve.
 pub const THICKNESS_MIN: f64 = 1e-6;
 
-/// The greatest length, coordinate or distance of what is declared, m: 1 km. Double precision tells places at that
-/// distance apart to 1e-13 m, and squares of such distances to 1e-10 m², so that the tolerances of 1e-9 m hold there as
-/// they do near the origin.
+/// The greatest length, coordinate or distance of what is declared, m: 1 km. Double precision resolves positions at
+/// that distance to 1e-13 m, and squares of such distances to 1e-10 m², so that the tolerances of 1e-9 m hold there
+/// as they do near the origin.
 pub const EXTENT_MAX: f64 = 1e3;
 
 /// The most by which the norm of a direction or of a rotation may differ from 1: rounding.
@@ -21,7 +21,7 @@ pub const TOL_UNIT: f64 = 1e-6;
 /// The fault by which a shape is no solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsound {
-    /// A number that is not finite, or larger than [`EXTENT_MAX`].
+    /// A number that is not finite, or whose absolute value is larger than [`EXTENT_MAX`].
     NotFinite,
     /// The named size is zero, negative or less than [`THICKNESS_MIN`].
     TooThin {
@@ -30,27 +30,27 @@ pub enum Unsound {
         /// The extent, m.
         value: f64,
     },
-    /// The axis has no direction.
+    /// The axis has no direction: it is shorter than [`THICKNESS_MIN`].
     NoAxis,
-    /// Fewer than four points, or all in one plane.
+    /// Fewer than four points, or all in one plane to [`THICKNESS_MIN`].
     Flat,
-    /// A triangle names a vertex that there isn't.
+    /// A corner of a triangle is an index that is too large for the vertices.
     NoVertex {
-        /// Index of the triangle.
+        /// Index of the triangle, from 0.
         triangle: usize,
     },
-    /// An edge is not shared by two triangles in opposite directions.
+    /// An edge has not as many triangles in one direction as in the opposite one.
     Open {
-        /// Vertex at the start of the edge.
+        /// The lesser index of the edge's two vertices, from 0.
         a: u32,
-        /// Vertex at its end.
+        /// The greater index.
         b: u32,
     },
-    /// The triangles enclose nothing, or are turned inside out.
+    /// The triangles enclose less than the cube of [`THICKNESS_MIN`], or are turned inside out.
     NoInside,
-    /// No shape at all.
+    /// A list of shapes, or of vertices, with nothing in it.
     Empty,
-    /// A pose whose rotation is no unit quaternion.
+    /// A pose whose rotation is a quaternion with a norm that differs from 1 by [`TOL_UNIT`] or more.
     NotRigid,
 }
 
@@ -79,7 +79,7 @@ impl fmt::Display for Unsound {
 /// Checks that a shape is a solid that can be weighed and judged.
 ///
 /// # Errors
-/// Its first fault.
+/// Its first fault; of a union the first fault of a part or its pose.
 pub fn check(shape: &Shape) -> Result<(), Unsound> {
     match shape {
         Shape::Box { size } => {
@@ -129,7 +129,7 @@ pub fn check_pose(pose: &Pose) -> Result<(), Unsound> {
     if (norm - 1.0).abs() < TOL_UNIT { Ok(()) } else { Err(Unsound::NotRigid) }
 }
 
-/// Returns true if a position (m) is finite and not farther than [`EXTENT_MAX`] along any axis.
+/// Returns true if all coordinates (m) are finite and not farther from 0 than [`EXTENT_MAX`].
 pub fn in_reach(position: &[f64]) -> bool {
     position.iter().all(|c| c.abs() <= EXTENT_MAX)
 }

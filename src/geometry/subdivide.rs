@@ -6,26 +6,28 @@ use std::collections::BTreeMap;
 /// Vertices (m), and faces as indices among them.
 type Surface = (Vec<Vec3>, Vec<[usize; 3]>);
 
-/// The position of a new vertex: a corner, a point along an edge from its lower corner, or a point within a
-/// face. Faces that share an edge so share the vertices on it.
+/// The identity of a new vertex: a corner; a point along an edge, given by the lower and the higher corner and the
+/// number of steps from the lower one; or a point within a face. Faces that share an edge so share the vertices on
+/// it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Place {
+enum VertexKey {
     Corner(usize),
     Edge([usize; 2], usize),
     Face(usize, [usize; 2]),
 }
 
-/// Cuts every triangle of a mesh into `parts`² triangles of the same shape; the triangles of a face follow
-/// each other, and keep its sense. `parts` is at least 1.
+/// Returns the vertices (m) and faces (indices of vertices, from 0) of a mesh whose every triangle is cut into
+/// `parts`² similar ones, which follow each other and keep its orientation. `parts` is at least 1. Panics if a face
+/// has an index that is no vertex.
 pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
-    let mut found: BTreeMap<Place, usize> = BTreeMap::new();
+    let mut found: BTreeMap<VertexKey, usize> = BTreeMap::new();
     let mut points: Vec<Vec3> = Vec::new();
     let mut triangles = Vec::with_capacity(faces.len() * parts * parts);
     for (face, &corners) in faces.iter().enumerate() {
         let mut at = |i: usize, j: usize| {
             let weights = [parts - i - j, i, j];
-            let place = place(face, corners, weights, parts);
-            *found.entry(place).or_insert_with(|| {
+            let key = vertex_key(face, corners, weights, parts);
+            *found.entry(key).or_insert_with(|| {
                 let parted = corners.iter().zip(weights).map(|(c, w)| vertices[*c] * w as f64);
                 points.push(parted.sum::<Vec3>() / parts as f64);
                 points.len() - 1
@@ -43,16 +45,17 @@ pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surfa
     (points, triangles)
 }
 
-fn place(face: usize, corners: [usize; 3], weights: [usize; 3], parts: usize) -> Place {
+/// Returns the identity of the vertex with these barycentric weights, which sum up to `parts`, in a face.
+fn vertex_key(face: usize, corners: [usize; 3], weights: [usize; 3], parts: usize) -> VertexKey {
     if let Some(k) = weights.iter().position(|w| *w == parts) {
-        return Place::Corner(corners[k]);
+        return VertexKey::Corner(corners[k]);
     }
     match weights.iter().position(|w| *w == 0) {
         Some(k) => {
             let (a, b) = ((k + 1) % 3, (k + 2) % 3);
             let (low, high) = if corners[a] < corners[b] { (a, b) } else { (b, a) };
-            Place::Edge([corners[low], corners[high]], weights[high])
+            VertexKey::Edge([corners[low], corners[high]], weights[high])
         }
-        None => Place::Face(face, [weights[1], weights[2]]),
+        None => VertexKey::Face(face, [weights[1], weights[2]]),
     }
 }

@@ -12,14 +12,15 @@ use std::f64::consts::PI;
 pub struct Volume {
     /// The volume, m³.
     pub volume: f64,
-    /// The centroid, m.
+    /// The centroid, m, in the frame of the shape or of the poses that it was computed from.
     pub centre: Vec3,
-    /// Second moments `∫ p pᵀ dV` with p from the centroid, m⁵.
+    /// Second moments `∫ p pᵀ dV` with p from the centroid, along the axes of that frame, m⁵.
     pub second: Matrix3<f64>,
 }
 
 impl Volume {
-    /// Returns the inertia about the centroid at density one, `tr(S) 1 - S`, m⁵.
+    /// Returns the inertia tensor about the centroid for a density of 1, `tr(S) 1 - S`, m⁵: times the density in
+    /// kg/m³ it is in kg·m².
     pub fn inertia(&self) -> Matrix3<f64> {
         Matrix3::identity() * self.second.trace() - self.second
     }
@@ -52,7 +53,7 @@ impl Volume {
 /// Returns the moments of one shape in its own frame.
 ///
 /// # Errors
-/// Its fault, if it encloses no volume.
+/// The first fault of the shape ([`soundness::check`]).
 pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     soundness::check(shape)?;
     Ok(match shape {
@@ -78,10 +79,12 @@ pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     })
 }
 
-/// Returns the moments of several placed shapes together; an overlap counts as often as shapes share it.
+/// Returns the moments of several placed shapes together, in the frame of their poses; an overlap counts as often as
+/// shapes share it.
 ///
 /// # Errors
-/// The fault of a shape that encloses no volume, or [`Unsound::Empty`] where there is none.
+/// The first fault of a shape ([`soundness::check`]), or [`Unsound::Empty`] if there is none. Poses are taken as
+/// they are.
 pub fn of_placed(shapes: &[Placed]) -> Result<Volume, Unsound> {
     if shapes.is_empty() {
         return Err(Unsound::Empty);

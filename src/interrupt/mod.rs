@@ -35,12 +35,13 @@ struct Flags {
 type Waker = Box<dyn Fn() + Send>;
 
 impl CancelState {
-    /// Cancels the work: it unwinds at its next checkpoint.
+    /// Cancels the work, and that under every [`child`](Self::child): it unwinds at its next checkpoint.
     pub fn cancel(&self) {
         self.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Clears cancellation, abandonment and progress requests, before new work starts.
+    /// Clears cancellation, abandonment and progress requests of this token, not of its parent, before new work
+    /// starts.
     pub fn reset(&self) {
         self.resume_waiting();
         self.0.progress_requested.store(false, Ordering::Relaxed);
@@ -58,13 +59,14 @@ impl CancelState {
             || self.0.parent.as_ref().is_some_and(CancelState::is_cancelled)
     }
 
-    /// Returns a token of its own that is also cancelled whenever this one is, for helper threads.
+    /// Returns a new token, for helper threads, that is also cancelled whenever this one is. Cancelling it leaves
+    /// this one alone, and it has its own progress requests.
     pub fn child(&self) -> CancelState {
         CancelState(Arc::new(Flags { parent: Some(self.clone()), ..Flags::default() }))
     }
 
-    /// Abandons cancelled work: no thread waits for it any longer. Calls the function registered by
-    /// [`CancelState::on_abandon`].
+    /// Marks the work as abandoned: once it is cancelled, no thread waits for it any longer. Calls the function
+    /// registered by [`CancelState::on_abandon`], on this thread.
     pub fn abandon(&self) {
         self.0.abandoned.store(true, Ordering::Relaxed);
         if let Some(wake) = &*self.0.on_abandon.lock().unwrap_or_else(PoisonError::into_inner) {
@@ -113,7 +115,7 @@ struct Work {
     cancel_state: CancelState,
     /// Receives progress reports.
     progress_sink: Rc<dyn Fn(String)>,
-    /// The task at hand in words; the prefix of each report.
+    /// The name of the running task, the prefix of each report; empty if there is none.
     task: String,
 }
 
@@ -121,9 +123,9 @@ thread_local! {
     static WORK: RefCell<Option<Work>> = const { RefCell::new(None) };
 }
 
-/// Runs `work` on this thread under a cancellation token, and returns its result, or `None` when it was
-/// cancelled. `progress_sink` receives each progress report as one line of text. Calls may nest; a panic of
-/// the work goes on to the caller.
+/// Runs `work` on this thread under a cancellation token, and returns its result, or `None` when it was cancelled.
+/// `progress_sink` receives each progress report as one line of text. Calls may nest: the inner token and sink
+/// replace the outer ones until the inner work ends. A panic of the work goes on to the caller.
 pub fn catch<T>(
     cancel_state: &CancelState,
     progress_sink: impl Fn(String) + 'static,
@@ -148,18 +150,18 @@ pub fn checkpoint() {
     }
 }
 
-/// Returns the cancellation token of this thread's work; `None` outside of [`catch`].
+/// Returns the cancellation token of the innermost [`catch`] on this thread; `None` outside of it.
 pub fn current() -> Option<CancelState> {
     WORK.with_borrow(|work| work.as_ref().map(|work| work.cancel_state.clone()))
 }
 
-/// Unwinds to [`catch`], cancelled or not.
+/// Unwinds to [`catch`], cancelled or not. Outside of `catch` it unwinds the thread without a message.
 pub fn unwind() -> ! {
     resume_unwind(Box::new(Cancelled));
 }
 
-/// Starts a task by name (`folding 20 panels`), which progress reports are about from here on, and reports
-/// the name alone unless it is empty.
+/// Starts a task by name (`folding 20 panels`), which stands before the progress reports from here on, and reports
+/// the name alone unless it is empty. Does nothing outside of [`catch`].
 pub fn start_task(task: String) {
     let work = WORK.with_borrow_mut(|work| {
         let work = work.as_mut()?;
@@ -171,7 +173,8 @@ pub fn start_task(task: String) {
     }
 }
 
-/// Passes a [`checkpoint`], and reports progress if somebody requested it. `report` is called only then.
+/// Passes a [`checkpoint`], and reports progress if somebody requested it. `report` is called only then; its text
+/// follows the name of the task.
 pub fn progress_checkpoint(report: impl FnOnce() -> String) {
     checkpoint();
     if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.cancel_state.take_progress_request())) {
@@ -179,7 +182,8 @@ pub fn progress_checkpoint(report: impl FnOnce() -> String) {
     }
 }
 
-/// Reports progress, requested or not: for what happens seldom. The name of the task goes before it.
+/// Reports progress, requested or not: for what happens seldom. The name of the task goes before it. Does nothing
+/// outside of [`catch`].
 pub fn report_progress(report: String) {
     if let Some(work) = WORK.with_borrow(Clone::clone) {
         let line = if work.task.is_empty() { report } else { format!("{}: {report}", work.task) };

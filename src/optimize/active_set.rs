@@ -1,7 +1,8 @@
 //! Strictly convex quadratic programs by the dual active-set method of Goldfarb and Idnani (1983), for programs to
 //! which rows are added while they are being solved: each solution is warm-started from the active set of the last one.
 //!
-//! With `H = L Lᵀ`, `v = Lᵀ x`, `z = L⁻¹ a` the program is to find the point v nearest to `v₀ = -L⁻¹ c` with `z·v ≤ b`
+//! With `H = L Lᵀ`, `v = Lᵀ x`, `z = L⁻¹ a` the program is to find the point v nearest to `v₀ = -L⁻¹ c` with `z·v ≤
+//! b`
 //! for each row. The Gram matrix of the active rows' images z is kept as its Cholesky factor, which grows by a row
 //! where a row becomes active and is mended by Givens rotations where one is dropped.
 
@@ -10,7 +11,7 @@ use super::sparse_cholesky::SparseCholesky;
 
 /// The part of a row's squared length across the active rows below which it counts as a linear combination of them.
 const DEPENDENT: f64 = 1e-11;
-/// Changes of the active set, for each row, after which the method gives up.
+/// The number of rows that may enter the active set, for each row of the program, before the method gives up.
 const CHANGES_MAX: usize = 20;
 
 /// A sparse vector: the indices and values of its entries that are not zero.
@@ -32,7 +33,7 @@ impl Sparse {
     }
 }
 
-/// A constraint.
+/// A row `a·x = b` or `a·x ≤ b` of the program.
 struct Line {
     terms: Vec<(usize, f64)>,
     right: f64,
@@ -54,7 +55,7 @@ pub(super) struct ActiveSet {
     /// The unconstrained optimum v₀.
     free: Vec<f64>,
     lines: Vec<Line>,
-    /// The active rows with their multipliers, in the order of the factor's rows.
+    /// The active rows, and their Lagrange multipliers, in the order of the factor's rows.
     active: Vec<usize>,
     multipliers: Vec<f64>,
     /// The lower triangle C of the active rows' Gram matrix, `C Cᵀ`, by rows.
@@ -93,6 +94,10 @@ impl ActiveSet {
     }
 
     /// Returns the optimal x. Equalities enter first, then the most violated inequality again and again.
+    ///
+    /// # Errors
+    /// [`Unsolved::Infeasible`] where a violated row is a combination of active ones that can't give way,
+    /// [`Unsolved::Numerical`] where rounding loses an active row or the limit of changes is reached.
     pub(super) fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
         self.restart();
         for line in 0..self.lines.len() {
@@ -118,7 +123,8 @@ impl ActiveSet {
         self.lines.iter_mut().for_each(|line| line.active = false);
     }
 
-    /// Works out the multipliers for the right sides as they are now, and drops rows with negative ones.
+    /// Computes the multipliers for the right sides as they are now, and drops inequalities with negative ones, the
+    /// most negative first.
     fn restart(&mut self) {
         loop {
             let violations: Vec<f64> =
@@ -131,20 +137,20 @@ impl ActiveSet {
         }
     }
 
-    /// Returns by how much v₀ violates an active row.
+    /// Returns the amount by which v₀ violates an active row.
     fn violation_at_start(&self, line: usize) -> f64 {
         let line = &self.lines[line];
         line.image.as_ref().expect("active rows have images").2 - line.right
     }
 
-    /// Returns x for the multipliers as they are.
+    /// Returns x for the present multipliers.
     fn point(&mut self) -> Vec<f64> {
         let mut v = self.nearest();
         self.factor.solve_upper(&mut v);
         v
     }
 
-    /// Returns v for the multipliers as they are.
+    /// Returns v for the present multipliers.
     fn nearest(&self) -> Vec<f64> {
         let mut v = self.free.clone();
         for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
@@ -158,7 +164,7 @@ impl ActiveSet {
         self.active.iter().all(|line| self.lines[*line].over(x).abs() <= self.tolerance)
     }
 
-    /// Returns the inequality that x violates most, by more than the tolerance.
+    /// Returns the inequality that x violates most; `None` if x violates none by more than the tolerance.
     fn most_violated(&self, x: &[f64]) -> Option<usize> {
         let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
         let worst =
@@ -166,8 +172,11 @@ impl ActiveSet {
         worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
     }
 
-    /// Makes a row active, and drops those that block the step to it (step 2 of the dual algorithm): partial
-    /// steps up to the first multiplier that vanishes, then the full step.
+    /// Makes a row active, and drops those that block the step to it (step 2 of the dual algorithm): partial steps
+    /// up to the first multiplier that vanishes, then the full step.
+    ///
+    /// # Errors
+    /// [`Unsolved::Infeasible`] where the row depends on the active ones and none of them can be dropped.
     fn enter(&mut self, line: usize) -> Result<(), Unsolved> {
         self.make_image(line);
         let mut own = 0.0;
@@ -190,7 +199,8 @@ impl ActiveSet {
             self.work.fill(0.0);
             let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
             let equal = self.lines[line].equal;
-            // Downwards an equality pushes in the opposite direction.
+            // The sign of the row's own multiplier: an equality that v falls short of pushes in the opposite
+            // direction.
             let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };
             let may_block = falls.iter().zip(&self.multipliers).zip(&self.active).enumerate();
             let blocks =
@@ -225,7 +235,7 @@ impl ActiveSet {
         }
     }
 
-    /// Works out the image z of a row, if it is not known.
+    /// Computes the image z of a row, unless it is known.
     fn make_image(&mut self, line: usize) {
         let line = &mut self.lines[line];
         if line.image.is_some() {
@@ -244,8 +254,7 @@ impl ActiveSet {
         line.image = Some((image, square, along));
     }
 
-    /// Drops the row at an index of the active set: Givens rotations make the factor's later rows triangular
-    /// again.
+    /// Drops the row at an index of the active set; Givens rotations make the factor's later rows triangular again.
     fn leave(&mut self, place: usize) {
         self.lines[self.active.remove(place)].active = false;
         self.multipliers.remove(place);

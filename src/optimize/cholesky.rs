@@ -29,9 +29,11 @@ enum Summation {
 /// The treatment of a pivot that is not positive enough, so that the matrix is not positive definite within rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PivotRule {
-    /// The decomposition fails where a pivot is not above this part of the diagonal entry it comes from.
+    /// The decomposition fails where a pivot is not above this fraction (without unit) of the diagonal entry it
+    /// comes from.
     Refuse(f64),
-    /// The pivot is raised to this value, in the units of the matrix: the solution is damped instead of refused.
+    /// A lesser pivot is raised to this value, in the units of the matrix: the solution is damped instead of
+    /// refused.
     Raise(f64),
 }
 
@@ -42,13 +44,13 @@ pub struct Cholesky {
 }
 
 impl SymmetricMatrix {
-    /// Returns the zero matrix of a size with room for every entry.
+    /// Returns the zero matrix of `size` rows with room for every entry of the lower half.
     pub fn dense(size: usize) -> SymmetricMatrix {
         SymmetricMatrix { summation: Summation::InOrder, ..SymmetricMatrix::with_envelope(vec![0; size]) }
     }
 
-    /// Returns the zero matrix whose row `i` has room for the columns from `first[i]`. Panics if `first[i]`
-    /// is greater than `i`.
+    /// Returns the zero matrix with one row for each entry of `first`, where row `i` has room for the columns from
+    /// `first[i]` to `i`. Panics if `first[i]` is greater than `i`.
     pub fn with_envelope(first: Vec<usize>) -> SymmetricMatrix {
         let mut start = Vec::with_capacity(first.len() + 1);
         start.push(0);
@@ -66,7 +68,7 @@ impl SymmetricMatrix {
         self.first.len()
     }
 
-    /// Returns the first column of a row's envelope.
+    /// Returns the first column of a row's envelope; both count from 0.
     #[inline]
     pub fn first(&self, row: usize) -> usize {
         self.first[row]
@@ -78,30 +80,31 @@ impl SymmetricMatrix {
         &self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Returns a row's entries from the first column of its envelope up to the diagonal.
+    /// Returns a row's entries, to be changed, from the first column of its envelope up to the diagonal.
     #[inline]
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Adds to the entry at a row and column of the lower half, which must lie in the envelope.
+    /// Adds to the entry at a row and column. Panics unless the entry lies in the envelope of the lower half.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let first = self.first[row];
         self.row_mut(row)[column - first] += value;
     }
 
-    /// Returns the sum of the diagonal.
+    /// Returns the sum of the diagonal entries.
     pub fn trace(&self) -> f64 {
         (0..self.size()).map(|row| self.values[self.start[row + 1] - 1]).sum()
     }
 
-    /// Returns the multiplications that a decomposition takes, to the leading order.
+    /// Returns the number of multiplications that a decomposition takes, to the leading order.
     pub fn work(&self) -> usize {
         self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
     }
 
-    /// Decomposes the matrix in place. Returns `None` where the rule refuses a pivot.
+    /// Decomposes the matrix in place. Returns `None` where the rule refuses a pivot; [`PivotRule::Raise`] refuses
+    /// none.
     pub fn cholesky(mut self, rule: PivotRule) -> Option<Cholesky> {
         for i in 0..self.size() {
             let (done, rest) = self.values.split_at_mut(self.start[i]);
@@ -138,7 +141,8 @@ impl Cholesky {
         &self.lower
     }
 
-    /// Replaces `b` by `L⁻¹ b` (forward substitution). Leading zeros of `b` stay zeros and cost nothing.
+    /// Replaces `b`, with an entry for every row, by `L⁻¹ b` (forward substitution). Leading zeros of `b` stay zeros
+    /// and cost nothing.
     pub fn solve_lower(&self, b: &mut [f64]) {
         let begin = b.iter().position(|value| *value != 0.0).unwrap_or(b.len());
         for i in begin..b.len() {
@@ -149,7 +153,7 @@ impl Cholesky {
         }
     }
 
-    /// Replaces `y` by `L⁻ᵀ y` (backward substitution).
+    /// Replaces `y`, with an entry for every row, by `L⁻ᵀ y` (backward substitution).
     pub fn solve_upper(&self, y: &mut [f64]) {
         match self.lower.summation {
             Summation::InOrder => self.solve_upper_by_columns(y),
@@ -176,7 +180,7 @@ impl Cholesky {
         }
     }
 
-    /// Replaces the right side `b` by the solution of `A x = b`.
+    /// Replaces the right side `b`, with an entry for every row, by the solution of `A x = b`.
     pub fn solve(&self, b: &mut [f64]) {
         self.solve_lower(b);
         self.solve_upper(b);

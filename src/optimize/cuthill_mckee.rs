@@ -1,10 +1,10 @@
 //! The order of Cuthill and McKee (1969): rows of a sparse symmetric matrix numbered so that entries keep near the
 //! diagonal, in a narrow band or a small envelope.
 
-/// Numbers the rows that are connected with `start`, breadth first; of the neighbours of a row those with
-/// fewer neighbours come first, and of these those of smaller index. Appends them to `order` and marks them
-/// in `known`, where `start` must not be marked yet. `neighbours` lists for each row the others with which it
-/// shares an entry.
+/// Numbers the rows that are connected with `start`, breadth first; of the neighbours of a row those with fewer
+/// neighbours come first, and of these those of smaller index. Appends them to `order` and marks them in `known`,
+/// which has a flag for every row, and where `start` must not be marked yet. `neighbours` lists for each row the
+/// others with which it shares an entry, as [`neighbours()`] does.
 pub fn number_from(start: usize, neighbours: &[Vec<usize>], known: &mut [bool], order: &mut Vec<usize>) {
     known[start] = true;
     let mut at = order.len();
@@ -19,7 +19,7 @@ pub fn number_from(start: usize, neighbours: &[Vec<usize>], known: &mut [bool], 
 }
 
 /// Returns for each of n rows the others with which it shares an entry, ascending; `entries` are (row, column) on
-/// either side of the diagonal, in any order and number.
+/// either side of the diagonal, in any order and number. Panics if an index is not less than `n`.
 pub fn neighbours(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Vec<Vec<usize>> {
     let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); n];
     for (i, j) in entries.filter(|(i, j)| i != j) {
@@ -33,9 +33,10 @@ pub fn neighbours(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Ve
     neighbours
 }
 
-/// Returns the reverse order of Cuthill and McKee of a matrix with entries at these indices (row, column)
-/// (George 1971): it has the same band and an envelope that is never larger. Every connected component begins
-/// at a row of fewest neighbours.
+/// Returns the rows of a symmetric matrix in the reverse order of Cuthill and McKee (George 1971): the entry at k is
+/// the row that comes k-th. `n`: the number of rows; `entries`: as for [`neighbours`]. The band is that of the order
+/// of Cuthill and McKee, and the envelope never larger. Every connected component ends at a row of fewest
+/// neighbours. Panics if an index is not less than `n`.
 pub fn reverse_order(n: usize, entries: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
     let neighbours = neighbours(n, entries);
     let mut order = Vec::with_capacity(n);

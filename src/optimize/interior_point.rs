@@ -6,10 +6,13 @@ use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT,
 };
 
-/// Iterations of the solver at most.
+/// The greatest number of iterations of the solver.
 const ITERATIONS_MAX: u32 = 200;
 
-/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds what of H is on and above the diagonal.
+/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds the entries of H on and above the diagonal.
+///
+/// # Errors
+/// The status of the solver where it found no solution, also an approximate one.
 pub(super) fn solve(
     hessian: &CscMatrix,
     costs: &[f64],

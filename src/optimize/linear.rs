@@ -4,10 +4,11 @@
 use super::interior_point;
 use clarabel::algebra::CscMatrix;
 
-/// A row `Σ coefficient · x[column]` of a constraint: terms (column, coefficient), and the value on the right.
+/// A row `Σ coefficient · x[column]` of a constraint: terms (column, coefficient), with columns from 0, and the
+/// value on the right.
 pub type Row = (Vec<(usize, f64)>, f64);
 
-/// The linear program `min c·x` subject to `E x = e` and `G x ≤ g`.
+/// The linear program `min c·x` subject to `E x = e` and `G x ≤ g`. Variables are free: their bounds are rows.
 #[derive(Clone, Debug, Default)]
 pub struct LinearProgram {
     /// c, one cost for every variable.
@@ -18,32 +19,33 @@ pub struct LinearProgram {
     pub at_most: Vec<Row>,
 }
 
-/// A solution with its Lagrange multipliers: `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, as nearly as the solver gets.
+/// A solution with its Lagrange multipliers: `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, to the solver's tolerance.
 #[derive(Clone, Debug)]
 pub struct LinearSolution {
-    /// The variables.
+    /// The variables, in the order of [`LinearProgram::costs`].
     pub x: Vec<f64>,
-    /// The multiplier of each equality.
+    /// The Lagrange multiplier of each equality.
     pub y: Vec<f64>,
-    /// The multiplier of each inequality; 0 where it is not active.
+    /// The Lagrange multiplier of each inequality; 0, to the tolerance, where it is not active.
     pub z: Vec<f64>,
 }
 
-/// The reason that a program has no solution.
+/// The reason that a program has no solution, as the solver found it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsolved {
     /// No x meets the constraints.
     Infeasible,
     /// The costs have no lower bound.
     Unbounded,
-    /// The solver did not converge.
+    /// The solver did not converge, or refused the numbers.
     Numerical,
 }
 
 /// Solves a linear program.
 ///
 /// # Errors
-/// The status of the solver where it found no solution. `Infeasible` and `Unbounded` hold to its tolerance of 1e-8.
+/// The status of the solver where it found no solution. A status, and a solution, holds to the solver's tolerance:
+/// 1e-8, or 5e-5 (the rows 1e-4) where it could get no nearer.
 pub fn solve_linear_program(problem: &LinearProgram) -> Result<LinearSolution, Unsolved> {
     crate::interrupt::checkpoint();
     let n = problem.costs.len();

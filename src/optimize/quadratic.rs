@@ -1,17 +1,19 @@
 //! Convex quadratic programs that grow: rows are added, or their right sides changed, between solutions.
 //!
-//! Small ones, and those whose H is nearly diagonal, are solved by a dual active-set method that goes on from the last
-//! solution ([`super::active_set`]); others, and those that it can't solve, by an interior-point method from the start.
+//! Small ones, and those whose H is nearly diagonal, are solved by a dual active-set method that goes on from the
+//! last solution and its Lagrange multipliers ([`super::active_set`]); others, and those that it can't solve, by an
+//! interior-point method from the start.
 
 use super::active_set::ActiveSet;
 use super::interior_point;
 use super::linear::{Row, Unsolved};
 use super::sparse_cholesky::SparseCholesky;
 
-/// Multiplications to decompose H up to which the active-set method was measured to be the faster.
+/// The greatest number of multiplications to decompose H for which the active-set method is used: up to there it was
+/// measured to be the faster.
 const WORK_MAX: usize = 400_000_000;
 
-/// The quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows come one by one.
+/// The convex quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows come one by one.
 pub struct QuadraticProgram {
     /// The entries of the positive semidefinite H on and above the diagonal; those with equal indices are
     /// summed.
@@ -25,21 +27,23 @@ pub struct QuadraticProgram {
 }
 
 impl QuadraticProgram {
-    /// Returns the program without constraints. `hessian`: entries (row, column, value) of the positive
-    /// semidefinite H on and above the diagonal, of which those with equal indices are summed; `linear`: c,
-    /// one entry for every variable; `tolerance`: how far rows may be off, in the units of their right sides.
+    /// Returns the program without constraints. `hessian`: entries (row, column, value) of the positive semidefinite
+    /// H on and above the diagonal, with indices from 0, of which those with equal indices are summed; `linear`: c,
+    /// one entry for every variable; `tolerance`: the most by which the active-set method may leave a row violated,
+    /// in the units of its right side.
     pub fn new(hessian: Vec<(usize, usize, f64)>, linear: Vec<f64>, tolerance: f64) -> QuadraticProgram {
         let factor = SparseCholesky::new(linear.len(), &hessian, WORK_MAX);
         let active = factor.map(|factor| ActiveSet::new(factor, &linear, tolerance));
         QuadraticProgram { hessian, linear, rows: Vec::new(), active }
     }
 
-    /// Adds an equality `a·x = b`.
+    /// Adds an equality `a·x = b`, which takes the next row number.
     pub fn equal(&mut self, row: Row) {
         self.add(row, true);
     }
 
-    /// Adds an inequality `a·x ≤ b`. Returns its number, for [`set`](Self::set).
+    /// Adds an inequality `a·x ≤ b`. Returns its row number, for [`set`](Self::set): rows of both sorts are counted
+    /// from 0.
     pub fn at_most(&mut self, row: Row) -> usize {
         self.add(row, false)
     }
@@ -52,7 +56,7 @@ impl QuadraticProgram {
         self.rows.len() - 1
     }
 
-    /// Changes the right side of a row.
+    /// Changes the right side of the row of this number. Panics if there is no such row.
     pub fn set(&mut self, row: usize, right: f64) {
         self.rows[row].0.1 = right;
         if let Some(active) = &mut self.active {
@@ -60,11 +64,11 @@ impl QuadraticProgram {
         }
     }
 
-    /// Returns the optimal x for the rows as they are now.
+    /// Returns the optimal x for the rows as they are now, one entry for every variable.
     ///
     /// # Errors
-    /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that
-    /// rounding hides.
+    /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that rounding
+    /// hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
         // The other method decides where the active-set method fails, for rounding may hide the solution; if
         // that can't, either, the first result holds.

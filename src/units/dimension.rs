@@ -21,8 +21,8 @@ const fn dim(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
     Dimension { length, mass, time, angle, param: 0 }
 }
 
-/// The named dimensions. Torque and energy are one dimension under two names; the first name that
-/// fits is the one shown.
+/// The dimensions with a name that programs can write. Torque and energy are one dimension under two names; the
+/// first name that fits is the one shown.
 pub const NAMED: &[(&str, Dimension)] = &[
     ("Number", Dimension::NUMBER),
     ("Length", Dimension::LENGTH),
@@ -72,12 +72,12 @@ impl Dimension {
     /// Frequency, Hz.
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
-    /// Returns the dimension with this name, such as `AngularSpeed`.
+    /// Returns the dimension with this name, such as `AngularSpeed`; `None` if none has it.
     pub fn named(name: &str) -> Option<Dimension> {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
 
-    /// Returns the name of this dimension, if it has one.
+    /// Returns the name of this dimension, the first of [`NAMED`] that fits; `None` if it has none.
     pub fn name(self) -> Option<&'static str> {
         NAMED.iter().find(|(_, d)| *d == self).map(|(n, _)| *n)
     }
@@ -126,10 +126,10 @@ impl Dimension {
         })
     }
 
-    /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one
-    /// that radians were dropped from. Radians are dropped, never invented, and only where a length
-    /// or a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular
-    /// speed no frequency. Nothing is dropped from a dimension that is not known.
+    /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one that
+    /// positive powers of the radian were dropped from. Radians are dropped, never invented, and only if a length or
+    /// a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular speed no frequency.
+    /// Nothing is dropped from a dimension that is not known.
     pub fn fits(self, wanted: Dimension) -> bool {
         self == wanted
             || (self.angle > 0
@@ -139,7 +139,7 @@ impl Dimension {
                 && Dimension { angle: 0, ..self } == wanted)
     }
 
-    /// Returns the dimension that both fit, if there is one.
+    /// Returns the dimension that both fit; `None` if there is none.
     pub fn common(self, other: Dimension) -> Option<Dimension> {
         if self.fits(other) {
             Some(other)

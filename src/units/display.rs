@@ -3,8 +3,8 @@
 use super::dimension::Dimension;
 use super::table::{UNITS, to_si};
 
-/// Returns a value in SI as text with a fitting unit: `76 mm` is shown as `76mm`, as it would be written.
-/// Six significant digits; a dimension without a name is shown in base units (`0.25kg*m^2`).
+/// Returns a value in SI as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in degrees.
+/// Digits as of [`number`]; a dimension without a usual unit is shown in base units (`0.25kg*m^2`).
 pub fn quantity(value: f64, dimension: Dimension) -> String {
     if dimension == Dimension::NUMBER {
         return number(value);
@@ -13,7 +13,8 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
-/// Returns a plain number as text: up to six significant digits, no trailing zeros, exponent only when far from one.
+/// Returns a plain number as text without trailing zeros: six significant digits, but always the whole part in full;
+/// with an exponent below 1e-5 and from 1e15. A number that is not finite is `inf`, `-inf` or `NaN`.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -40,7 +41,8 @@ fn trim_zeros(text: &str) -> &str {
     }
 }
 
-/// Returns the unit to show a value of a dimension in, with its factor to SI: the largest in which the value reaches 1.
+/// Returns the unit to show a value of a dimension in, with its factor to SI: the largest in which the value reaches
+/// 1, else the smallest; base units if none is usual.
 pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     const DEG: f64 = std::f64::consts::PI / 180.0;
     let units: &[(&str, f64)] = match dimension.name() {
@@ -61,8 +63,8 @@ pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     (name.to_string(), factor)
 }
 
-/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`; `D` is a dimension
-/// parameter.
+/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`, `s^-2`; nothing for a plain
+/// number. `D` is a dimension parameter.
 pub fn base_units(dimension: Dimension) -> String {
     let parts = [
         ("D", dimension.param),
@@ -85,7 +87,8 @@ pub fn base_units(dimension: Dimension) -> String {
     }
 }
 
-/// Returns the usual unit of a dimension, for messages: `rad/s` for an angular speed.
+/// Returns the usual unit of a dimension, for messages: `rad/s` for an angular speed, base units if none is usual;
+/// nothing for a plain number.
 pub fn usual_unit(dimension: Dimension) -> String {
     match dimension.name() {
         Some("Number") => String::new(),

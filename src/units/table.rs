@@ -2,14 +2,14 @@
 
 use super::dimension::Dimension;
 
-/// A unit: `value_si = value * factor`.
+/// A unit of measure, which programs write behind a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     /// The name as written, such as `mm`.
     pub name: &'static str,
-    /// The dimension of what it measures.
+    /// The dimension of the quantities that it measures.
     pub dimension: Dimension,
-    /// One of it in SI.
+    /// The value of one such unit in SI: `value_si = value * factor`.
     pub factor: f64,
 }
 
@@ -19,8 +19,8 @@ const fn u(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
 
 const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0, param: 0 };
 
-/// Every unit. Factors below one are written as quotients, so that `76mm` is exactly `76 / 1000`
-/// rounded once (see [`to_si`]).
+/// Every unit of the language. Values are converted by [`to_si`], so that `76mm` is exactly `76 / 1000` rounded
+/// once.
 pub const UNITS: &[Unit] = &[
     u("nm", Dimension::LENGTH, 1e-9),
     u("um", Dimension::LENGTH, 1e-6),
@@ -49,7 +49,7 @@ pub const UNITS: &[Unit] = &[
     u("Hz", Dimension::FREQUENCY, 1.0),
 ];
 
-/// Returns the unit with this name.
+/// Returns the unit with this name, such as `mm`; `None` if there is none.
 pub fn unit(name: &str) -> Option<Unit> {
     UNITS.iter().copied().find(|unit| unit.name == name)
 }
