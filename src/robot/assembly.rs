@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A robot: modules, and every bond between them that exists at some time.
+/// A robot: modules, and every bond between them that exists at some time. Indices count from 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Assembly {
@@ -22,7 +22,7 @@ pub struct Assembly {
     pub modules: Vec<ModuleInstance>,
     /// Every bond that exists at some time; which ones do at the moment is part of the state.
     pub bonds: Vec<Bond>,
-    /// The module whose body frame is drawn upright at the start, and whose pose is reported.
+    /// The index of the module whose body frame is drawn upright at the start, and whose pose is reported.
     pub base: usize,
     /// True if the connections may close loops.
     pub closed: bool,
@@ -48,7 +48,8 @@ pub struct PortRef {
     pub port: usize,
 }
 
-/// Port `b` docked to port `a` with a turn: `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`, P at `a`.
+/// A bond: port `b` is docked to port `a`. With P at `a` and Q at `b`, `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`
+/// with the `turns` of the connector; if that has a hinge at q, `Rot(axis, q)` stands before it ([`Hinge`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bond {
@@ -68,25 +69,25 @@ pub struct JointId(pub u32);
 /// The owner of a joint in the assembly: a module or a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum JointOwner {
-    /// Module and index in its `joints`. Fixed joints are listed too, so that numbering is plain;
-    /// they and mimics take no commands, and what the state holds for them is ignored.
+    /// A joint of a module. Fixed joints are listed too, so that numbering is plain; they and mimics take no
+    /// commands, and what the state holds for them is ignored.
     Module {
-        /// Index of the module.
+        /// Index of the module in [`Assembly::modules`].
         module: usize,
-        /// Index among the joints of its type.
+        /// Index of the joint in [`ModuleType::joints`](super::ModuleType::joints).
         joint: usize,
     },
-    /// The hinge of a bond.
+    /// The hinge of the bond of this index in [`Assembly::bonds`].
     Bond(usize),
 }
 
-/// The positions of all joints, the bonds that hold, and the pose of the base.
+/// The state of a robot: the positions of all joints, the bonds that hold, and the pose of the base.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    /// One position for every [`JointId`], radians or metres.
+    /// One position for every [`JointId`], radians or metres; those of fixed joints and mimics are ignored.
     pub joints: Vec<f64>,
-    /// One flag for every bond of the assembly.
+    /// One flag for every bond of the assembly: true if it holds.
     pub bonds: Vec<bool>,
     /// World pose of the base module's body, `X_WB`.
     #[serde(with = "crate::geometry::json")]
@@ -95,7 +96,7 @@ pub struct State {
 }
 
 impl Assembly {
-    /// Returns the type of a module.
+    /// Returns the type of the module of an index. Panics if there is no such module.
     pub fn module_type(&self, module: usize) -> &ModuleType {
         &self.library.modules[self.modules[module].kind]
     }
@@ -110,14 +111,16 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
-    /// Returns the hinge of a bond, that of the connector at its first port; `None` for a bond that does not turn.
+    /// Returns the hinge of a bond (by index), that of the connector at its first port; `None` for a bond that does
+    /// not turn.
     pub fn hinge(&self, bond: usize) -> Option<&Hinge> {
         let a = self.bonds[bond].a;
         let connector = self.module_type(a.module).ports[a.port].connector;
         self.library.connectors[connector].hinge.as_ref()
     }
 
-    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports.
+    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports: `a.front
+    /// -- b.back`.
     pub fn joint_name(&self, owner: JointOwner) -> String {
         match owner {
             JointOwner::Module { module, joint } => {

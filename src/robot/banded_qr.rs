@@ -11,7 +11,7 @@ use crate::optimize::cuthill_mckee;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// Iterations for the least singular value at most.
+/// The greatest number of iterations for the least singular value.
 const ITERATIONS_MAX: usize = 300;
 /// Dimension of the subspace that is iterated towards the weakest directions.
 const SUBSPACE: usize = 8;
@@ -29,10 +29,10 @@ pub(super) struct RigidityReport {
 /// Examines a truss with nodes at these positions (m); `None` where it is not rigid, or not clearly.
 pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
     let order = cuthill_mckee_order(nodes.len(), struts);
-    let mut place = vec![0; nodes.len()];
-    order.iter().enumerate().for_each(|(at, &node)| place[node] = at);
+    let mut position = vec![0; nodes.len()];
+    order.iter().enumerate().for_each(|(at, &node)| position[node] = at);
     let nodes: Vec<Vec3> = order.iter().map(|&node| nodes[node]).collect();
-    let ends = |&(a, b): &(usize, usize)| (place[a].min(place[b]), place[a].max(place[b]));
+    let ends = |&(a, b): &(usize, usize)| (position[a].min(position[b]), position[a].max(position[b]));
     let struts: Vec<(usize, usize)> = struts.iter().map(ends).collect();
     let mean = struts.iter().map(|&(a, b)| (nodes[a] - nodes[b]).norm()).sum::<f64>() / struts.len() as f64;
     let rows: Vec<Row> =
@@ -74,7 +74,7 @@ fn cuthill_mckee_order(count: usize, struts: &[(usize, usize)]) -> Vec<usize> {
     // The last one reached from anywhere lies at an end.
     let end = from(0).last().copied().unwrap_or(0);
     let mut order = from(end);
-    // Nodes that no struts connect with it come behind.
+    // Nodes that no struts connect with it come last.
     let reached: BTreeSet<usize> = order.iter().copied().collect();
     order.extend((0..count).filter(|node| !reached.contains(node)));
     order
@@ -218,8 +218,8 @@ impl BandedQr {
         }
     }
 
-    /// Returns the leverage of a row, the part of it that lies in no span of the others: 1 for a strut that
-    /// is needed. The pinning rows span nothing that struts do, so they do not change it.
+    /// Returns the leverage of a row, the squared length of its projection onto the complement of the others, from 0
+    /// to 1: 1 for a strut that is needed. The pinning rows span nothing that struts do, so they do not change it.
     fn leverage(&self, row: &Row) -> f64 {
         let mut b = DVector::zeros(self.columns);
         row.add_to(1.0, &mut b);
@@ -286,7 +286,7 @@ fn largest_singular_value(rows: &[Row], columns: usize) -> f64 {
     value
 }
 
-/// Returns the value to which an iteration converges; `None` where it does not.
+/// Returns the value to which an iteration converges; `None` where it does not within the limit, or is not finite.
 fn converged(step: &mut dyn FnMut() -> f64) -> Option<f64> {
     let (mut before, mut times) = (f64::INFINITY, 0);
     for _ in 0..ITERATIONS_MAX {

@@ -1,4 +1,4 @@
-//! Faults of declarations: why a module, a connector, a cell or a strut is not sound.
+//! Faults of declarations: the reasons why a module, a connector, a cell or a strut is not sound.
 
 use crate::geometry::Unsound;
 use std::fmt;
@@ -8,59 +8,59 @@ use std::fmt;
 pub enum LibraryFault {
     /// A fault of a declaration.
     Declaration {
-        /// The kind of declaration: `module`.
+        /// The kind of declaration: `connector`, `module`, `cell` or `strut`.
         kind: &'static str,
-        /// Its name.
+        /// The declared name.
         name: String,
-        /// The fault.
+        /// The fault of the declaration.
         fault: Box<LibraryFault>,
     },
     /// A fault of a part of a module.
     Inside {
-        /// The part.
+        /// The part, by its index.
         part: ModulePart,
-        /// Its name.
+        /// The declared name of the part.
         name: String,
-        /// The fault.
+        /// The fault of the part.
         fault: Box<LibraryFault>,
     },
     /// An index into a list of things of one sort that is too large for the list.
     Index {
-        /// The sort of things in the list.
+        /// The sort of things in the list, as a word: `link`.
         what: &'static str,
-        /// The index.
+        /// The index, from 0.
         index: usize,
         /// The length of the list.
         count: usize,
     },
-    /// A quantity that is zero, negative or no number.
+    /// A quantity that must be positive, and is zero, negative or no number.
     NotPositive {
-        /// The quantity.
+        /// The quantity in words.
         what: &'static str,
         /// Its value in SI units.
         value: f64,
     },
-    /// A quantity that is negative or no number.
+    /// A quantity that must not be negative, and is so or is no number.
     Negative {
-        /// The quantity.
+        /// The quantity in words.
         what: &'static str,
         /// Its value in SI units.
         value: f64,
     },
-    /// A quantity beyond its named limit.
+    /// A quantity whose absolute value is above its limit, or that is no number.
     Bound {
-        /// The quantity.
+        /// The quantity in words.
         what: &'static str,
         /// Its value in SI units.
         value: f64,
-        /// The greatest absolute value.
+        /// The greatest absolute value that is allowed, in SI units.
         most: f64,
     },
     /// A connector with no allowed turn, or with too many.
     Turns {
         /// The number of turns.
         turns: u32,
-        /// The greatest number.
+        /// The greatest number that is allowed.
         most: u32,
     },
     /// A connector that mates another, which does not mate it.
@@ -77,16 +77,16 @@ pub enum LibraryFault {
     NoLink,
     /// A shape that is no solid, or a pose that is none.
     Shape(Unsound),
-    /// A drawn shape that sticks out of the shape that is judged, farther than the link says.
+    /// A drawn shape that sticks out of the shape that is judged, farther than the link states.
     LeftOut {
-        /// The distance by which it does, m.
+        /// A lower bound on the distance by which it does, m.
         found: f64,
         /// The distance that the link states, m.
-        told: f64,
+        stated: f64,
     },
     /// A centre of mass outside the box around its module.
     MassOutside {
-        /// The distance from the box, m.
+        /// The greatest distance from the box along one of its axes, m.
         outside: f64,
     },
     /// An inertia of a link without mass.
@@ -98,7 +98,7 @@ pub enum LibraryFault {
     },
     /// Principal moments of which one is more than the other two together.
     InertiaTriangle {
-        /// In ascending order, kg·m².
+        /// The principal moments in ascending order, kg·m².
         moments: [f64; 3],
     },
     /// A principal moment that no body of this mass within the module has.
@@ -108,28 +108,28 @@ pub enum LibraryFault {
         /// The moment of all of the mass at the farthest corner of the module, kg·m².
         bound: f64,
     },
-    /// A link that two joints of its module carry, or the body, which none may.
+    /// A joint that carries a link that another joint of the module carries, or the body, which none may.
     SharedLink,
     /// A link that no joints connect with the body.
     LooseLink,
-    /// An axis that is no unit vector.
+    /// An axis that is no unit vector, to 1e-6.
     Axis,
     /// A range that ends before it begins.
     RangeOrder,
-    /// A joint that follows itself, over others.
+    /// A joint that follows itself, directly or over others.
     MimicCycle,
     /// A joint that follows others over too many steps.
     MimicDepth {
-        /// The greatest number of steps.
+        /// The greatest number of steps that is allowed.
         most: usize,
     },
-    /// A cell that does not become smaller when it contracts.
+    /// A cell whose contracted edge is not shorter than its expanded one.
     NoShrinking,
     /// A strut whose greatest length is not larger than its least.
     NoLengthRange,
 }
 
-/// A part of a module, by its index among those of its sort.
+/// A part of a module, by its index, from 0, among those of its sort.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModulePart {
     /// Index in [`ModuleType::links`](super::ModuleType::links).
@@ -143,7 +143,7 @@ pub enum ModulePart {
 }
 
 impl ModulePart {
-    /// Returns the word for parts of its sort.
+    /// Returns the word for its sort: `link`, `joint`, `motor` or `port`.
     pub fn word(self) -> &'static str {
         match self {
             ModulePart::Link(_) => "link",
@@ -165,7 +165,8 @@ impl LibraryFault {
         LibraryFault::Inside { part, name: name.to_owned(), fault: Box::new(self) }
     }
 
-    /// Returns the part of a module that has the fault; `None` where the module as a whole has it.
+    /// Returns the part of a module that has the fault, if this is a [`LibraryFault::Inside`]; `None` for a fault of
+    /// a module as a whole, and for a fault that is wrapped in its declaration.
     pub fn part(&self) -> Option<ModulePart> {
         match self {
             LibraryFault::Inside { part, .. } => Some(*part),
@@ -200,9 +201,9 @@ impl fmt::Display for LibraryFault {
             LibraryFault::MateTurns { other } => write!(f, "it mates `{other}`, which has other turns"),
             LibraryFault::NoLink => write!(f, "it has no link"),
             LibraryFault::Shape(unsound) => write!(f, "a shape or pose: {unsound}"),
-            LibraryFault::LeftOut { found, told } => write!(
+            LibraryFault::LeftOut { found, stated } => write!(
                 f,
-                "what is drawn sticks at least {found:.6} m out of what is judged, and {told} m are stated"
+                "what is drawn sticks at least {found:.6} m out of what is judged, and {stated} m are stated"
             ),
             LibraryFault::MassOutside { outside } => {
                 write!(f, "its centre of mass is {outside} m outside of the module")

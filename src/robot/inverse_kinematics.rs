@@ -10,10 +10,11 @@
 //!
 //!   minimise over Δq: |Δq − Δq₀|² + |J Δq − e|² / λ   subject to Δq within the limits, A Δq ≥ b
 //!
-//! where Δq₀ is the preferred change (what of it leaves the task alone is kept: it acts in the null space of J), in the
-//! dual form `Δq = Δq₀ + Jᵀ y`, `(J Jᵀ + λ) y = e − J Δq₀`: a system of the size of the task, decomposed by Cholesky
-//! ([`crate::optimize::cholesky`]). The inequalities are rows beside those of J by an active-set method: what is
-//! violated is taken in, and what would pull is dropped. A joint at its limit is fixed for the rest of the step.
+//! where Δq₀ is the preferred change (the part of it that leaves the task alone is kept: it acts in the null space
+//! of J), in the dual form `Δq = Δq₀ + Jᵀ y`, `(J Jᵀ + λ) y = e − J Δq₀`: a system of the size of the task,
+//! decomposed by Cholesky ([`crate::optimize::cholesky`]). The inequalities are rows beside those of J by an
+//! active-set method: violated ones are taken in, and those that would pull are dropped. A joint at its limit is
+//! fixed for the rest of the step.
 
 use super::assembly::{Assembly, JointOwner};
 use super::jacobian::{LinkFrame, geometric_jacobian};
@@ -26,10 +27,10 @@ use crate::interrupt;
 use crate::optimize::cholesky::{PivotRule, SymmetricMatrix};
 use nalgebra::{DMatrix, Vector6};
 
-/// A linear condition on the changes of joints: `Σ factor · Δq[joint] = goal`, or at least that.
+/// A linear condition on the changes of joints: `Σ factor · Δq[joint] = goal` in a task, `≥ goal` in an inequality.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
-    /// Joint and factor; a joint may stand more than once, and its factors are then summed.
+    /// Joint, by its index from 0, and factor; a joint may stand more than once, and its factors are then summed.
     pub terms: Vec<(usize, f64)>,
     /// The value on the right, in the unit of the factors times that of the joints.
     pub goal: f64,
@@ -38,57 +39,61 @@ pub struct Row {
 /// The state of a descent at some joint positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The squared norm of the residual of the task: it sets the damping.
+    /// The squared norm of the residual of the task, in the squared unit of its rows: it sets the damping.
     pub residual_squared: f64,
-    /// The figure that is to become less from iteration to iteration: residual and violations of inequalities together.
+    /// The figure that is to become less from iteration to iteration, not negative: residual and violations of
+    /// inequalities together.
     pub merit: f64,
     /// True where the task is fulfilled.
     pub converged: bool,
 }
 
-/// The problem that [`solve`] solves. Joint positions are numbered as the problem chooses; every method after
-/// [`evaluate`](IkProblem::evaluate) is about the positions given there last.
+/// The problem that [`solve`] solves. Joints are numbered from 0 as the problem chooses, positions are in rad or m;
+/// every method after [`evaluate`](IkProblem::evaluate) is about the positions given there last.
 pub trait IkProblem {
-    /// Works out what the other methods need at these joint positions; `iteration` counts from 0.
+    /// Evaluates the problem at these joint positions, also for the other methods; `iteration` counts from 0.
     fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation;
 
-    /// Returns the rows of the task: `J Δq = e`, with the residual e (wanted less found) cut to what one step can do.
+    /// Returns the rows of the task: `J Δq = e`, with the residual e (wanted less found) cut to an amount that one
+    /// step can correct.
     fn task(&self) -> Vec<Row>;
 
-    /// Returns the preferred change Δq₀ of every joint: the secondary task.
+    /// Returns the preferred change Δq₀ of every joint, the secondary task, for `count` joints; none by default.
     fn preferred(&self, count: usize) -> Vec<f64> {
         vec![0.0; count]
     }
 
-    /// Shortens a change to what is near enough for the linear model to hold.
+    /// Shortens a change, one entry for every joint, to a length for which the linear model holds.
     fn shorten(&self, change: &mut [f64]);
 
-    /// Returns the inequality of a number: `Σ factor · Δq ≥ goal`.
+    /// Returns the inequality of a number, from those that [`violated`](IkProblem::violated) returns: `Σ factor · Δq
+    /// ≥ goal`.
     fn inequality(&self, number: usize) -> Row;
 
     /// Returns the numbers of the inequalities that a change violates by more than a tolerance and that are not among
     /// the active ones, the worst first.
     fn violated(&self, change: &[f64], active: &[usize]) -> Vec<usize>;
 
-    /// Takes notice of the joint positions after a step.
+    /// Receives the joint positions after a step; does nothing by default.
     fn stepped(&mut self, _q: &[f64]) {}
 }
 
-/// Limits and weights of the descent.
+/// Limits and weights of the descent. The default is for one frame of a chain ([`reach`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The greatest number of iterations.
     pub iterations_max: usize,
-    /// Iterations without [`progress`](Settings::progress) after which the descent counts as stalled.
+    /// The greatest number of iterations in a row without [`progress`](Settings::progress); after one more the
+    /// descent counts as stalled.
     pub patience: usize,
-    /// The part of the best merit so far that a merit has to come below to count as progress.
+    /// The fraction of the best merit so far below which a merit counts as progress, 0 to 1.
     pub progress: f64,
-    /// The damping λ is this times the squared residual, at most this itself (Levenberg–Marquardt damping after
-    /// Sugihara 2011): strong far away, where the linear model is poor, and gone near the solution.
+    /// The damping λ, without unit, is this times the squared residual, at most this itself (Levenberg–Marquardt
+    /// damping after Sugihara 2011): strong far away, where the linear model is poor, and gone near the solution.
     pub damping: f64,
     /// The least damping, in the unit of `J Jᵀ`.
     pub damping_min: f64,
-    /// The part of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
+    /// The fraction of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
     pub damping_of_trace: f64,
     /// The damping of inequality rows, in the unit of `A Aᵀ`.
     pub damping_inequality: f64,
@@ -129,13 +134,14 @@ pub enum StopReason {
     NotConnected,
 }
 
-/// A pivot of `J Jᵀ + λ` that rounding has made smaller than this is raised to it.
+/// The least pivot of `J Jᵀ + λ`: lesser ones, which rounding has made so small, are raised to it.
 const PIVOT_MIN: f64 = 1e-12;
 
-/// Changes `q` by damped least squares until the problem is solved, or not. `limits` are the least and
-/// greatest position of every joint, which the result keeps (infinite ones are allowed). Returns the reason
-/// that it ended, and the number of steps taken; `q` holds the last positions in any case. Panics if `q` and
-/// `limits` differ in length.
+/// Changes `q` by damped least squares until the problem is solved, or not. `limits` are the least and greatest
+/// position of every joint (rad or m; infinite ones are allowed), to which every step clamps `q`; a start outside of
+/// them that already solves the problem is returned as it is. Returns the reason that it ended, and the number of
+/// steps taken; `q` holds the last positions in any case. Panics if `q` and `limits` differ in length, or a least
+/// position is above the greatest.
 pub fn solve(
     problem: &mut dyn IkProblem,
     q: &mut [f64],
@@ -270,10 +276,10 @@ fn damped_least_squares(
     (change, right)
 }
 
-/// The trace of `J Jᵀ` counts as at least this, so that a task that no joint moves is damped, too.
+/// The least trace of `J Jᵀ` that damping is computed from, so that a task that no joint moves is damped, too.
 const TRACE_MIN: f64 = 1e-9;
 
-/// The part of a pose that is to be reached.
+/// The part of a pose that is to be reached, by its number of rows in the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TaskSpace {
     /// Origin and orientation: six rows.
@@ -282,7 +288,7 @@ pub enum TaskSpace {
     Position,
 }
 
-/// A frame of an assembly that is to be at a pose.
+/// The task of [`reach`]: a frame of an assembly that is to be at a pose.
 pub struct Reach<'a> {
     /// The robot.
     pub robot: &'a Assembly,
@@ -290,13 +296,14 @@ pub struct Reach<'a> {
     pub kinematics: &'a Kinematics,
     /// The frame that is to be moved.
     pub frame: LinkFrame,
-    /// The module whose body stays where it is, and its world pose.
+    /// The index of the module whose body stays where it is, and the world pose of that body.
     pub base: (usize, Pose),
     /// The pose at which the frame is to be, `X_WF`.
     pub goal: Pose,
-    /// The part of that pose that matters.
+    /// The part of that pose that is to be reached.
     pub task_space: TaskSpace,
-    /// Positions that joints are drawn to as far as the goal allows (secondary task), one for every joint.
+    /// Positions that joints are drawn to as far as the goal allows (secondary task), rad or m, one for every joint
+    /// of the assembly; `None`: joints stay near where they are.
     pub rest: Option<&'a [f64]>,
     /// The errors at which the goal counts as reached: m, and rad.
     pub tolerance: (f64, f64),
@@ -305,30 +312,31 @@ pub struct Reach<'a> {
 /// The result of [`reach`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// The positions of all joints by [`super::JointId`], rad or m; within the joints' limits.
+    /// The positions of all joints by [`super::JointId`], rad or m; every step keeps them within the joints' limits.
     pub joints: Vec<f64>,
     /// The reason that the descent ended; only [`StopReason::Converged`] means that the goal is reached.
     pub stop: StopReason,
-    /// The number of steps taken.
+    /// The number of steps taken; 0 if nothing was tried.
     pub iterations: usize,
-    /// The distance of the frame's origin from the goal, m.
+    /// The distance of the frame's origin from the goal, m; without meaning for [`StopReason::NotConnected`].
     pub distance: f64,
-    /// The angle between the frame and the goal, rad.
+    /// The angle between the frame and the goal, rad, 0 to π, also if only the position is to be reached; without
+    /// meaning for [`StopReason::NotConnected`].
     pub angle: f64,
 }
 
-/// No joint moves farther in one iteration: rad, or parts of the length of the chain.
+/// The greatest change of a joint in one iteration: rad, or m for a slide.
 const CHANGE_MAX: f64 = 0.2;
 
 /// The fraction of the displacement to the rest positions that is preferred in one step.
 const REST_GAIN: f64 = 0.1;
 
-/// The angle that one step corrects at most, rad.
+/// The greatest angle that one step corrects, rad.
 const ANGLE_STEP_MAX: f64 = 0.4;
 
-/// Finds joint positions (rad or m) that bring a frame to a pose, from those of `start`. Fixed, passive and
-/// mimicking joints are not commanded; the limits of mimicking joints are not regarded, nor collisions, nor
-/// bonds that close loops.
+/// Finds joint positions (rad or m) that bring a frame to a pose, from those of `start`, one for every joint of the
+/// assembly. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints are not regarded,
+/// nor collisions, nor bonds that close loops. Panics if `start` has too few positions.
 pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     let mut joints = start.to_vec();
     let held = task.kinematics.link(task.base.0, 0);
@@ -360,7 +368,7 @@ pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     Reached { joints, stop, iterations, distance, angle }
 }
 
-/// Returns the range of every joint that takes commands; the others stay where they are.
+/// Returns the range of every joint that takes commands (rad or m); the others stay where they are.
 fn limits(robot: &Assembly, start: &[f64]) -> Vec<(f64, f64)> {
     let of = |(owner, q): (JointOwner, &f64)| {
         let range = match owner {
@@ -378,8 +386,8 @@ fn limits(robot: &Assembly, start: &[f64]) -> Vec<(f64, f64)> {
     robot.joints().zip(start).map(of).collect()
 }
 
-/// Returns a bound on the distance from the held link's origin to the frame's, whatever the joints do, m: the sum of the
-/// distances from axis to axis within each link, and of what slides travel.
+/// Returns a bound on the distance from the held link's origin to the frame's for all joint positions, m: the sum of
+/// the distances from axis to axis within each link, and of the travels of slides.
 fn chain_length(task: &Reach, path: &[usize], limits: &[(f64, f64)]) -> f64 {
     let (mut length, mut last) = (0.0, Vec3::zeros());
     for pair in path.windows(2) {
@@ -393,7 +401,7 @@ fn chain_length(task: &Reach, path: &[usize], limits: &[(f64, f64)]) -> f64 {
     length + (task.frame.X_LF.translation.vector - last).norm()
 }
 
-/// Returns the distance by which a slide can be off its zero, m; 0 for other joints.
+/// Returns the greatest distance by which a slide can be off its zero, m; 0 for other joints.
 fn travel(step: &Step, limits: &[(f64, f64)]) -> f64 {
     let Motion::Along(_) = step.motion else { return 0.0 };
     let most = |&(joint, factor): &(usize, f64)| {
@@ -407,7 +415,7 @@ struct FrameProblem<'a> {
     task: &'a Reach<'a>,
     held: usize,
     limits: &'a [(f64, f64)],
-    /// Lengths are measured in this, m, so that they weigh as angles do.
+    /// The length, m, by which translations are divided, so that they weigh as angles do.
     scale: f64,
     q: Vec<f64>,
     poses: Vec<Pose>,
@@ -449,16 +457,17 @@ impl FrameProblem<'_> {
 impl IkProblem for FrameProblem<'_> {
     fn evaluate(&mut self, q: &[f64], _iteration: usize) -> Evaluation {
         self.update(q);
-        let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
+        let (distance, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
         let turn = if self.task.task_space == TaskSpace::Pose { turn } else { 0.0 };
-        let residual_squared = (place / self.scale) * (place / self.scale) + turn * turn;
-        let converged = place <= self.task.tolerance.0 && turn <= self.task.tolerance.1;
+        let residual_squared = (distance / self.scale) * (distance / self.scale) + turn * turn;
+        let converged = distance <= self.task.tolerance.0 && turn <= self.task.tolerance.1;
         Evaluation { residual_squared, merit: libm::sqrt(residual_squared), converged }
     }
 
     fn task(&self) -> Vec<Row> {
-        let (place, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
-        let cut = [self.scale / place.max(f64::MIN_POSITIVE), ANGLE_STEP_MAX / turn.max(f64::MIN_POSITIVE)];
+        let (distance, turn) = (self.error.fixed_rows::<3>(0).norm(), self.error.fixed_rows::<3>(3).norm());
+        let cut =
+            [self.scale / distance.max(f64::MIN_POSITIVE), ANGLE_STEP_MAX / turn.max(f64::MIN_POSITIVE)];
         let row = |i: usize| {
             let unit = if i < 3 { 1.0 / self.scale } else { 1.0 };
             let free = |joint: &usize| self.limits[*joint].0 < self.limits[*joint].1;

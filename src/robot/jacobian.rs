@@ -1,5 +1,5 @@
-//! The geometric Jacobian of a frame on a link: how fast it moves for each joint that moves (Siciliano et al., *Robotics*
-//! 2009, sec. 3.1).
+//! The geometric Jacobian of a frame on a link: its velocity for unit velocities of the joints (Siciliano et al.,
+//! *Robotics* 2009, sec. 3.1).
 
 use super::assembly::{Assembly, PortRef};
 use super::kinematics::Kinematics;
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, Matrix6};
 /// A frame that is fixed to a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkFrame {
-    /// The link, by the numbering of [`Kinematics`].
+    /// The number of the link among all links ([`Kinematics::link`]).
     pub link: usize,
     /// The pose of the frame in the link's frame.
     pub X_LF: Pose,
@@ -22,38 +22,39 @@ impl LinkFrame {
         LinkFrame { link, X_LF: Pose::identity() }
     }
 
-    /// Returns the frame of a port: origin on the mating face, +x outward, +z up.
+    /// Returns the frame of a port: origin on the mating face, +x outward, +z up. Panics if the assembly has no such
+    /// port.
     pub fn of_port(robot: &Assembly, kinematics: &Kinematics, port: PortRef) -> LinkFrame {
         let declared = &robot.module_type(port.module).ports[port.port];
         LinkFrame { link: kinematics.link(port.module, declared.link), X_LF: declared.pose }
     }
 
-    /// Returns `X_WF` from the world poses of all links.
+    /// Returns the world pose `X_WF` of the frame from the world poses of all links.
     pub fn pose(&self, poses: &[Pose]) -> Pose {
         poses[self.link] * self.X_LF
     }
 }
 
-/// The axis of a joint in the world, and how its position moves what the joint carries.
+/// The axis of a joint in the world, and the kind of motion of the joint about or along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointAxis {
     /// A turn about the line through `point` (m) along the unit vector `axis`, by the right-hand rule.
     Revolute {
-        /// The direction of the line.
+        /// The unit vector along the line.
         axis: Vec3,
-        /// A point on it.
+        /// A point on the line, m.
         point: Vec3,
     },
     /// A shift along a unit vector.
     Prismatic {
-        /// The direction.
+        /// The unit vector of the shift.
         axis: Vec3,
     },
 }
 
 impl JointAxis {
-    /// Returns the linear and the angular velocity, in the world, of a carried frame with its origin at `p` (m), for
-    /// a joint velocity of 1: m and 1 for a turn of 1 rad/s, 1 and 0 for a shift of 1 m/s.
+    /// Returns the linear velocity (m/s) and the angular velocity (rad/s), in the world, of a carried frame with its
+    /// origin at `p` (m), for a joint velocity of 1 rad/s or 1 m/s.
     pub fn velocity(&self, p: &Vec3) -> (Vec3, Vec3) {
         match self {
             JointAxis::Revolute { axis, point } => (axis.cross(&(p - point)), *axis),
@@ -63,8 +64,8 @@ impl JointAxis {
 }
 
 impl Step {
-    /// Returns the axis about or along which this step moves its child against its parent; `None` where it is fixed.
-    /// `poses` are the world poses of all links.
+    /// Returns the axis about or along which this step moves its child against its parent as its position grows;
+    /// `None` where it is fixed. `poses` are the world poses of all links.
     pub fn joint_axis(&self, poses: &[Pose]) -> Option<JointAxis> {
         let (X_WA, X_WB) = (&poses[self.parent], &poses[self.link]);
         match (self.motion, self.motion.axis()) {
@@ -78,13 +79,14 @@ impl Step {
     }
 }
 
-/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link `held` stays where it is; `None` where bonds
-/// do not connect the two, so that joints do not decide how they lie to each other.
+/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link `held` stays where it is; `None` if bonds
+/// do not connect the two, so that joints do not determine their relative pose.
 ///
-/// `J · q̇` is the velocity of F: rows 0 to 2 the linear velocity of its origin (m/s), rows 3 to 5 its angular velocity
-/// (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by [`super::JointId`], q̇ in
-/// rad/s or m/s. Columns of joints off the path between the two links, of fixed joints and of mimics are zero; what
-/// mimics do is in the columns of the joints that they follow. Bonds that close loops are not regarded.
+/// `J · q̇` is the velocity of F: rows 0 to 2 the linear velocity of its origin (m/s), rows 3 to 5 its angular
+/// velocity (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by
+/// [`super::JointId`], q̇ in rad/s or m/s. Columns of joints off the path between the two links, of fixed joints and
+/// of mimics are zero; motions of mimics are in the columns of the joints that they follow. Bonds that close loops
+/// are not regarded.
 pub fn geometric_jacobian(
     kinematics: &Kinematics,
     poses: &[Pose],

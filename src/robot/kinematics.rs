@@ -14,19 +14,19 @@ use std::ops::Range;
 /// An assembly compiled for forward kinematics.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
-    /// The module whose body carries all others.
+    /// The index of the module whose body carries all others.
     pub root: usize,
     /// The spanning tree of modules over the bonds that hold.
     pub tree: Tree,
-    /// One step for every link that is connected with the root but the root itself, parents before children.
+    /// One step for every link that is connected with the root but the root's body itself, parents before children.
     pub steps: Vec<Step>,
-    /// Index of the first link of each module, and one more at the end.
+    /// Index of the first link of each module, and the number of links at the end.
     first_link: Vec<usize>,
-    /// Index of the first joint of each module.
+    /// Index of the first joint of each module, and the number of modules' joints at the end.
     first_joint: Vec<usize>,
     /// The number of joints of the assembly, hinges of bonds included.
     joint_count: usize,
-    /// The joint of each bond that has a hinge.
+    /// The joint of each bond; `None` for a bond without a hinge.
     hinge_joint: Vec<Option<usize>>,
     /// Index in `steps` of each link's own step; `None` for the root and for loose links.
     step_of: Vec<Option<usize>>,
@@ -37,15 +37,15 @@ pub struct Kinematics {
 pub struct Residual {
     /// Index in [`Assembly::bonds`].
     pub bond: usize,
-    /// Between the port where it is and where the bond wants it, m.
+    /// The distance of the second port from its position in a perfect mate, m.
     pub distance: f64,
-    /// Between the two orientations, rad.
+    /// The angle between the two orientations, rad, 0 to π.
     pub angle: f64,
 }
 
 impl Kinematics {
-    /// Compiles `robot` with the bonds for which `holds` says true, seen from module `root`. Panics unless
-    /// `holds` has one flag for every bond.
+    /// Compiles `robot` with the bonds for which `holds` is true, seen from the module of index `root`. Panics
+    /// unless `holds` has one flag for every bond, and if there is no such module.
     pub fn new(robot: &Assembly, holds: &[bool], root: usize) -> Kinematics {
         assert_eq!(holds.len(), robot.bonds.len(), "one flag for every bond");
         let first_link = sums(robot, |module| robot.module_type(module).links.len());
@@ -75,7 +75,7 @@ impl Kinematics {
         compiled
     }
 
-    /// Returns the number of links of all modules.
+    /// Returns the number of links of all modules, also of those that are not connected with the root.
     pub fn link_count(&self) -> usize {
         self.step_of.len()
     }
@@ -85,27 +85,29 @@ impl Kinematics {
         self.joint_count
     }
 
-    /// Returns the number of a module's link among all links.
+    /// Returns the number of a module's link among all links, from 0; `link` is its index in the module.
     pub fn link(&self, module: usize, link: usize) -> usize {
         self.first_link[module] + link
     }
 
-    /// Returns the numbers of a module's links.
+    /// Returns the numbers of a module's links among all links.
     pub fn links_of(&self, module: usize) -> Range<usize> {
         self.first_link[module]..self.first_link[module + 1]
     }
 
-    /// Returns the module of a link.
+    /// Returns the index of the module of a link, given by its number among all links.
     pub fn module_of(&self, link: usize) -> usize {
         self.first_link.partition_point(|&first| first <= link) - 1
     }
 
-    /// Returns the number of a module's joint among all joints, a [`super::JointId`].
+    /// Returns the number of a module's joint among all joints, a [`super::JointId`]; `joint` is its index in the
+    /// module.
     pub fn joint(&self, module: usize, joint: usize) -> usize {
         self.first_joint[module] + joint
     }
 
-    /// Returns the number of a bond's hinge among all joints; `None` if the bond does not turn.
+    /// Returns the number of a bond's hinge among all joints, a [`super::JointId`]; `None` if the bond does not
+    /// turn.
     pub fn hinge(&self, bond: usize) -> Option<usize> {
         self.hinge_joint[bond]
     }
@@ -116,43 +118,46 @@ impl Kinematics {
     }
 
     /// Returns the step between two links that are neighbours in the tree, such as those that follow each other on a
-    /// [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it leads back.
+    /// [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it leads back. Panics if
+    /// the links are not neighbours.
     pub fn step_between(&self, from: usize, to: usize) -> (&Step, f64) {
         let down = self.step(to).filter(|step| step.parent == from).map(|step| (step, 1.0));
         let up = || self.step(from).filter(|step| step.parent == to).map(|step| (step, -1.0));
         down.or_else(up).expect("the links are neighbours in the tree")
     }
 
-    /// Writes the world poses of all links, `X_WL`, with the root module's body at `X_WR`. `joints` holds one position
-    /// (rad, m) for each joint. The entries of `out` of links that are not connected with the root stay as they are.
+    /// Writes the world poses of all links, `X_WL`, by their numbers, with the root module's body at `X_WR`.
+    /// `joints` holds one position (rad, m) for each joint. The entries of `out` of links that are not connected
+    /// with the root stay as they are. Panics if `joints` or `out` is too short.
     pub fn link_poses(&self, joints: &[f64], X_WR: &Pose, out: &mut [Pose]) {
         crate::interrupt::checkpoint();
         out[self.first_link[self.root]] = *X_WR;
         for step in &self.steps {
-            out[step.link] = step.place(&out[step.parent], joints);
+            out[step.link] = step.child_pose(&out[step.parent], joints);
         }
     }
 
-    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of module
-    /// `base` at `X_WB` whatever the root is. `joints`: rad or m. The base must be connected with the root.
+    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of module `base`
+    /// at `X_WB`, which need not be the root but must be connected with it. `joints`: rad or m.
     pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
         self.link_poses(joints, &Pose::identity(), out);
         let X_WR = X_WB * out[self.link(base, 0)].inverse();
         self.link_poses(joints, &X_WR, out);
     }
 
-    /// Returns the pose of a module: that of its body, the first link.
+    /// Returns the pose of a module, that of its body (the first link), from the poses of all links.
     pub fn module_pose(&self, module: usize, poses: &[Pose]) -> Pose {
         poses[self.link(module, 0)]
     }
 
-    /// Returns the world pose of a port, `X_WP`.
+    /// Returns the world pose of a port, `X_WP`, from the world poses of all links.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
         let declared = &robot.module_type(port.module).ports[port.port];
         poses[self.link(port.module, declared.link)] * declared.pose
     }
 
-    /// Returns the links from `a` to `b` along the tree, both included; `None` if bonds do not connect them.
+    /// Returns the numbers of the links from `a` to `b` along the tree, both included; `None` if bonds do not
+    /// connect them.
     pub fn path(&self, a: usize, b: usize) -> Option<Vec<usize>> {
         let to_root = |link: usize| {
             let parents = std::iter::successors(Some(link), |&l| self.step(l).map(|step| step.parent));
@@ -175,8 +180,8 @@ impl Kinematics {
         Some(up)
     }
 
-    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their
-    /// mass (kg). Of no mass, the world's origin.
+    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass
+    /// (kg); if they have no mass, the world's origin. `poses` are the world poses of all links.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {
@@ -188,20 +193,23 @@ impl Kinematics {
         (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 
-    /// Returns the closure errors of the bonds that close loops (m, rad), in order of bond.
+    /// Returns the closure errors (m, rad) of the bonds that close loops, in order of bond, at these joint positions
+    /// and the link poses that belong to them.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
-    /// Returns the closure error of a bond, which need not hold: the distance (m) and the angle (rad) of its
-    /// two ports from a perfect mate.
+    /// Returns the closure error of a bond (by index), which need not hold: the distance (m) and the angle (rad) of
+    /// its second port from a perfect mate with the first. `poses` are the world poses of all links; `joints` (rad,
+    /// m) matter only for the bond's own hinge.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;
         Residual { bond, distance: error.translation.vector.norm(), angle: error.rotation.angle() }
     }
 
-    /// Returns the world poses of the second port of a bond: where it should be, and where it is.
+    /// Returns the world poses of the second port of a bond: that of a perfect mate with the first, and the actual
+    /// one.
     fn mated(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Pair {
         let declared = &robot.bonds[bond];
         let hinge = robot.hinge(bond).zip(self.hinge_joint[bond]);
@@ -281,12 +289,13 @@ impl Kinematics {
     }
 }
 
+/// The world poses of a bond's second port: in a perfect mate, and the actual one.
 struct Pair {
     p: Pose,
     q: Pose,
 }
 
-/// Returns `X_PQ` of a bond whose hinge, if it has one, is at zero: `Rz(180°) · Rx(θ)`.
+/// Returns `X_PQ` of a bond (by index) whose hinge, if it has one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     let bond = &robot.bonds[bond];
     let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;

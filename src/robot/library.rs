@@ -5,7 +5,7 @@ use crate::geometry::{Placed, Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Everything that a robot or a plan refers to by index. Self-contained: it goes into plan files.
+/// The declarations that a robot or a plan refers to by index, from 0. Self-contained: it goes into plan files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Library {
@@ -19,15 +19,15 @@ pub struct Library {
     pub struts: Vec<Strut>,
 }
 
-/// A kind of connector: what it mates with, how, and what a bond of it holds.
+/// A kind of connector: the connectors that it mates with, the turns, and the loads that a bond of it holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Connector {
     /// The declared name.
     pub name: String,
-    /// Indices of the connectors it mates with; the relation is symmetric.
+    /// Indices in [`Library::connectors`] of those it mates with; the relation is symmetric.
     pub mates: Vec<usize>,
-    /// Allowed turns: `k * 360° / turns`, k = 0..turns. At least 1.
+    /// The number of allowed turns, at least 1: `k · 360° / turns` about the common normal, k from 0 to `turns` - 1.
     pub turns: u32,
     /// Pull along the normal that a bond holds, N; `None`: no limit stated.
     pub holds_force: Option<f64>,
@@ -35,7 +35,7 @@ pub struct Connector {
     pub holds_moment: Option<f64>,
     /// The error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
-    /// The joint of the bond, if bonds of this connector turn.
+    /// The joint of the bond; `None`: bonds of this connector do not turn.
     pub hinge: Option<Hinge>,
 }
 
@@ -49,14 +49,15 @@ pub struct Capture {
     pub angle: f64,
 }
 
-/// A joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, axis in the frame of port P.
+/// A joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, with q in rad, the axis in the frame of the first
+/// port P, and the bond's turn θ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
     /// Unit vector in the frame of the first port.
     #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
-    /// Its range, speed and torque.
+    /// Its range (rad), speed, acceleration and torque.
     pub limits: Limits,
 }
 
@@ -74,11 +75,11 @@ pub struct ModuleType {
     pub ports: Vec<Port>,
     /// Motors that drive several joints together.
     pub motors: Vec<Motor>,
-    /// Pairs of links that meet by design.
+    /// Pairs of links, by index, that meet by design: they are not checked for collisions with each other.
     pub touching: Vec<(usize, usize)>,
-    /// Penetration deeper than this is a collision, m.
+    /// The greatest depth of a penetration that counts as touching, m; a deeper one is a collision.
     pub touch: f64,
-    /// Links within this of the ground touch it, m.
+    /// The greatest distance from the ground at which a link touches it, m.
     pub contact: f64,
 }
 
@@ -143,9 +144,9 @@ pub enum JointKind {
     Fixed,
 }
 
-/// A joint carries `child` against `parent`. With the joint frame J placed in the module's frame
-/// (`X_MJ`, all joints at zero), the child moves by `X_MJ · Rot(axis, q) · X_MJ⁻¹` (revolute) or
-/// `X_MJ · Trans(axis·q) · X_MJ⁻¹` (prismatic) in the frame of the module as drawn.
+/// A joint, which carries the link `child` against the link `parent`. With the joint frame J placed in the module's
+/// frame (`X_MJ`, all joints at zero), the child moves by `X_MJ · Rot(axis, q) · X_MJ⁻¹` (revolute) or `X_MJ ·
+/// Trans(axis·q) · X_MJ⁻¹` (prismatic) in the frame of the module as drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
@@ -153,7 +154,7 @@ pub struct Joint {
     pub name: String,
     /// Index of the link that carries, in [`ModuleType::links`].
     pub parent: usize,
-    /// Index of the link that is carried.
+    /// Index of the link that is carried, in [`ModuleType::links`].
     pub child: usize,
     /// The degree of freedom.
     pub kind: JointKind,
@@ -168,15 +169,16 @@ pub struct Joint {
     pub limits: Limits,
     /// True if it has no motor, so that it can't be commanded.
     pub passive: bool,
-    /// The joint follows others of its module: `q = Σ factor · q_index`. It takes no commands.
+    /// The joints of its module, by index in [`ModuleType::joints`], that the joint follows, with factors: `q = Σ
+    /// factor · q_index`. Such a joint takes no commands; `None`: it follows none.
     pub mimic: Option<Vec<(usize, f64)>>,
 }
 
-/// The limits of a joint or a motor. Radians or metres; `None`: no limit stated.
+/// The limits of a joint or a motor. Positions are in radians or metres; `None`: no limit stated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Lowest and highest position; `None` is a continuous joint.
+    /// Lowest and highest position, rad or m; `None`: the joint has no end, as a continuous joint.
     pub range: Option<(f64, f64)>,
     /// Greatest speed, rad/s or m/s.
     pub speed: Option<f64>,
@@ -186,7 +188,7 @@ pub struct Limits {
     pub effort: Option<f64>,
 }
 
-/// Limits at a motor that drives several joints: `motor = Σ factor · joint`.
+/// A motor that drives several joints together, with limits on `motor = Σ factor · joint`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motor {
@@ -194,7 +196,7 @@ pub struct Motor {
     pub name: String,
     /// Index in [`ModuleType::joints`] and factor of each joint that it drives.
     pub joints: Vec<(usize, f64)>,
-    /// Its range, speed, acceleration and effort.
+    /// Its range, speed, acceleration and effort, in the units of `factor · joint`.
     pub limits: Limits,
 }
 

@@ -17,8 +17,7 @@ pub struct Mass {
 /// Returns the mass properties of shapes that fill space with `density` (kg/m³). If shapes overlap, the overlap counts as
 /// often as shapes share it.
 ///
-/// # Errors
-/// The fault of a shape that encloses no volume, or that there is none.
+/// The first fault of a shape, or [`Unsound::Empty`] if there is none.
 pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     let whole = volume::of_placed(shapes)?;
     let inertia = whole.inertia();
@@ -30,12 +29,13 @@ pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     })
 }
 
-/// Splits a module's mass (kg) over its links, each given by its shapes and its own mass if that is stated: those take
-/// theirs from the whole, the others share the rest by volume, at one density. `None` where the stated masses exceed the
-/// whole.
+/// Splits a module's mass (kg) over its links, each given by its shapes and its own mass (kg) if that is stated:
+/// those take theirs from the whole, the others share the rest by volume, at one density. Returns the mass
+/// properties of every link, in the frame of its shapes; `None` if the stated masses exceed the whole. If all links
+/// state their masses, a rest is in none of them.
 ///
 /// # Errors
-/// The fault of a shape that encloses no volume.
+/// The first fault of a shape, or [`Unsound::Empty`] for a link without shapes.
 pub fn split(links: &[(&[Placed], Option<f64>)], mass: f64) -> Result<Option<Vec<Mass>>, Unsound> {
     let unit: Vec<Mass> =
         links.iter().map(|(shapes, _)| of_shapes(shapes, 1.0)).collect::<Result<_, Unsound>>()?;

@@ -15,14 +15,14 @@ use std::f64::consts::TAU;
 /// An isomorphism from robot B to robot A: the images of its modules, bonds and joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matching {
-    /// The module of A for each module of B.
+    /// The index of the module of A for each module of B.
     pub modules: Vec<usize>,
     /// The symmetry by which each module of B lies in its image.
     pub turned: Vec<Symmetry>,
-    /// The bond of A for each bond of B that holds; `None` for the others.
+    /// The index of the bond of A for each bond of B that holds; `None` for the others.
     pub bonds: Vec<Option<usize>>,
-    /// The offset from each joint's position in B to that in A, rad or m: whole turns, and 0 for joints with
-    /// limits.
+    /// The offset from each joint's position in B to that in A, by the [`JointId`](super::JointId) in B, rad or m:
+    /// whole turns, and 0 for joints with limits, fixed joints and mimics.
     pub offsets: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl Matching {
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
     }
 
-    /// Returns the image in A of a joint of a module of B: module, and index in its joints.
+    /// Returns the image in A of a joint of a module of B: module, and index in the joints of its type.
     pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
         (self.modules[module], self.turned[module].joints[joint])
     }
@@ -42,7 +42,7 @@ impl Matching {
 /// The reason that two robots do not match; modules are given by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mismatch {
-    /// Different numbers of modules.
+    /// Different numbers of modules, or none in both.
     Count {
         /// Modules of A.
         a: usize,
@@ -51,23 +51,24 @@ pub enum Mismatch {
     },
     /// B is not connected, so that its bonds do not identify its modules.
     Pieces,
-    /// B has a module whose type A lacks.
+    /// A module of B is of another type than the module of A that the best attempt maps it to.
     Kind {
         /// Path of the module in B.
         module: String,
         /// Name of its type.
         kind: String,
     },
-    /// The bond of two modules at this port differs in the best attempt.
+    /// One of two modules that the best attempt maps to each other is docked at a port and the other not, or to
+    /// another port or with another turn.
     Bond {
         /// Path of the module in A.
         a: String,
         /// Path of the module in B.
         b: String,
-        /// Name of the port.
+        /// Name of the port of B.
         port: String,
     },
-    /// The positions of two joints differ in the best attempt, rad or m.
+    /// The positions of two joints differ in the best attempt by more than the tolerance.
     Joint {
         /// Joint of A, with the path of its module.
         a: String,
@@ -98,11 +99,12 @@ impl std::fmt::Display for Mismatch {
     }
 }
 
-/// Finds an isomorphism from robot B, in its state, to robot A, in its own. Joint positions agree within `tol_joint` (rad
-/// or m), those of endless joints up to whole turns. Of several the one that keeps the first module's name, if it can.
+/// Finds an isomorphism from robot B, in its state, to robot A, in its own. Joint positions agree within `tol_joint`
+/// (rad or m), those of endless joints up to whole turns. Of several, the one that maps the first module of B to a
+/// module of the same name is preferred.
 ///
 /// # Errors
-/// What differs in the attempt that mapped the most modules.
+/// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`].
 pub fn matching(
     a: (&Assembly, &State),
     b: (&Assembly, &State),
@@ -214,8 +216,9 @@ impl<'a> Search<'a> {
         (images[0], taken[image]) = (Some((image, turn)), true);
         let mut queue = VecDeque::from([0]);
         let mut reached = 0;
-        // A joint elsewhere does not end the attempt: that the rest fits makes it worth telling.
+        // A joint at another position does not end the attempt: if the rest fits, the difference is worth reporting.
         let mut elsewhere: Option<Mismatch> = None;
+        // Breadth-first search along the bonds of B; at every port the image must be docked alike.
         while let Some(x) = queue.pop_front() {
             let (y, turned) = images[x].expect("what is queued has an image");
             self.same_type(x, y).map_err(|mismatch| (reached, mismatch))?;
@@ -229,6 +232,8 @@ impl<'a> Search<'a> {
                     }
                     continue;
                 };
+                // The image of the neighbour is known, or it takes the symmetry that maps its port to the one docked
+                // in A.
                 let kind = self.b.robot.modules[u.module].kind;
                 let image = match images[u.module] {
                     Some((module, turned)) => (module == v.module).then_some(turned),
@@ -247,6 +252,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        // If a module of B has no image, no bonds lead to it.
         let images: Vec<(usize, &Symmetry)> =
             images.into_iter().collect::<Option<_>>().ok_or((reached, Mismatch::Pieces))?;
         found.modules = images.iter().map(|(module, _)| *module).collect();

@@ -1,9 +1,9 @@
-//! Modules, what they are made of, robots composed of them, and the kinematics and mass of robots.
+//! Modules and their parts, robots composed of them, and the kinematics and mass of robots.
 //!
-//! In reading order: declarations ([`Library`]) and which of them are sound ([`validation`]), robots and their
-//! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian ([`jacobian`]) and inverse
-//! kinematics ([`inverse_kinematics`]), when two robots are the same ([`matching()`]), rigidity of trusses
-//! ([`truss`]), and files of RoFI modules ([`rofi`]).
+//! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
+//! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
+//! ([`jacobian`]) and inverse kinematics ([`inverse_kinematics`]), the isomorphism of two robots ([`matching()`]),
+//! rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
 mod assembly;

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::fmt::{self, Write};
 
-/// A configuration of universal modules, as a file states it.
+/// A configuration of universal modules of the RoFI platform, as a file states it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
     /// The modules in order of their ids.
@@ -21,7 +21,7 @@ pub struct World {
 pub struct Module {
     /// The id in the file; ids may have gaps.
     pub id: u64,
-    /// Positions of alpha, beta and gamma in degrees, as files have them.
+    /// Positions of alpha, beta and gamma, in this order, in degrees, as files have them.
     pub joints: [f64; 3],
     /// The line of the file, from 1; 0 if there is none.
     pub line: usize,
@@ -30,7 +30,7 @@ pub struct Module {
 /// Two docks that hold each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// The one dock.
+    /// The dock that the file names first.
     pub a: Dock,
     /// The other dock.
     pub b: Dock,
@@ -107,17 +107,18 @@ impl Dock {
         }
     }
 
-    /// Returns the dock of a port of the library's module; `None` for any other name.
+    /// Returns the dock of the module of an index that has this port name; `None` for any other name.
     pub fn of_port(module: usize, port: &str) -> Option<Dock> {
         let all = SIDES.iter().flat_map(|(_, side)| FACES.iter().map(move |(_, face)| (*side, *face)));
         all.map(|(side, face)| Dock { module, side, face }).find(|dock| dock.port() == port)
     }
 }
 
-/// Reads the one configuration of a text.
+/// Reads the one configuration of a text. Lines that begin with `#` are comments.
 ///
 /// # Errors
-/// [`FileError`] at the first word that does not follow the format, and for a sequence of configurations.
+/// [`FileError`] at the first word that does not follow the format, for a second connection of a dock, for a
+/// sequence of configurations, and for a text without modules.
 pub fn read(text: &str) -> Result<World, FileError> {
     let mut reader = Reader::default();
     for (index, line) in text.lines().enumerate() {
@@ -140,7 +141,8 @@ pub fn read(text: &str) -> Result<World, FileError> {
     reader.finish()
 }
 
-/// Returns the text of a configuration, which reads back to the same.
+/// Returns the text of a configuration. A configuration as [`read`] returns it reads back to the same but for the
+/// line numbers. Panics if a connection has an index that is no module.
 pub fn write(world: &World) -> String {
     let mut text = String::from("C\n");
     for Module { id, joints: [alpha, beta, gamma], .. } in &world.modules {
@@ -194,7 +196,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Returns the index of the module of an id.
+    /// Returns the index of the module of an id; `None` if there is none.
     pub(super) fn index(&self, id: u64) -> Option<usize> {
         self.indices.get(&id).copied()
     }
@@ -216,7 +218,7 @@ impl Reader {
         for (end, dock) in [a, b].into_iter().enumerate() {
             if let Some(&other) = self.taken.get(&dock) {
                 let known = &self.edges[other];
-                // The same connection said twice is no harm.
+                // The same connection stated twice is no harm.
                 if known.turn == edge.turn && [(known.a, known.b), (known.b, known.a)].contains(&(a, b)) {
                     return Ok(());
                 }

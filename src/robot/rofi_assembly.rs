@@ -24,7 +24,8 @@ const JOINT_TORQUE_MAX: f64 = 10.0;
 /// Docking tolerances: metres and radians.
 const CAPTURE: Capture = Capture { distance: 0.005, angle: 5.0 * PI / 180.0 };
 
-/// Returns the universal module with the distance `pitch` (m) between the centres of its two bodies.
+/// Returns the type of the RoFI universal module with the distance `pitch` (m) between the centres of its two
+/// bodies.
 ///
 /// The pose of shoe B in shoe A, in units of the pitch:
 /// `Rx(alpha) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-beta)`.
@@ -53,8 +54,9 @@ pub fn module_type(pitch: f64) -> ModuleType {
     }
 }
 
-/// Returns a configuration as an assembly of modules of the given `pitch` (m) and its start state: joints
-/// at the file's positions, all bonds closed, shoe A of the first module at the origin of the world.
+/// Returns a configuration as an assembly of modules of the given `pitch` (m) and its start state: joints at the
+/// file's positions (converted to rad), all bonds closed, shoe A of the first module at the origin of the world. The
+/// module of id 7 is named `m[7]`.
 pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
     let dock = Connector {
         name: "Dock".into(),

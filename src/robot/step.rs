@@ -7,26 +7,26 @@ use super::library::{JointKind, ModuleType};
 use crate::geometry::{Pose, Vec3, sin_cos};
 use nalgebra::{Quaternion, UnitQuaternion};
 
-/// Components of axes and offsets below this are taken for the rounding of a declared zero.
+/// The absolute value below which a component of an axis or offset is taken for the rounding of a declared zero.
 const ROUNDING: f64 = 1e-15;
 
 /// The greatest number of steps over which joints follow joints that follow others.
 pub(super) const MIMIC_DEPTH_MAX: usize = 16;
 
-/// The placement of a link B against its parent A.
+/// The placement of a link B against its parent A, across a joint or a bond.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// The parent's number among all links.
+    /// The parent's number among all links ([`Kinematics::link`](super::Kinematics::link)).
     pub parent: usize,
-    /// The link's number.
+    /// The link's number among all links.
     pub link: usize,
     /// Position of the joint's axis in the parent's frame, m.
     pub shift: Vec3,
-    /// Orientation of the child in the parent's frame with the joint at zero.
+    /// Orientation `R_AB` of the child in the parent's frame with the joint at zero.
     pub turn: UnitQuaternion<f64>,
-    /// The motion that the joint's position adds.
+    /// The motion that the joint's position adds to that.
     pub motion: Motion,
-    /// Position of the child's origin from the axis, in the child's frame, m.
+    /// Position of the child's origin from the axis, in the child's frame, m; zero for slides and fixed joints.
     pub offset: Vec3,
     drive: Drive,
     turned: bool,
@@ -42,17 +42,17 @@ enum Drive {
     Sum(Box<[(usize, f64)]>),
 }
 
-/// The motion of a step for a joint position in radians or metres. Turns about an axis of the frame cost half as much as
-/// others, and nearly all joints have such an axis.
+/// The motion of a step for a joint position in radians or metres. Turns about an axis of the frame cost half as
+/// much as others, and nearly all joints have such an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
     /// No motion: the joint is fixed.
     Fixed,
-    /// A turn about +x of the child's frame, times this sign.
+    /// A turn about +x of the child's frame, by the joint's position times this sign, 1 or -1.
     X(f64),
-    /// A turn about +y of the child's frame, times this sign.
+    /// A turn about +y of the child's frame, by the joint's position times this sign, 1 or -1.
     Y(f64),
-    /// A turn about +z of the child's frame, times this sign.
+    /// A turn about +z of the child's frame, by the joint's position times this sign, 1 or -1.
     Z(f64),
     /// A turn about this unit vector of the child's frame.
     Axis(Vec3),
@@ -61,7 +61,7 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Returns the motion of a joint about or along a unit vector in the frame of the joint.
+    /// Returns the motion of a joint about or along a unit vector, in the frame in which the vector is given.
     pub fn new(kind: JointKind, axis: Vec3) -> Motion {
         match kind {
             JointKind::Revolute => Motion::revolute(axis),
@@ -70,8 +70,8 @@ impl Motion {
         }
     }
 
-    /// Returns the rotation about `axis`, in the frame in which `axis` is given. It need not be of unit
-    /// length but must not be zero; once normalised, components below 1e-15 count as zero.
+    /// Returns the rotation about `axis`, in the frame in which `axis` is given. The axis need not be of unit length
+    /// but must not be zero; components below 1e-15 of its length count as zero.
     pub fn revolute(axis: Vec3) -> Motion {
         let axis = axis.normalize().map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
         match (axis.x != 0.0, axis.y != 0.0, axis.z != 0.0) {
@@ -82,7 +82,7 @@ impl Motion {
         }
     }
 
-    /// Returns the unit axis of a turn in the child's frame; `None` for other motions.
+    /// Returns the unit axis of a turn in the child's frame; `None` for slides and fixed joints.
     pub fn axis(&self) -> Option<Vec3> {
         match *self {
             Motion::X(sign) => Some(Vec3::x() * sign),
@@ -95,8 +95,9 @@ impl Motion {
 }
 
 impl Step {
-    /// Returns the step from the poses of parent A and child B with the joint at zero, in the frame J of the joint, in
-    /// which `motion` has its axis. `terms` are the joints and factors whose sum is the position.
+    /// Returns the step from the link `parent` (A) to the link `link` (B), given by their numbers among all links
+    /// and their poses with the joint at zero, in the frame J of the joint, in which `motion` has its axis. `terms`
+    /// are the joints and factors whose sum is the position.
     pub fn new(
         parent: usize,
         link: usize,
@@ -134,7 +135,8 @@ impl Step {
         }
     }
 
-    /// Returns the step's position, rad or m, from the positions of all joints.
+    /// Returns the step's position, rad or m, from the positions of all joints of the assembly; 0 if no joint moves
+    /// it.
     #[inline]
     pub fn position(&self, joints: &[f64]) -> f64 {
         match &self.drive {
@@ -143,7 +145,8 @@ impl Step {
         }
     }
 
-    /// Returns the joints and factors whose sum is the step's position: one joint, unless it mimics others.
+    /// Returns the joints (by [`JointId`](super::JointId)) and factors whose sum is the step's position: one joint,
+    /// unless it mimics others; none for fixed joints.
     pub fn terms(&self) -> &[(usize, f64)] {
         match &self.drive {
             Drive::One(one) => std::slice::from_ref(one),
@@ -151,9 +154,9 @@ impl Step {
         }
     }
 
-    /// Returns `X_WB` from `X_WA` and the positions of all joints.
+    /// Returns `X_WB` from `X_WA` and the positions (rad, m) of all joints of the assembly.
     #[inline]
-    pub fn place(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
+    pub fn child_pose(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
         let mut shift = self.shift;
         let mut rotation = if self.turned { X_WA.rotation * self.turn } else { X_WA.rotation };
         match self.motion {
@@ -199,8 +202,9 @@ impl Step {
     }
 }
 
-/// Returns the joints and factors that drive a joint of a module whose joints begin at `first`: itself, or those it
-/// mimics. A fixed joint has none.
+/// Returns the joints and factors that drive a joint of a module, by index in its type: itself, or those it mimics;
+/// none for a fixed joint. `first` is the [`JointId`](super::JointId) of the module's first joint, and the joints
+/// returned are ids.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

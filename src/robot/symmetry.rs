@@ -1,15 +1,16 @@
-//! The symmetries of a module: the turns after which it is the same again, with the permutations of links, joints and
-//! ports that they make.
+//! The symmetries of a module: the rigid displacements after which it is the same again, with the permutations of
+//! links, joints and ports that they make.
 //!
 //! A RoFI module has no front: turned end for end, alpha and beta are exchanged and nothing else is.
 
 use super::library::{Joint, JointKind, ModuleType, Port};
 use crate::geometry::{Pose, Shape, Vec3};
 
-/// Lengths (m), directions, masses (kg) and moments that differ by less are the same.
+/// The difference below which lengths (m), directions, masses (kg) and moments of inertia (kg·m²) are the same.
 const TOL_SAME: f64 = 1e-9;
 
-/// A symmetry of a module, by the images of its parts.
+/// A symmetry of a module, by the images of its parts: each list has, for every part, the index of another of its
+/// sort.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symmetry {
     /// The image of each link: the link whose pose it takes.
@@ -21,7 +22,7 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
-    /// Returns the symmetry that every module has.
+    /// Returns the symmetry that every module has: each part is its own image.
     pub fn identity(kind: &ModuleType) -> Symmetry {
         let all = |count: usize| (0..count).collect();
         Symmetry {
@@ -32,8 +33,9 @@ impl Symmetry {
     }
 }
 
-/// Returns all symmetries of a module under which equal joint positions stay equal joint positions, the identity first.
-/// Those that move no port are left out, and of modules with motors all but the identity: nothing asks for them.
+/// Returns the symmetries of a module under which equal joint positions stay equal joint positions, the identity
+/// first. Those that leave the first port in place are left out, and of modules with motors all but the identity:
+/// nothing asks for them.
 pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
     let mut all = vec![Symmetry::identity(kind)];
     if let Some(first) = kind.ports.first().filter(|_| kind.motors.is_empty()) {
@@ -59,7 +61,7 @@ impl<'a> Search<'a> {
         Search { kind, links: vec![None; kind.links.len()], joints: vec![None; kind.joints.len()] }
     }
 
-    /// Returns the symmetry that takes a link to another with this motion, if there is one.
+    /// Returns the symmetry that takes a link to another with this motion; `None` if there is none.
     fn from(mut self, link: usize, to: usize, map: Pose) -> Option<Symmetry> {
         self.links[link] = Some((to, map));
         let mut open = vec![link];
@@ -76,7 +78,7 @@ impl<'a> Search<'a> {
         self.finish()
     }
 
-    /// Finds the image of a joint and of the link behind it.
+    /// Finds the image of a joint of `link` and of the `other` link at it; `None` if there is none.
     fn step(&mut self, link: usize, joint: usize, other: usize) -> Option<()> {
         let (to, map) = self.links[link]?;
         let axis = Axis::of(self.kind, joint, link);
@@ -95,7 +97,7 @@ impl<'a> Search<'a> {
         Some(())
     }
 
-    /// Returns true if bodies and ports are the same, too.
+    /// Returns the symmetry if bodies, ports and touching pairs are the same, too; `None` otherwise.
     fn finish(self) -> Option<Symmetry> {
         let kind = self.kind;
         let links: Vec<(usize, Pose)> = self.links.into_iter().collect::<Option<_>>()?;
@@ -119,8 +121,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A joint's axis in the frame of one of its links: the other link turns about it to the left, or goes
-/// along it, as the position grows.
+/// A joint's axis in the frame of one of its links: as the position grows, the other link turns about it by the
+/// right-hand rule, or shifts along it.
 struct Axis {
     revolute: bool,
     direction: Vec3,
@@ -182,7 +184,7 @@ fn same_body(kind: &ModuleType, link: usize, to: usize, map: &Pose) -> bool {
         b.collides.iter().any(|other| {
             placed.shape == other.shape
                 && match placed.shape {
-                    // A ball looks the same from all sides.
+                    // Every turn leaves a ball as it is.
                     Shape::Sphere { .. } => {
                         (pose.translation.vector - other.pose.translation.vector).norm() < TOL_SAME
                     }
@@ -201,5 +203,6 @@ fn near(a: &Pose, b: &Pose) -> bool {
     error.translation.vector.norm() < TOL_SAME && error.rotation.angle() < ANGLE_SAME
 }
 
-/// Angles (rad) that differ by less are the same: the angle of a rotation is known half as well.
+/// The angle (rad) below which two orientations are the same: the angle of a rotation has half the digits of its
+/// entries.
 const ANGLE_SAME: f64 = 1e-7;

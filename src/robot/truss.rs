@@ -44,34 +44,37 @@ pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
 pub struct Rigidity {
     /// The rank of the rigidity matrix.
     pub rank: usize,
-    /// The rank that a rigid truss of these nodes has: 3n - 6, less for nodes on a line.
+    /// The rank that a rigid truss of these nodes has: 3n - 6 for n nodes, 3n - 5 if they lie on a line, 0 for one
+    /// node.
     pub rank_rigid: usize,
-    /// The dimension of the space of self-stresses, the states of stress without load.
+    /// The dimension of the space of self-stresses, the states of stress without load: struts less rank.
     pub self_stresses: usize,
-    /// The least singular value that is not zero, for a truss of mean strut length 1.
+    /// The least singular value that is not zero, of the rigidity matrix of the truss scaled to a mean strut length
+    /// of 1; infinite if the rank is 0.
     pub weakest: f64,
-    /// Struts without any one of which the rank stays.
+    /// Indices of the struts of which any one may be taken away without loss of rank, ascending.
     pub redundant: Vec<usize>,
-    /// A basis of the infinitesimal mechanisms, the motions that change no length; rigid motions are left out.
+    /// A basis of the infinitesimal mechanisms, the motions that change no length to first order; rigid motions are
+    /// left out.
     pub free: Vec<FreeMotion>,
 }
 
 /// An infinitesimal mechanism, scaled so that the largest displacement is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// The nodes that move, with their displacements, relative to the largest.
+    /// The indices of the nodes that move, with their displacements, whose greatest length is 1.
     pub nodes: Vec<(usize, Vec3)>,
 }
 
 impl Rigidity {
-    /// Returns true if no motion is free but those of the whole.
+    /// Returns true if the truss is infinitesimally rigid: no motion is free but those of the whole.
     pub fn rigid(&self) -> bool {
         self.free.is_empty()
     }
 }
 
-/// Returns the infinitesimal rigidity of a truss with nodes at these positions (m) and struts between them,
-/// which must have length.
+/// Returns the infinitesimal rigidity of a truss with nodes at these positions (m) and struts between them, as pairs
+/// of indices, which must have length. Panics without nodes, and for a strut of a node that is not there.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
         && let Some(report) = banded_qr::examine(nodes, struts)
@@ -112,8 +115,8 @@ pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     }
 }
 
-/// Rows `(p_a - p_b)` at a, `(p_b - p_a)` at b, in mean strut lengths; rows of zeros fill it up so
-/// that the decomposition has a right vector for every column.
+/// Returns the rigidity matrix: rows `(p_a - p_b)` at a, `(p_b - p_a)` at b, in mean strut lengths; rows of zeros
+/// fill it up so that the decomposition has a right vector for every column.
 fn rigidity_matrix(nodes: &[Vec3], struts: &[(usize, usize)]) -> DMatrix<f64> {
     let length = |&(a, b): &(usize, usize)| (nodes[a] - nodes[b]).norm();
     let mean = struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64;

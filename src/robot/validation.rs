@@ -1,7 +1,7 @@
-//! The validation of declarations: which modules, connectors, cells and struts are sound.
+//! The validation of declarations: the rules by which modules, connectors, cells and struts are sound.
 //!
 //! Programs and plan files are held to the same rules, which stand here and nowhere else: a program names the
-//! place of a fault in its text, a plan file the part of its library.
+//! position of a fault in its text, a plan file the part of its library.
 
 use super::fault::{LibraryFault, ModulePart};
 use super::library::{Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Strut};
@@ -15,8 +15,8 @@ use std::f64::consts::PI;
 /// The greatest mass, force, torque, speed, acceleration, factor and coefficient, in SI units. A thousand million of
 /// any is far above what robots have, and sums and products of a few such numbers lose no digit that a check rests on.
 pub const QUANTITY_MAX: f64 = 1e9;
-/// The greatest joint position, rad or m, that a range or a motion may have: 160,000 turns. The judge
-/// takes for ever over more.
+/// The greatest absolute value of a joint position, rad or m, that a range or a motion may have: 160,000 turns. To
+/// judge more would take too long.
 pub const POSITION_MAX: f64 = 1e6;
 /// The greatest coordinate of a link, joint, port or shape in the frame of its module, m. Modules are parts of robots;
 /// with levers longer than this the judge, which follows contacts by the smallest steps that a tip could make, takes
@@ -26,18 +26,19 @@ pub const MODULE_EXTENT_MAX: f64 = 10.0;
 pub const TOUCH_MAX: f64 = 5e-3;
 /// The greatest `contact` of a module, m: links farther above the ground do not stand on it.
 pub const CONTACT_MAX: f64 = 2e-2;
-/// More turns than this are no discrete turns any more.
+/// The greatest number of turns of a connector: more are no discrete turns any more.
 pub const TURNS_MAX: u32 = 3600;
 
-/// The part of a link's inertia by which its principal moments may miss the triangle inequality, and by which they may
-/// exceed the bound of its extent: rounding, and the few digits of a data sheet.
+/// The fraction of a link's inertia by which its principal moments may miss the triangle inequality, and by which
+/// they may exceed the bound of its extent: rounding, and the few digits of a data sheet.
 const TOL_INERTIA: f64 = 1e-3;
-/// The distance by which a centre of mass may be outside the box around its module, m: the same for lengths.
+/// The distance by which a centre of mass may be outside the box around its module, m: rounding of lengths.
 const TOL_COM: f64 = 1e-6;
-/// The distance by which a drawn shape may stick out of the shape that is judged without being told, m: below what
-/// the judge allows shapes to touch.
+/// The distance by which a drawn shape may stick out of the shape that is judged without being stated, m: below the
+/// depth that the judge lets shapes touch.
 const TOL_LEFT_OUT: f64 = 1e-5;
 
+/// The result of a check.
 type Checked = Result<(), LibraryFault>;
 
 fn need(holds: bool, fault: impl FnOnce() -> LibraryFault) -> Checked {
@@ -48,7 +49,7 @@ fn need_index(index: usize, count: usize, what: &'static str) -> Checked {
     need(index < count, || LibraryFault::Index { what, index, count })
 }
 
-/// Returns `Ok` for a number of at most `most`; also 0 and negative ones, but no NaN.
+/// Returns `Ok` for a number whose absolute value is at most `most`; not for NaN.
 fn need_bounded(value: f64, most: f64, what: &'static str) -> Checked {
     need(value.abs() <= most, || LibraryFault::Bound { what, value, most })
 }
@@ -63,7 +64,7 @@ fn need_not_negative(value: f64, most: f64, what: &'static str) -> Checked {
     need_bounded(value, most, what)
 }
 
-/// Checks all declarations of a library, and that every index in it points at something.
+/// Checks all declarations of a library, and that every index in it is within its list.
 ///
 /// # Errors
 /// The first fault, inside the declaration that has it.
@@ -84,8 +85,8 @@ pub fn check_library(library: &Library) -> Checked {
         .try_for_each(|strut| check_strut(strut).map_err(|fault| fault.of("strut", &strut.name)))
 }
 
-/// Checks that every index in a library points at something, and that the joints of every module carry its links as a
-/// tree: what naming and following the indices needs.
+/// Checks that every index in a library is within its list, and that the joints of every module carry its links as a
+/// tree: the conditions for naming and following the indices.
 ///
 /// # Errors
 /// The first fault, inside the declaration that has it.
@@ -122,10 +123,11 @@ fn check_module_references(module: &ModuleType, connectors: usize) -> Checked {
     module.touching.iter().try_for_each(|&(a, b)| link(a).and(link(b)))
 }
 
-/// Checks the connector of an index among those that its `mates` are indices of.
+/// Checks the connector of an index among those that its `mates` are indices of. Panics if there is no connector of
+/// this index.
 ///
 /// # Errors
-/// Its first fault.
+/// Its first fault: turns, mates, held loads, capture or hinge.
 pub fn check_connector(all: &[Connector], index: usize) -> Checked {
     let Connector { mates, turns, holds_force, holds_moment, capture, hinge, .. } = &all[index];
     need((1..=TURNS_MAX).contains(turns), || LibraryFault::Turns { turns: *turns, most: TURNS_MAX })?;
@@ -155,7 +157,7 @@ pub fn check_connector(all: &[Connector], index: usize) -> Checked {
 /// Checks a module type, with `connectors` the number of connectors that its ports may have.
 ///
 /// # Errors
-/// Its first fault, inside the link, joint, motor or port that has it.
+/// Its first fault; if it is that of a link, joint, motor or port, inside that part.
 pub fn check_module(module: &ModuleType, connectors: usize) -> Checked {
     check_module_references(module, connectors)?;
     need_not_negative(module.touch, TOUCH_MAX, "`touch`")?;
@@ -195,23 +197,23 @@ fn check_link(link: &Link) -> Checked {
     let most = QUANTITY_MAX * EXTENT_MAX * EXTENT_MAX;
     link.inertia.iter().try_for_each(|i| need_bounded(*i, most, "its inertia"))?;
     need_not_negative(link.left_out, EXTENT_MAX, "what its `collides` leaves out")?;
-    let (found, told) = (left_out(&link.shape, &link.collides)?, link.left_out);
-    need(found <= told, || LibraryFault::LeftOut { found, told })
+    let (found, stated) = (left_out(&link.shape, &link.collides)?, link.left_out);
+    need(found <= stated, || LibraryFault::LeftOut { found, stated })
 }
 
-/// Returns the distance by which drawn shapes stick out of those that are judged, m: 0 below what the tolerances of
-/// shapes explain.
+/// Returns an upper bound on the distance by which drawn shapes stick out of those that are judged, m: 0 up to the
+/// 1e-5 m that tolerances of shapes explain, infinite if there are none that are judged.
 ///
 /// # Errors
-/// The fault of a shape that is no solid.
+/// The first fault of a shape that is not sound.
 pub fn left_out(shape: &[Placed], collides: &[Placed]) -> Result<f64, Unsound> {
     let found = protrusion(shape, collides)?;
     Ok(if found <= TOL_LEFT_OUT { 0.0 } else { found })
 }
 
-/// Returns `Ok` where a place of a module's frame is within [`MODULE_EXTENT_MAX`].
-fn need_near(place: &Vec3) -> Checked {
-    place
+/// Returns `Ok` for a position in a module's frame (m) within [`MODULE_EXTENT_MAX`] along each axis.
+fn need_near(position: &Vec3) -> Checked {
+    position
         .iter()
         .try_for_each(|c| need_bounded(*c, MODULE_EXTENT_MAX, "its distance from the module's frame, in m,"))
 }
@@ -267,7 +269,7 @@ fn check_inertia(link: &Link, farthest: f64) -> Checked {
     need(most <= bound * (1.0 + TOL_INERTIA), || LibraryFault::InertiaExtent { most, bound })
 }
 
-/// Checks that joints carry every link but the first, each once, and that all hang on the first.
+/// Checks that joints carry every link but the first, each once, and connect all links with the first.
 fn check_tree(module: &ModuleType) -> Checked {
     let count = module.links.len();
     let mut carried = BTreeSet::from([0]);
@@ -354,7 +356,8 @@ fn unit(axis: &Vec3) -> Checked {
 /// Checks a type of expanding cubes.
 ///
 /// # Errors
-/// Its first fault.
+/// Its first fault: a size, mass, force or speed that is not positive or too large, an edge thinner than
+/// [`THICKNESS_MIN`], or one that does not shrink.
 pub fn check_cell(cell: &Cell) -> Checked {
     need_positive(cell.size, EXTENT_MAX, "`size`")?;
     need_positive(cell.shrinks_to, EXTENT_MAX, "`shrinks_to`")?;
@@ -369,7 +372,8 @@ pub fn check_cell(cell: &Cell) -> Checked {
 /// Checks a type of linear actuators.
 ///
 /// # Errors
-/// Its first fault.
+/// Its first fault: a length, mass, force or speed that is not positive or too large, a negative clearance, or a
+/// range of length without extent.
 pub fn check_strut(strut: &Strut) -> Checked {
     let (low, high) = strut.length;
     need_positive(low, EXTENT_MAX, "the least `length`")?;
