@@ -14,12 +14,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The motion itself.
+/// The motion itself, of one of three families of robots.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// Articulated robots: piecewise polynomial joint positions, docking and undocking.
     Tracks(Tracks),
-    /// Lattices of expanding cubes: closed form, exact.
+    /// Lattices of expanding cubes: trajectories in closed form, exact.
     Stages(Stages),
     /// Trusses: paths of the nodes; strut lengths follow.
     NodePaths(NodePaths),
@@ -39,7 +39,7 @@ pub enum Snapshot {
 /// One body followed by another.
 pub(super) struct Appended {
     pub(super) body: Body,
-    /// The map of the second robot's names to those of the first, where robots have names.
+    /// The map of the second robot's names to those of the first; `None` for families whose robots have no names.
     pub(super) remap: Option<Remap>,
 }
 
@@ -81,7 +81,7 @@ impl Body {
         }
     }
 
-    /// Returns every instant in seconds at which the law of motion changes, with 0 and the end, in order.
+    /// Returns every instant in seconds at which the law of motion changes, with 0 and the end, ascending.
     pub fn instants(&self) -> Vec<f64> {
         match self {
             Body::Tracks(tracks) => tracks.instants(),
@@ -90,17 +90,17 @@ impl Body {
         }
     }
 
-    /// Returns the tracks, if this is the plan of an articulated robot.
+    /// Returns the tracks; `None` unless this is the plan of an articulated robot.
     pub fn tracks(&self) -> Option<&Tracks> {
         if let Body::Tracks(tracks) = self { Some(tracks) } else { None }
     }
 
-    /// Returns the node paths, if this is the plan of a truss.
+    /// Returns the node paths; `None` unless this is the plan of a truss.
     pub fn node_paths(&self) -> Option<&NodePaths> {
         if let Body::NodePaths(paths) = self { Some(paths) } else { None }
     }
 
-    /// Returns the number of units that the robot is made of (modules, cells or struts), and the name of one.
+    /// Returns the number of units that the robot is made of, and the name of one: `module`, `cell` or `strut`.
     pub fn units(&self) -> (u64, &'static str) {
         match self {
             Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
@@ -127,6 +127,9 @@ impl Body {
     }
 
     /// Returns the motion between two times in seconds, which lie within it.
+    ///
+    /// # Errors
+    /// [`OperationError::InsideStage`] for a lattice whose cells move at one of the times.
     pub(super) fn sliced(&self, from: f64, to: f64) -> Result<Body, OperationError> {
         Ok(match self {
             Body::Tracks(tracks) => tracks.sliced(from, to).into(),
@@ -135,8 +138,12 @@ impl Body {
         })
     }
 
-    /// Returns this motion and then another, whose causes come behind `causes` others. Each body's
-    /// library stands beside it.
+    /// Returns this motion and then another, whose causes are numbered from `causes` on. Each body's library stands
+    /// beside it.
+    ///
+    /// # Errors
+    /// The [`OperationError`] that keeps the two from following each other: of another family, another robot, or
+    /// another state where they meet.
     pub(super) fn joined(
         &self,
         library: &Library,
@@ -163,11 +170,18 @@ impl Body {
     }
 
     /// Returns the program that does what the body says, by the clock.
+    ///
+    /// # Errors
+    /// [`OperationError::NoJoints`] for a robot without joints, [`OperationError::NoCommand`] for a motion that no
+    /// command states.
     pub(super) fn timeline(&self) -> Result<Arc<Node>, OperationError> {
         self.tracks().map_or(Err(OperationError::NoJoints), tracks::timeline)
     }
 
     /// Checks references and orders; `causes` is the number of causes of the plan.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(super) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         match self {
             Body::Tracks(tracks) => tracks.validate(causes),
@@ -181,7 +195,7 @@ impl Body {
         self.tracks().map_or(Ok(()), Tracks::check_numbers)
     }
 
-    /// Checks that numbers mean something, after the references are.
+    /// Checks that numbers are in their ranges, after the references are checked.
     pub(super) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         match self {
             Body::Tracks(tracks) => tracks.check_ranges(library),

@@ -1,9 +1,9 @@
-//! Causes: what in the source commands a piece of motion or sets a piece of the start pose.
+//! Causes: the positions in the source that command a piece of motion or set a piece of the start pose.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The index of a cause in the list `causes` of its plan.
+/// The index of a cause, from 0, in the list `causes` of its plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct CauseId(pub u32);
@@ -20,9 +20,9 @@ pub struct Cause {
     pub column: usize,
     /// The text of the line, without the blanks around it.
     pub text: String,
-    /// The instance, such as `i = 3` or `leg[2].m[0].tilt`; empty where there is only one.
+    /// The instance, such as `i = 3` or `leg[2].m[0].tilt`; empty if there is only one.
     pub instance: String,
-    /// The call in the user's own file that led here, where `file` is the library's.
+    /// The call in the user's own file that led here; `None` if `file` itself is the user's.
     pub caller: Option<Box<Cause>>,
 }
 

@@ -10,8 +10,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The beginning of the name of a file of the standard library.
 const LIBRARY: &str = "std/";
 
-/// Returns the headline of a verdict on a plan: `verified`, `not verified`, or what was excused and where the
-/// source says so, `verified, except torque (allowed at line 40)`.
+/// Returns the headline of a verdict on a plan: `verified`, `not verified`, or with the excused checks and the lines
+/// of the source that excuse them, `verified, except torque (allowed at line 40)`. `verdict` must be one on this
+/// plan, whose exemptions it refers to.
 pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
     if !verdict.ok() {
         return "not verified".to_owned();
@@ -20,25 +21,25 @@ pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
     if excused.is_empty() { "verified".to_owned() } else { format!("verified, except {}", listed(&excused)) }
 }
 
-/// Returns each check of which a verdict needed an exemption, with the places that allow it.
+/// Returns each check of which a verdict needed an exemption, with the lines that allow it.
 fn excused(plan: &Plan, verdict: &Verdict) -> Vec<String> {
-    let mut places: BTreeMap<CheckKind, BTreeSet<(&str, usize)>> = BTreeMap::new();
+    let mut lines: BTreeMap<CheckKind, BTreeSet<(&str, usize)>> = BTreeMap::new();
     for (index, exemption) in plan.exemptions.iter().enumerate() {
         if !verdict.unneeded_exemptions.contains(&index) {
             let cause = plan.causes.get(exemption.cause.0 as usize);
-            places.entry(check(&exemption.kind)).or_default().extend(cause.map(place));
+            lines.entry(check(&exemption.kind)).or_default().extend(cause.map(position));
         }
     }
-    let files: BTreeSet<&str> = places.values().flatten().map(|(file, _)| *file).collect();
+    let files: BTreeSet<&str> = lines.values().flatten().map(|(file, _)| *file).collect();
     let own = if files.len() == 1 { files.first().filter(|file| !file.starts_with(LIBRARY)) } else { None };
-    let words = |(check, places): (&CheckKind, &BTreeSet<(&str, usize)>)| {
+    let words = |(check, positions): (&CheckKind, &BTreeSet<(&str, usize)>)| {
         let lines: Vec<String> =
-            places.iter().map(|(file, line)| line_of(file, *line, own.is_none())).collect();
+            positions.iter().map(|(file, line)| line_of(file, *line, own.is_none())).collect();
         let allowed =
             if lines.is_empty() { "allowed".to_owned() } else { format!("allowed at {}", listed(&lines)) };
         format!("{} ({allowed})", check.name())
     };
-    places.iter().map(words).collect()
+    lines.iter().map(words).collect()
 }
 
 /// Returns the check that an exemption excuses.
@@ -51,7 +52,8 @@ fn check(kind: &ExemptionKind) -> CheckKind {
     }
 }
 
-fn place(cause: &Cause) -> (&str, usize) {
+/// Returns the file and the line of a cause.
+fn position(cause: &Cause) -> (&str, usize) {
     (&cause.file, cause.line)
 }
 

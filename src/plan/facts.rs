@@ -2,7 +2,7 @@
 //! from another one.
 //!
 //! The judge believes the library of a plan as far as it is sound. A reader of the facts can tell if it is that of
-//! the robots at hand.
+//! the robots in the laboratory.
 
 use super::file::digest;
 use super::tolerances::TOLERANCES;
@@ -11,7 +11,7 @@ use crate::units::{Dimension, quantity};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Digits of a hash that are shown: enough to tell files apart that people compare.
+/// The number of digits of a hash that are shown: enough to tell files apart that people compare.
 const DIGITS: usize = 12;
 
 /// A declaration of a library in a few words.
@@ -19,11 +19,12 @@ const DIGITS: usize = 12;
 pub struct Facts {
     /// The kind of declaration: `module`, `cell` or `strut`.
     pub kind: &'static str,
-    /// Its name, with its arguments.
+    /// The declared name, with its arguments where they differ from the defaults.
     pub name: String,
     /// Masses, tolerances and limits in words.
     pub words: String,
-    /// The first digits of the SHA-256 of all that the file says of it.
+    /// The first twelve hexadecimal digits of the SHA-256 of all that the file states of it, its connectors
+    /// included.
     pub digest: String,
 }
 
@@ -38,14 +39,15 @@ pub enum Declared {
     Strut(usize),
 }
 
-/// Returns all declarations but connectors, which are facts of the modules that have them.
+/// Returns all declarations but connectors, which are facts of the modules that have them: modules, cells, struts,
+/// each in order of index.
 pub fn declarations(library: &Library) -> Vec<Declared> {
     let modules = (0..library.modules.len()).map(Declared::Module);
     let cells = (0..library.cells.len()).map(Declared::Cell);
     modules.chain(cells).chain((0..library.struts.len()).map(Declared::Strut)).collect()
 }
 
-/// Returns the facts of a declaration.
+/// Returns the facts of a declaration. Panics if the library has none of this index.
 pub fn facts(library: &Library, declared: Declared) -> Facts {
     let (kind, words) = match declared {
         Declared::Module(index) => ("module", of_module(&library.modules[index])),
@@ -57,7 +59,8 @@ pub fn facts(library: &Library, declared: Declared) -> Facts {
     Facts { kind, name: name(library, declared).to_owned(), words, digest }
 }
 
-/// Returns the name of a declaration, with its arguments where they differ from the defaults.
+/// Returns the name of a declaration, with its arguments where they differ from the defaults. Panics if the library
+/// has none of this index.
 pub fn name(library: &Library, declared: Declared) -> &str {
     match declared {
         Declared::Module(index) => &library.modules[index].name,
@@ -128,7 +131,7 @@ fn of_strut(strut: &Strut) -> String {
     )
 }
 
-/// Returns all that a library says of a declaration, with connectors in the place of their indices.
+/// Returns all that a library states of a declaration, with connectors in place of their indices.
 fn whole(library: &Library, declared: Declared) -> Value {
     let value = match declared {
         Declared::Module(index) => serde_json::to_value(&library.modules[index]),
@@ -154,9 +157,9 @@ fn connector(library: &Library, index: usize) -> Value {
     value
 }
 
-/// Returns how a declaration differs from one of another library, a line a difference: `links.body.mass is 2, there
-/// 1`. Numbers are in SI units, and equal within `tolerance`, as a part of the larger, on top of rounding. Names of the
-/// declarations themselves are not compared.
+/// Returns the differences of a declaration from one of another library, one line each: `links.body.mass is 2, there
+/// 1`. Numbers are in SI units, and equal within the fraction `tolerance` of the larger, on top of rounding. Names
+/// of the declarations themselves are not compared. Panics if a library has no declaration of its index.
 pub fn differences(
     (library, declared): (&Library, Declared),
     (other, counterpart): (&Library, Declared),
@@ -200,7 +203,7 @@ fn equal(a: Option<f64>, b: Option<f64>, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs()).max(tolerance)
 }
 
-/// Returns a value in a line: a list or an object by its length only.
+/// Returns a value in a few words: a list by its length only, an object as `stated`.
 fn short(value: &Value) -> String {
     match value {
         Value::Null => "not stated".to_owned(),

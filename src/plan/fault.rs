@@ -1,8 +1,8 @@
-//! Faults in the form of a plan: why a plan cannot be read, or cannot be judged at all.
+//! Faults in the form of a plan: the reasons why a plan cannot be read, or cannot be judged at all.
 //!
-//! A fault is no verdict on the motion. It says that an index points at nothing, that times are out of
-//! order, or that a number has no meaning, so that whoever comes after may index without asking.
-//! Times are in s, positions in rad or m.
+//! A fault is no verdict on the motion. It says that an index is too large for its list, that times are out of
+//! order, or that a number has no meaning, so that whoever comes after may index without asking. Times are in s,
+//! positions in rad or m.
 
 use super::time::DURATION_MAX;
 use super::validation::{Unwritable, check_serialisable};
@@ -19,7 +19,7 @@ pub enum PlanFault {
     Index {
         /// The sort of things in the list.
         what: &'static str,
-        /// Its index.
+        /// The index, from 0.
         index: usize,
         /// The length of the list.
         count: usize,
@@ -57,9 +57,9 @@ pub enum PlanFault {
     FirstWorld,
     /// An exemption that ends before it begins.
     ExemptionOrder,
-    /// Gravity that points upwards.
+    /// Gravity that points upwards, or is no number.
     Gravity,
-    /// A negative coefficient of friction in a world.
+    /// A negative coefficient of friction in a world, or one that is no number.
     Friction,
     /// A world that holds a base where the robot has none.
     NoBaseToHold,
@@ -68,9 +68,9 @@ pub enum PlanFault {
         /// The sampling interval, s.
         interval: f64,
     },
-    /// A negative time for which support may be missing.
+    /// A negative longest time without support, or one that is no number.
     UnstableFor,
-    /// A judge that may take no sample.
+    /// Settings by which the judge may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
     ProgramChild {
@@ -79,7 +79,7 @@ pub enum PlanFault {
         /// The index of its child.
         child: usize,
     },
-    /// A root that is no node of the program's table.
+    /// An index for the root of a program at which the table has no node.
     ProgramRoot {
         /// The index that is given.
         node: usize,
@@ -88,42 +88,42 @@ pub enum PlanFault {
     InTrack {
         /// The index of the joint.
         joint: u32,
-        /// The fault.
+        /// The fault in the track.
         fault: Box<PlanFault>,
     },
     /// A fault inside a stage of a lattice's plan.
     InStage {
         /// The name of the stage.
         stage: String,
-        /// The fault.
+        /// The fault in the stage.
         fault: Box<PlanFault>,
     },
     /// A fault in the bonds that hold after a docking or an undocking.
     After {
         /// The time, s.
         time: f64,
-        /// The fault.
+        /// The fault in the bonds.
         fault: Box<PlanFault>,
     },
     /// A name in a file that contradicts the index which it stands beside.
     Name {
         /// The sort of the thing that has the name.
         what: &'static str,
-        /// Its index.
+        /// The index of the thing among those of its sort.
         index: usize,
-        /// The text of the file.
+        /// The name in the file.
         stated: String,
-        /// The name of what the index stands for.
+        /// The name of the thing that the index stands for.
         name: String,
     },
     /// Names in a file that are too few or too many, or stand in another order.
     Names {
-        /// The first that has no counterpart.
+        /// The sort of the first name that has no counterpart.
         what: &'static str,
     },
     /// A world that states other dynamics than those under which plans of this family are judged.
     Dynamics {
-        /// The text of the file.
+        /// The dynamics that the file states.
         stated: DynamicsModel,
         /// The dynamics that plans of this family are judged under.
         judged: DynamicsModel,
@@ -135,16 +135,16 @@ pub enum PlanFault {
     Pose {
         /// The thing that has the pose.
         of: &'static str,
-        /// The fault.
+        /// The fault of the pose.
         fault: Unsound,
     },
-    /// A number beyond its named limit.
+    /// A number whose absolute value is above its limit, or that is no number.
     Bound {
-        /// The quantity.
+        /// The quantity in words.
         what: &'static str,
         /// Its value in SI units.
         value: f64,
-        /// The greatest absolute value.
+        /// The greatest absolute value that is allowed, in SI units.
         most: f64,
     },
     /// A fault of the plan of an articulated robot.
@@ -189,9 +189,9 @@ pub enum TracksFault {
         /// The end, s.
         end: f64,
     },
-    /// A segment that begins elsewhere than where the joint is.
+    /// A segment that does not begin at the position where the joint is.
     Jump {
-        /// The time, s.
+        /// The time at which the segment begins, s.
         time: f64,
     },
     /// A docking or undocking out of order, or after the end.
@@ -205,12 +205,12 @@ pub enum TracksFault {
         time: f64,
         /// The index of the bond.
         bond: usize,
-        /// `true` where it holds before.
+        /// True if it holds before the event.
         holds: bool,
     },
-    /// A joint that is moved beyond this, rad or m.
+    /// A joint that is moved farther from 0 than is allowed.
     FarJoint {
-        /// The greatest position, rad or m.
+        /// The greatest absolute value of its position, rad or m.
         limit: f64,
     },
     /// A track of a joint that takes no commands.
@@ -218,7 +218,7 @@ pub enum TracksFault {
         /// The name of the joint.
         joint: String,
     },
-    /// A port with two bonds at once.
+    /// A port that two bonds hold at once.
     PortTaken {
         /// The path name of the port.
         port: String,
@@ -237,23 +237,23 @@ pub enum TracksFault {
 pub enum StagesFault {
     /// More cells than a lattice may have.
     CellCount {
-        /// The most cells there may be.
+        /// The greatest number of cells.
         most: u64,
     },
     /// A unit of time that is not positive.
     TimeUnit,
-    /// Limits of cells that are out of range.
+    /// A least size that is not in (0, 1], or a greatest speed that is not positive.
     CellLimits,
     /// A greatest contact force that is not positive.
     ContactForce,
-    /// A start that leaves out cells.
+    /// A start whose runs name fewer cells than there are.
     Start,
     /// A stage whose squared duration is negative.
     StageDuration {
         /// The name of the stage.
         stage: String,
     },
-    /// A ramp whose part of the time has too large a denominator.
+    /// A ramp whose fraction of the time has too large a denominator.
     RampTooFine,
     /// A ramp that takes none of the time, or too much of it.
     RampPart,
@@ -286,7 +286,7 @@ pub enum NodePathsFault {
     KeyframeNodes {
         /// The time, s.
         time: f64,
-        /// The number of nodes.
+        /// The number of nodes, which is the number of positions that it must have.
         nodes: usize,
     },
     /// A roll about two nodes that are one.
@@ -294,7 +294,7 @@ pub enum NodePathsFault {
         /// The time, s.
         time: f64,
     },
-    /// A roll about two nodes that are at one position.
+    /// A roll about two nodes at one position.
     RollLength {
         /// The time, s.
         time: f64,
@@ -307,27 +307,27 @@ pub enum NodePathsFault {
     Terrain(&'static str),
 }
 
-/// Returns `Ok` where a condition holds, and the fault otherwise.
+/// Returns `Ok` if a condition holds, and the fault otherwise.
 pub(super) fn need<F: Into<PlanFault>>(holds: bool, fault: impl FnOnce() -> F) -> Result<(), PlanFault> {
     if holds { Ok(()) } else { Err(fault().into()) }
 }
 
-/// Returns `Ok` where an index is below the count of things of a sort.
+/// Returns `Ok` if an index is below the count of things of a sort.
 pub(super) fn need_index(index: usize, count: usize, what: &'static str) -> Result<(), PlanFault> {
     need(index < count, || PlanFault::Index { what, index, count })
 }
 
-/// Returns `Ok` where every time is later than the one before.
+/// Returns `Ok` if every time is later than the one before.
 pub(super) fn need_ascending(times: &[f64], what: &'static str) -> Result<(), PlanFault> {
     need(times.windows(2).all(|w| w[0] < w[1]), || PlanFault::TimeOrder { what })
 }
 
-/// Returns `Ok` where a number is no farther from 0 than its limit.
+/// Returns `Ok` if a number is no farther from 0 than its limit; not for NaN.
 pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<(), PlanFault> {
     need(value.abs() <= most, || PlanFault::Bound { what, value, most })
 }
 
-/// Returns `Ok` where every number of a part of a plan is finite.
+/// Returns `Ok` if every number of a part of a plan is finite.
 pub(super) fn need_finite(part: &'static str, value: &impl Serialize) -> Result<(), PlanFault> {
     check_serialisable(value).map_err(|value| PlanFault::Unwritable { part, value })
 }

@@ -1,10 +1,10 @@
 //! Plans, and the one judge of plans.
 //!
-//! A [`Plan`] stands alone: the library it uses, its start, its body, its program, its events and
-//! causes, and the world it is judged under. The [`Body`] is of one of three families, each in a folder
-//! with its validation and its operations: [`Tracks`] of articulated robots, [`Stages`] of lattices,
-//! [`NodePaths`] of trusses. Plans are [`reversed`], [`sliced`] and [`joined`] exactly;
-//! [`file`](mod@file) writes and reads them. The judge, [`verify`](mod@verify), knows no planner.
+//! A [`Plan`] stands alone: the library it uses, its start, its body, its program, its events and causes, and the
+//! world it is judged under. The [`Body`] is of one of three families, each in a folder with its validation and its
+//! operations: [`Tracks`], the joint trajectories of articulated robots, [`Stages`] of lattices, [`NodePaths`] of
+//! trusses. Plans are [`reversed`], [`sliced`] and [`joined`] exactly; [`file`](mod@file) writes and reads them. The
+//! judge, [`verify`](mod@verify), knows no planner.
 
 pub mod polynomial;
 pub mod time;

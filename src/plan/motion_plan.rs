@@ -1,4 +1,4 @@
-//! A plan as a whole: the motion of a robot with all that it takes to judge it.
+//! A plan as a whole: the trajectory of a robot with all that it takes to judge it.
 
 use super::body::Body;
 use super::cause::Cause;
@@ -9,12 +9,14 @@ use super::world::{Exemption, Settings, World, WorldFrom};
 use crate::robot::Library;
 use std::sync::Arc;
 
-/// A verified motion of a robot, whatever made it.
+/// The motion of a robot, whatever made it, with all that it takes to judge it. Its fields may be changed freely:
+/// [`validation::check`](super::validation::check) finds what makes no sense, before it is judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The origin of the plan, and the changes since.
     pub provenance: Provenance,
-    /// The worlds, in order of time; each part of a concatenation keeps the world it was planned for.
+    /// The worlds, in order of time, the first from 0 on; each part of a concatenation keeps the world it was
+    /// planned for.
     pub worlds: Vec<WorldFrom>,
     /// The settings of the judge.
     pub settings: Settings,
@@ -22,7 +24,8 @@ pub struct Plan {
     pub library: Arc<Library>,
     /// The motion.
     pub body: Body,
-    /// The program that a position-servo robot executes; `None` for planned bodies without one.
+    /// The program that a position-servo robot executes; `None` for planned bodies without one, and where a change
+    /// of the plan dropped it.
     pub program: Option<Program>,
     /// `true` where times depend on what sensors would say: then they hold for the undisturbed run.
     pub nominal: bool,
@@ -30,7 +33,8 @@ pub struct Plan {
     pub causes: Vec<Cause>,
     /// The parts of the plan that are excused from a check.
     pub exemptions: Vec<Exemption>,
-    /// The verdict of the last verification; it is recomputed whenever it matters.
+    /// The verdict of the last verification; `None` if there was none since the last change. It is recomputed
+    /// whenever it matters.
     pub verdict: Option<Verdict>,
 }
 

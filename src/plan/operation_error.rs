@@ -1,59 +1,59 @@
-//! Errors of the operations on plans: why plans are not cut, or not put one after the other.
+//! Errors of the operations on plans: the reasons why plans are not cut, or not put one after the other.
 
 use crate::robot::Mismatch;
 
 /// The reason why an operation on plans cannot be done. SI units; modules by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperationError {
-    /// A slice that ends before it begins.
+    /// A slice that ends before it begins, or whose times are not finite.
     Times {
         /// The beginning, s.
         from: f64,
         /// The end, s.
         to: f64,
     },
-    /// A lattice plan is cut only between stages.
+    /// A lattice plan that would be cut within a stage.
     InsideStage {
         /// The time, s.
         time: f64,
     },
-    /// Plans of different families.
+    /// Two plans of different families.
     Families,
-    /// The end of the one is not the start of the other.
+    /// Two articulated robots of which the one at its end does not match the other at its start.
     Robots(Mismatch),
-    /// Two trusses that differ in their struts, or in where a node is.
+    /// Two trusses that differ in their struts, or in the position of a node where the plans meet.
     Trusses {
-        /// The name of the first node that is elsewhere, if the struts are the same.
+        /// The name of the first node that is elsewhere; `None` if the struts or the number of nodes differ.
         node: Option<String>,
     },
     /// Two trusses among different obstacles, or on different ground.
     Surroundings,
-    /// Two lattices of different cells.
+    /// Two lattices of different cells, or with different units of time.
     Cells,
-    /// Two lattices with other numbers of cells.
+    /// Two lattices with different numbers of cells.
     CellCounts {
         /// The cells of the first plan.
         first: u64,
         /// The cells of the second plan.
         second: u64,
     },
-    /// The shape in which the one ends is not that in which the other starts.
+    /// Two lattices of which the one ends in another shape than the other starts in.
     Shapes,
-    /// The numbers of lattice plans do not fit into those of a plan together.
+    /// Two lattice plans whose numbers 64 bits do not hold together.
     Inexact,
-    /// Together they are longer than a plan may be, s.
+    /// Two plans that together are longer than a plan may be.
     TooLong {
-        /// The duration, s.
+        /// The duration of both, s.
         duration: f64,
     },
-    /// Between two times, s, a joint moves by a law that no command of a program states.
+    /// A joint that moves between two times by a law that no command of a program states.
     NoCommand {
         /// The beginning, s.
         from: f64,
         /// The end, s.
         to: f64,
     },
-    /// The plan's robot has no joints, and only a robot with joints has a program.
+    /// A robot without joints, of which none has a program.
     NoJoints,
 }
 

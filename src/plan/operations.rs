@@ -14,8 +14,8 @@ use std::sync::Arc;
 /// Returns the plan from its end to its start, exactly: of a plan on whole ticks of time, reversed
 /// twice, it is the same again.
 ///
-/// The program is derived again from the tracks, or dropped with the reason in the history; the verdict is
-/// dropped, as gravity does not run backwards.
+/// The program is derived again from the tracks, or dropped with the reason in the history. The verdict is dropped,
+/// as gravity does not run backwards, and so is the bound.
 pub fn reversed(plan: &Plan) -> Plan {
     let duration = plan.body.duration();
     let exemption = |e: &Exemption| {
@@ -29,18 +29,19 @@ pub fn reversed(plan: &Plan) -> Plan {
         ..plan.clone()
     };
     record(&mut new, Change::Reversed);
-    tell_program(&mut new);
+    derive_program(&mut new);
     new
 }
 
-/// Returns the plan between two times in seconds, each rounded to the nearest tick, clipped to the plan.
+/// Returns the plan between two times in seconds, each rounded to the nearest tick, clipped to the plan. Both ends
+/// are kept: a slice may last no time.
 ///
-/// The program is derived again from the tracks, or dropped with the reason in the history; the verdict is
+/// The program is derived again from the tracks, or dropped with the reason in the history; verdict and bound are
 /// dropped.
 ///
 /// # Errors
-/// [`OperationError::Times`] where the slice ends before it begins, and
-/// [`OperationError::InsideStage`] where a lattice's plan would be cut within a stage.
+/// [`OperationError::Times`] if the slice ends before it begins or a time is not finite, and
+/// [`OperationError::InsideStage`] if a lattice's plan would be cut within a stage.
 pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
     let duration = plan.body.duration();
     let (from, to) = (tick_near(from).max(0.0), tick_near(to).min(duration));
@@ -60,18 +61,20 @@ pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
         ..plan.clone()
     };
     record(&mut new, Change::Sliced { from, to });
-    tell_program(&mut new);
+    derive_program(&mut new);
     Ok(new)
 }
 
 /// Returns `p ++ q`: the one plan, then the other, which starts as the first ends: the same robot up to
 /// the names of its modules and a rigid motion.
 ///
-/// Names, base and library are those of `p`; each part keeps its world; the judge is as strict as the
-/// stricter part asks. The renaming is recorded in the history.
+/// Names, base and library are those of `p`; each part keeps its world; the judge is as strict as the stricter part
+/// asks. The renaming is recorded in the history; verdict and bound are dropped, and the program unless both have
+/// one.
 ///
 /// # Errors
-/// An [`OperationError`] that says why the plans do not fit together.
+/// The [`OperationError`] that keeps the plans from following each other, [`OperationError::TooLong`] if together
+/// they last longer than [`DURATION_MAX`].
 pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     let at = p.body.duration();
     let duration = at + q.body.duration();
@@ -114,8 +117,8 @@ fn record(plan: &mut Plan, change: Change) {
     plan.provenance.history.push(change);
 }
 
-/// Replaces the program, if there was one, by what the tracks say.
-fn tell_program(plan: &mut Plan) {
+/// Replaces the program, if there was one, by that of the tracks.
+fn derive_program(plan: &mut Plan) {
     if plan.program.take().is_none() {
         return;
     }

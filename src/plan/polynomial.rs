@@ -1,10 +1,11 @@
-//! Polynomials over 0..1 in Bernstein form, the pieces of trajectories: the control points bound the values,
-//! the first and the last are the values at the ends, and reversing them reverses the argument.
+//! Polynomials over 0..1 in Bernstein form, the pieces of trajectories, given by their control points: these bound
+//! the values, the first and the last are the values at the ends, and reversing them reverses the argument.
 
-/// Highest degree of a segment in a plan.
+/// The greatest degree of a segment in a plan.
 pub const DEGREE_MAX: usize = 15;
 
-/// Returns the value at `u`, by de Casteljau's rule: exact at both ends.
+/// Returns the value at `u`, by de Casteljau's rule: exact at both ends, and that of the nearer end outside 0..1.
+/// Panics without control points, or with more than [`DEGREE_MAX`] + 1.
 pub fn value(control: &[f64], u: f64) -> f64 {
     if u <= 0.0 {
         return control[0];
@@ -23,7 +24,8 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     points[0]
 }
 
-/// Returns the parts before and after `u` (de Casteljau), each over 0..1. They share the value at `u` to the bit.
+/// Returns the control points of the parts before and after `u` (0 to 1), by de Casteljau's rule, each over 0..1.
+/// They share the value at `u` to the bit.
 pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     let mut right = control.to_vec();
     let mut left = Vec::with_capacity(control.len());
@@ -36,7 +38,9 @@ pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     (left, right)
 }
 
-/// Returns the part between `u0` and `u1`, over 0..1.
+/// Returns the part of a polynomial between `u0` and `u1` as control points over 0..1. `control`: its control
+/// points, at least one; `u0 <= u1`, with `u1` not below 0 and `u0` not above 1. A `u0` below 0 counts as 0, a `u1`
+/// above 1 as 1.
 pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     let mut points = control.to_vec();
     if u1 < 1.0 {
@@ -48,7 +52,8 @@ pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     points
 }
 
-/// Returns the derivative by the argument; a constant has the derivative `[0]`.
+/// Returns the derivative by the argument, as control points; that of a constant is `[0]`. Panics without control
+/// points.
 pub fn derivative(control: &[f64]) -> Vec<f64> {
     let degree = control.len() - 1;
     if degree == 0 {
@@ -57,17 +62,18 @@ pub fn derivative(control: &[f64]) -> Vec<f64> {
     control.windows(2).map(|w| degree as f64 * (w[1] - w[0])).collect()
 }
 
-/// Returns the lowest and the highest control point: they bound every value.
+/// Returns the lowest and the highest control point, which bound every value over 0..1; infinity and minus infinity
+/// without any.
 pub fn hull(control: &[f64]) -> (f64, f64) {
     control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
 }
 
-/// The most bisections of an interval for a root: to the last bit of the argument.
+/// The greatest number of bisections of an interval for a root: to the last bit of the argument.
 const HALVINGS_MAX: usize = 60;
 
-/// Returns the arguments in 0..1 where the polynomial passes through zero, in order: the control points are
-/// halved until they change sign once or not at all. Roots at the ends, and instants where it
-/// touches zero without passing through, may be missing.
+/// Returns the arguments in 0..1 at which the polynomial passes through zero, ascending: the control points are
+/// halved until they change sign once or not at all. Roots at the ends, and arguments at which it touches zero
+/// without passing through, may be missing.
 pub fn roots(control: &[f64]) -> Vec<f64> {
     let mut found = Vec::new();
     // The part furthest left is on top.
@@ -104,7 +110,7 @@ fn sign_changes(points: &[f64]) -> usize {
     changes
 }
 
-/// Returns `true` where the values at the ends have different signs.
+/// Returns true if the values at the ends have different signs, and neither is 0.
 fn passes(points: &[f64]) -> bool {
     let (first, last) = (points[0], points[points.len() - 1]);
     first != 0.0 && last != 0.0 && (first < 0.0) != (last < 0.0)

@@ -1,5 +1,5 @@
-//! The program: a series-parallel graph of actions, the paper's (J, X, ξ, T), as a position-servo
-//! robot executes it. In a plan file it is a table of nodes, so that what is shared stays shared.
+//! The program: a series-parallel graph of actions, the (J, X, ξ, T) of the compositional-design paper, as a
+//! position-servo robot executes it. In a plan file it is a table of nodes, so that what is shared stays shared.
 
 use super::cause::CauseId;
 use super::world::ExemptionKind;
@@ -16,7 +16,8 @@ pub struct Program {
     pub root: Arc<Node>,
 }
 
-/// Series (`Sc`) and parallel (`Pc`) composition. Nodes are shared where a behaviour is used twice.
+/// A node of the graph: an action, or a series (`Sc`) or parallel (`Pc`) composition of nodes. Nodes are shared
+/// where a behaviour is used twice.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     /// One action.
@@ -32,20 +33,21 @@ pub enum Node {
         /// The number of repetitions.
         times: u64,
     },
-    /// A cyclic behaviour begun at `shift` (0..1) of its cycle.
+    /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.
     Phase {
         /// The behaviour.
         body: Arc<Node>,
-        /// The part of the cycle, 0 to 1.
+        /// The fraction of the cycle, from 0 to 1.
         shift: f64,
         /// The command of the source that this comes from.
         cause: CauseId,
     },
-    /// The joints move together to where `Phase` of the same body and shift begins, in least time.
+    /// A move of the joints together, in least time, to the positions at which `Phase` of the same body and shift
+    /// begins.
     Approach {
         /// The behaviour.
         body: Arc<Node>,
-        /// The part of the cycle, 0 to 1.
+        /// The fraction of the cycle, from 0 to 1.
         shift: f64,
         /// The command of the source that this comes from.
         cause: CauseId,
@@ -63,23 +65,24 @@ pub enum Node {
     Exempt {
         /// The behaviour.
         body: Arc<Node>,
-        /// The checks.
+        /// The checks that it is excused from.
         kind: ExemptionKind,
         /// The command of the source that this comes from.
         cause: CauseId,
     },
 }
 
-/// One command to one controller with its end: (J, X, ξ, T).
+/// One command to one controller with its end: (J, X, ξ, T). Without `until` and `timeout` it ends when its motion
+/// does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
-    /// J and X: what is commanded.
+    /// The command: the controller J and the setpoint X.
     pub command: Command,
-    /// ξ: ends the action when it holds.
+    /// The condition ξ that ends the action when it begins to hold; `None`: no condition does.
     pub until: Option<Condition>,
-    /// T, in seconds.
+    /// The time T after which the action ends, s; `None`: no time is set.
     pub timeout: Option<f64>,
-    /// The continuation after the timeout.
+    /// The continuation when the timeout comes before `until` holds.
     pub otherwise: Otherwise,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -89,32 +92,33 @@ pub struct Action {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
-    /// `duration: None` is the least time that the limits allow.
+    /// A move of a joint to a position.
     Move {
         /// The joint.
         joint: JointId,
-        /// The end.
+        /// The end of the move.
         target: Target,
-        /// Seconds, or `None`.
+        /// The duration, s; `None`: the least that the limits allow.
         duration: Option<f64>,
         /// The time law.
         profile: Profile,
     },
-    /// `duration: None` lasts until the next command to the joint.
+    /// A motion of a joint at a constant speed.
     Spin {
         /// The joint.
         joint: JointId,
         /// The speed, rad/s or m/s.
         speed: f64,
-        /// Seconds, or `None`.
+        /// The duration, s; `None`: until the next command to the joint.
         duration: Option<f64>,
     },
-    /// A sampled function of time since the action's start: (time, position) with the velocities
-    /// between which it is a cubic.
+    /// A motion of a joint along a sampled function of the time since the action's start: between two samples it is
+    /// the cubic with their positions and velocities.
     Follow {
         /// The joint.
         joint: JointId,
-        /// (s, rad or m, rad/s or m/s), in order of time; the first at 0.
+        /// Time (s), position (rad or m) and velocity (rad/s or m/s) of each sample, in order of time; the first at
+        /// 0.
         keyframes: Vec<[f64; 3]>,
     },
     /// Nothing moves for a time.
@@ -122,7 +126,7 @@ pub enum Command {
         /// The duration, s.
         duration: f64,
     },
-    /// Port `b` docks to port `a`; the turn is the allowed one nearest to where they are.
+    /// Docking of port `b` to port `a`; the turn is the allowed one nearest to that in which they meet.
     Dock {
         /// The port that is docked to.
         a: PortRef,
@@ -140,9 +144,9 @@ pub enum Command {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Target {
-    /// A position, rad or m.
+    /// The position at the end, rad or m.
     To(f64),
-    /// A change of position, rad or m.
+    /// The change of the position from that at the start, rad or m.
     By(f64),
 }
 
@@ -150,15 +154,15 @@ pub enum Target {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
-    /// Quintic, at rest at both ends.
+    /// A quintic polynomial of time, at rest at both ends.
     Smooth,
-    /// Constant acceleration, constant speed, constant deceleration.
+    /// Constant acceleration, constant speed, constant deceleration; at rest at both ends.
     Trapezoid,
-    /// Constant speed throughout.
+    /// Constant speed throughout: the speed jumps at both ends.
     Linear,
 }
 
-/// The continuation after a timeout before `until` held.
+/// The continuation when an action's timeout comes before its `until` holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Otherwise {
     /// The next action begins: the paper's meaning.
@@ -177,7 +181,7 @@ pub enum Signal {
     Angle(JointId),
     /// The rate of a joint, rad/s or m/s.
     Speed(JointId),
-    /// Seconds since the action began.
+    /// The time since the action began, s.
     Elapsed,
 }
 
@@ -195,7 +199,7 @@ pub enum Compare {
     GreaterEqual,
 }
 
-/// ξ: what ends an action when it begins to hold.
+/// The condition ξ, which ends an action when it begins to hold.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
@@ -212,16 +216,17 @@ pub enum Condition {
     Docked(PortRef),
     /// Two ports are docked to each other.
     Mated(PortRef, PortRef),
-    /// Both conditions hold.
+    /// Both conditions hold at once.
     And(Box<Condition>, Box<Condition>),
-    /// One of them holds, or both.
+    /// One of the conditions holds, or both.
     Or(Box<Condition>, Box<Condition>),
-    /// It does not hold.
+    /// The condition does not hold.
     Not(Box<Condition>),
 }
 
 impl Compare {
-    /// Returns the comparison that holds when both sides change their signs.
+    /// Returns the comparison that holds for the negated sides where this one does for the sides themselves: `<` for
+    /// `>`.
     pub fn turned(self) -> Compare {
         match self {
             Compare::Less => Compare::Greater,

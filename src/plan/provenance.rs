@@ -4,22 +4,23 @@ use super::fault::{PlanFault, need};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The origin of a plan: what made it, and what was done to it since.
+/// The origin of a plan: its planner and sources, and the changes since.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// `behavior`, or the planner's name.
+    /// The name of the planner; `behavior` for the plan of a behaviour.
     pub planner: String,
-    /// Name and SHA-256 of every source text, in order of name.
+    /// Name and SHA-256 (hexadecimal) of every source text, in order of name.
     pub sources: Vec<(String, String)>,
-    /// The seed of the random numbers, where the planner draws any.
+    /// The seed of the random numbers; `None` if the planner draws none.
     pub seed: Option<u64>,
-    /// The limit that was set for the search, in the steps that the planner counts.
+    /// The limit that was set for the search, in the steps that the planner counts; `None` if none was.
     pub budget: Option<u64>,
-    /// A lower bound that the planner proved for all plans that this one was chosen from; none of a plan changed since.
+    /// A lower bound that the planner proved for all plans that this one was chosen from; `None` if it proved none,
+    /// and for a plan changed since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bound: Option<ObjectiveValue>,
-    /// The value of the plan that the bound is about, not below it; none of a plan changed since.
+    /// The value of the plan that the bound is about, not below it; `None` as for the bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reached: Option<ObjectiveValue>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
@@ -81,6 +82,6 @@ pub enum Change {
         /// The changes of the other plan before.
         appended: Vec<Change>,
     },
-    /// The program was dropped, for this reason.
+    /// The program was dropped, for the reason in words.
     ProgramDropped(String),
 }

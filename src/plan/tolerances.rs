@@ -1,25 +1,25 @@
-//! The tolerances of what a plan is, and of what all judges share. Each family of plans has its judge, with
+//! The tolerances (thresholds) of plans, and those that all judges share. Each family of plans has its judge, with
 //! tolerances of its own.
 
 /// Tolerances of plans of all families.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
-    /// The most by which joints may be apart where two plans meet, rad or m: what rounding explains and no eye
-    /// sees.
+    /// The greatest difference of a joint's positions where two plans meet, rad or m: rounding, which no eye sees.
     pub join_joint: f64,
-    /// The most by which nodes may be apart where two plans meet, m, along each axis: what rounding explains and
-    /// no eye sees.
+    /// The greatest difference of a node's positions where two plans meet, m, along each axis: rounding, which no
+    /// eye sees.
     pub join_node: f64,
-    /// The greatest distance of a cut from the border of a stage, s, beside a time of 1 s: rounding.
+    /// The greatest distance of a cut at the time t from the border of a stage, as a fraction of 1 s + t: rounding.
     pub stage_border: f64,
-    /// The most by which a joint may jump between two segments, rad or m: rounding, where plans were joined.
+    /// The greatest jump of a joint between two segments, rad or m: rounding, where plans were joined.
     pub joint_jump: f64,
-    /// Lengths (m), angles (rad) and fractions of a limit below this are reported as zero: rounding.
+    /// The absolute value below which lengths (m), angles (rad) and fractions of a limit are reported as zero:
+    /// rounding.
     pub reported_zero: f64,
-    /// Hulls of contacts narrower than this are lines, m.
+    /// The width below which hulls of contacts are lines, m.
     pub polygon_width: f64,
-    /// Numbers of two libraries that differ by less than this part are equal: rounding on the way through other
-    /// tools.
+    /// The fraction of the larger by which numbers of two libraries may differ and be equal: rounding on the way
+    /// through other tools.
     pub equal_facts: f64,
 }
 

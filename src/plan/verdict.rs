@@ -6,7 +6,7 @@ use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The name of a check of the judge.
+/// A check of the judge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CheckKind {
@@ -68,12 +68,12 @@ impl CheckKind {
     }
 }
 
-/// The unit of a worst value, which decides how it is shown.
+/// The kind of quantity of a worst value, which decides its unit in texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// A length, m.
     Length,
-    /// A fraction of a limit.
+    /// A fraction of a limit, without unit.
     Fraction,
     /// An angle, rad.
     Angle,
@@ -86,11 +86,11 @@ pub enum Measure {
 pub struct WorstKind {
     /// The name in reports.
     pub name: &'static str,
-    /// The name on a page, after "least"; `None` for what a page does not show.
+    /// The name on a page, after "least"; `None` for a value that a page does not show.
     pub title: Option<&'static str>,
-    /// Its unit.
+    /// The kind of quantity.
     pub measure: Measure,
-    /// Reads the value from a verdict.
+    /// The function that returns the value in a verdict, `None` if the verdict has none.
     pub of: fn(&Verdict) -> &Option<Worst>,
     /// The function that returns the value in a verdict for writing.
     pub of_mut: fn(&mut Verdict) -> &mut Option<Worst>,
@@ -126,19 +126,20 @@ pub const WORST_VALUES: [WorstKind; 8] = [
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Status {
-    /// Holds at every instant.
+    /// The check holds at every instant.
     Proved,
-    /// Holds at every instant up to a stated tolerance, which was needed: links penetrate by no more than `touch`.
+    /// The check holds at every instant up to a stated tolerance, which was needed: links penetrate by no more than
+    /// `touch`.
     WithinTolerance,
-    /// Holds at this many samples; between them nothing is proved.
+    /// The check holds at this many samples; between them nothing is proved.
     Sampled(usize),
-    /// It was not judged, for this reason.
+    /// The check was not made, for the reason in words.
     NotChecked(String),
     /// The library states no limit to check against.
     NoLimit,
-    /// Failures were excused by an exemption that stands in the source.
+    /// Failures of the check were excused by an exemption that stands in the source.
     Exempt,
-    /// There is a failure of the kind.
+    /// There is a failure of the check.
     Failed,
 }
 
@@ -162,19 +163,20 @@ impl std::fmt::Display for Status {
 pub struct Check {
     /// The check.
     pub kind: CheckKind,
-    /// Its outcome.
+    /// The outcome of the check.
     pub status: Status,
 }
 
-/// A worst value with its time and the modules (or joints) it was found at.
+/// A worst value with its time and the modules, joints, bonds or struts that it was found at.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Worst {
-    /// SI; a margin is a fraction of the limit.
+    /// The value in SI units; a margin of torque, bond or speed is the fraction of the limit that is left, negative
+    /// beyond it.
     pub value: f64,
     /// The time, s.
     pub time: f64,
-    /// Path names.
+    /// The path names of the things that it was found at.
     pub at: Vec<String>,
 }
 
@@ -186,7 +188,7 @@ pub struct Failure {
     pub kind: CheckKind,
     /// The time, s.
     pub time: f64,
-    /// The time at which it ends (s), where that was followed.
+    /// The time at which it ends, s; `None` if that was not followed.
     pub until: Option<f64>,
     /// Path names of the modules, links or joints concerned.
     pub at: Vec<String>,
@@ -196,7 +198,8 @@ pub struct Failure {
     pub value: f64,
     /// The limit in SI units; 0 where there is none.
     pub limit: f64,
-    /// The commands to blame, latest first, at most three: held still, each removes the failure.
+    /// The commands to blame, latest first, at most three: held still, each removes the failure. Empty if none was
+    /// found or sought.
     pub blame: Vec<CauseId>,
     /// True if `blame` names the start pose (`set`, `connect`) instead of commands.
     pub blames_start: bool,
@@ -236,7 +239,7 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// Returns names and words of all quantities, for a plan of this duration in seconds.
+    /// Returns names and texts of all quantities, for a plan of this duration in seconds.
     pub fn in_words(&self, duration: f64) -> [(&'static str, String); 5] {
         let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
         let bound = quantity(self.lower_bound, Dimension::TIME);
@@ -259,53 +262,57 @@ impl Dynamics {
 pub struct Verdict {
     /// All checks, in order of kind.
     pub checks: Vec<Check>,
-    /// All failures, in order of time.
+    /// All failures, in order of time, at most 100; a note counts the others.
     pub failures: Vec<Failure>,
     /// Findings that are no failures: a large settling at the start, "needs friction".
     pub notes: Vec<String>,
-    /// Indices of exemptions that nothing needed.
+    /// Indices of the plan's exemptions that nothing needed.
     pub unneeded_exemptions: Vec<usize>,
-    /// Signed distance between links that may not touch, m.
+    /// The least signed distance between links that may not touch, cells or struts, and of these from obstacles, m;
+    /// `None` if none was measured, as for the other worst values.
     pub clearance: Option<Worst>,
-    /// Distance of the centre of mass inside the support polygon, m.
+    /// The least static stability margin, m: the distance of the centre of mass inside the support polygon, negative
+    /// outside.
     pub margin: Option<Worst>,
-    /// 1 - effort / limit of joints and motors, with the best contact forces there are.
+    /// The least 1 - effort / limit of joints and motors, with the best contact forces there are.
     pub torque_margin: Option<Worst>,
-    /// 1 - load / limit of bonds, with the best contact forces there are.
+    /// The least 1 - load / limit of bonds, with the best contact forces there are.
     pub bond_margin: Option<Worst>,
-    /// 1 - speed / limit.
+    /// The least 1 - speed / limit of joints, cells or struts.
     pub speed_margin: Option<Worst>,
     /// The least angle between struts of a truss that share a node, rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<Worst>,
-    /// The least singular value of the rigidity matrix of a truss (rows of unit vectors).
+    /// The least singular value of the rigidity matrix of a truss (rows of unit vectors), without unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<Worst>,
-    /// Displacement of the base over the plan, m.
+    /// The displacement of the base over the plan, x, y, z in the world, m; 0 for families without a base.
     pub travel: [f64; 3],
-    /// Change of the base's heading, rad.
+    /// The change of the base's heading, rad, counter-clockwise from above.
     pub heading: f64,
     /// Greatest slip of a loaded link, summed over the plan, m.
     pub slip: Option<Worst>,
     /// The duration, s.
     pub duration: f64,
-    /// Least mechanical work of the motors, quasi-static, J.
+    /// The least mechanical work of the motors, quasi-static, J.
     pub energy: f64,
-    /// Dynamic quantities of a lattice plan.
+    /// The dynamic quantities of a lattice plan; `None` for other plans, and for one that was not judged to its end.
     pub dynamics: Option<Dynamics>,
-    /// Samples judged, refinements included.
+    /// The number of samples judged, refinements included.
     pub samples: usize,
     /// Tip-overs and rolls in words, with their times (s), in order of time.
     pub events: Vec<(f64, String)>,
 }
 
 impl Verdict {
-    /// Returns true if nothing failed. Checks that were not made, or have no limit, are listed in `checks`.
+    /// Returns true if nothing failed. Checks that were not made, or have no limit, do not count as failures; they
+    /// are listed in `checks`.
     pub fn ok(&self) -> bool {
         self.failures.is_empty()
     }
 
-    /// Returns the worst values that there are, each with its row of [`WORST_VALUES`].
+    /// Returns the worst values that the verdict has, each with its row of [`WORST_VALUES`], in the order of the
+    /// table.
     pub fn worst_values(&self) -> impl Iterator<Item = (WorstKind, &Worst)> {
         WORST_VALUES.into_iter().filter_map(|kind| (kind.of)(self).as_ref().map(|worst| (kind, worst)))
     }

@@ -4,7 +4,7 @@ use super::program::{Action, Node, Otherwise};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// The distinct nodes under a root, children before parents, found by address.
+/// The distinct nodes under a root, children before parents; two nodes are distinct if their addresses are.
 pub struct Graph<'a> {
     /// The nodes, in order of first completion; the root is last.
     pub nodes: Vec<&'a Arc<Node>>,
@@ -14,7 +14,7 @@ pub struct Graph<'a> {
 }
 
 impl<'a> Graph<'a> {
-    /// Returns the graph under a root, walked with a stack of its own: however deep it is, nothing overflows.
+    /// Returns the graph under a root. The walk has a stack of its own, so that no depth overflows.
     pub fn of(root: &'a Arc<Node>) -> Graph<'a> {
         let mut graph = Graph { nodes: Vec::new(), index: HashMap::new(), depth: 0 };
         let mut depths = Vec::new();
@@ -37,12 +37,13 @@ impl<'a> Graph<'a> {
         graph
     }
 
-    /// Returns the index in [`nodes`](Graph::nodes) of a node of the graph.
+    /// Returns the index in [`nodes`](Graph::nodes) of a node of the graph. Panics if the graph does not have the
+    /// node.
     pub fn position(&self, node: &Arc<Node>) -> usize {
         self.index[&Arc::as_ptr(node)]
     }
 
-    /// Returns every action, in order of nodes.
+    /// Returns every distinct action, in order of nodes; the actions of `else` branches are among them.
     pub fn actions(&self) -> impl Iterator<Item = &'a Action> + '_ {
         self.nodes.iter().filter_map(|node| match &***node {
             Node::Action(action) => Some(action),
@@ -54,14 +55,15 @@ impl<'a> Graph<'a> {
 /// The size of a program as it is carried out; counts saturate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
-    /// Actions that begin, repetitions included; `else` branches are not.
+    /// The number of actions that begin, repetitions included; `else` branches are not.
     pub actions: u64,
-    /// Nodes that are entered.
+    /// The number of nodes that are entered, repetitions included.
     pub steps: u64,
 }
 
-/// Returns the extent of a program, or of the largest cyclic behaviour in it, which is carried out by itself.
-/// The work is linear in the distinct nodes, however often each is carried out.
+/// Returns the extent of a program, or, in each count, that of the largest body of a phase, approach or stretch in
+/// it, which is carried out by itself, if it is larger. The work is linear in the distinct nodes, however often each
+/// is carried out.
 pub fn extent(root: &Arc<Node>) -> Extent {
     let graph = Graph::of(root);
     let mut extents: Vec<Extent> = Vec::with_capacity(graph.nodes.len());
@@ -100,7 +102,8 @@ impl Extent {
     }
 }
 
-/// Returns true if two programs are equal. Each pair of nodes is compared once, however often it occurs.
+/// Returns true if two programs are equal: the same nodes in the same order, causes included. Each pair of nodes is
+/// compared once, however often it occurs.
 pub fn equal(a: &Arc<Node>, b: &Arc<Node>) -> bool {
     let mut seen = HashSet::new();
     let mut stack = vec![(a, b)];
@@ -136,7 +139,7 @@ fn alike(a: &Node, b: &Node) -> bool {
     bare(a) == bare(b)
 }
 
-/// Returns the nodes directly under a node: an action has its `else` branch.
+/// Returns the nodes directly under a node, in order; those of an action are its `else` branch, if it has one.
 pub fn children(node: &Node) -> impl Iterator<Item = &Arc<Node>> {
     (0..).map_while(|i| child(node, i))
 }
@@ -154,8 +157,8 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
     }
 }
 
-/// Returns the same graph, sharing kept, with every action rewritten; `rewrite` sees the action with its
-/// `else` branch already done.
+/// Returns the same graph, sharing kept, with every action rewritten, children first; `rewrite` receives the action
+/// with its `else` branch already rewritten.
 ///
 /// # Errors
 /// The first error of `rewrite`.
@@ -188,7 +191,8 @@ pub fn rewritten<E>(
     Ok(done.pop().expect("a graph has its root"))
 }
 
-/// Returns a node that is no action, over other children.
+/// Returns a copy of a node with the children that `new` returns for its own; an action is copied as it is, with its
+/// `else` branch.
 pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node {
     match node {
         Node::Action(action) => Node::Action(action.clone()),

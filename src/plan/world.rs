@@ -1,4 +1,4 @@
-//! The world that a plan assumes, how strictly it is judged, and what it is excused from.
+//! The world that a plan assumes, the settings of its judge, and its exemptions from checks.
 
 use super::cause::CauseId;
 use schemars::JsonSchema;
@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
-    /// Quasi-static contact: the robot rests, rolls, travels, tips.
+    /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels, tips.
     Settle,
-    /// The base keeps its pose.
+    /// Level ground under the robot, and a base that keeps its pose.
     Fixed,
     /// The base module's body is held fast, fixed in the world: its fixture takes any force and moment, and
     /// nothing else touches the robot.
     Held,
-    /// The robot floats.
+    /// No ground: the robot floats.
     Off,
 }
 
@@ -27,12 +27,12 @@ pub struct World {
     pub gravity: f64,
     /// The ground under the robot.
     pub ground: Ground,
-    /// Factor on the friction of every link.
+    /// The factor on the coefficient of friction of every link, without unit; not negative.
     pub friction: f64,
 }
 
-/// The dynamics that a plan is judged under: what is assumed of how forces and motion go together. Later
-/// versions add models; none of those here changes its meaning.
+/// The dynamics that a plan is judged under: the assumed relation of forces and motion. Later versions add models;
+/// none of those here changes its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DynamicsModel {
@@ -52,10 +52,10 @@ impl std::fmt::Display for DynamicsModel {
 }
 
 impl World {
-    /// Nothing pulls, and there is no ground.
+    /// The world in which nothing pulls, and there is no ground.
     pub const FREE: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
 
-    /// Returns `true` where there is something under the robot.
+    /// Returns true if there is ground under the robot: for [`Ground::Settle`] and [`Ground::Fixed`].
     pub fn has_floor(&self) -> bool {
         matches!(self.ground, Ground::Settle | Ground::Fixed)
     }
@@ -88,7 +88,7 @@ pub enum Stability {
     Centres,
 }
 
-/// The settings of the judge. A looser value than the default stands in the source and in the plan.
+/// The settings of the judge. Settings looser than the default are stated in the source and in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
@@ -98,7 +98,8 @@ pub struct Settings {
     pub unstable_for: f64,
     /// The polygon of the check of stability.
     pub stability: Stability,
-    /// The most samples of one verification, refinements included.
+    /// The greatest number of samples of one verification, refinements included; a verification that needs more
+    /// fails.
     pub samples_max: usize,
 }
 
@@ -116,7 +117,7 @@ pub enum ExemptionKind {
     Unstable,
     /// Links in contact that slide.
     Slip,
-    /// Collisions between two modules; `None`: between any.
+    /// Collisions between two modules, by their indices; `None`: between any two.
     Collision(Option<(usize, usize)>),
     /// The overload of one joint ([`JointId`](crate::robot::JointId)); `None`: of any.
     Overload(Option<u32>),
@@ -128,9 +129,9 @@ pub enum ExemptionKind {
 pub struct Exemption {
     /// The check that is excused.
     pub kind: ExemptionKind,
-    /// The beginning, s.
+    /// The beginning, s; included.
     pub from: f64,
-    /// The end, s.
+    /// The end, s; included.
     pub to: f64,
     /// The command of the source that this comes from.
     pub cause: CauseId,

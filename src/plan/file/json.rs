@@ -1,4 +1,4 @@
-//! The JSON of a plan file: what stands in it, in order, and how it becomes a plan and back.
+//! The JSON of a plan file: its fields in order, and the conversion to a plan and back.
 //!
 //! It differs from [`Plan`] in three respects: the library is written once, beside the body; a program is a
 //! table of nodes whose children come before them, so that what is shared stays shared and nothing nests
@@ -33,9 +33,9 @@ pub(super) const VERSION: u32 = 2;
 /// The oldest version that is read.
 pub(super) const VERSION_MIN: u32 = 2;
 
-/// A verified motion of a modular robot. SI units throughout: m, rad, s, kg, N, N·m; poses are a
-/// position and a unit quaternion. Every reference is an index, from 0, into a list of this file, with the
-/// name of what it stands for beside it.
+/// The motion of a modular robot with all that it takes to judge it. SI units throughout: m, rad, s, kg, N, N·m;
+/// poses are a position and a unit quaternion. Every reference is an index, from 0, into a list of this file, with
+/// the name of what it stands for beside it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Plan", deny_unknown_fields)]
 pub(super) struct PlanJson<'a> {
@@ -69,7 +69,7 @@ struct WorldFromJson {
     world: WorldJson,
 }
 
-/// The assumptions about the surroundings, and about how forces and motion go together.
+/// The assumptions about the surroundings, and about the relation of forces and motion.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "World", deny_unknown_fields)]
 struct WorldJson {
@@ -154,8 +154,11 @@ impl<'a> PlanJson<'a> {
         stated
     }
 
-    /// Returns the plan that stands in a file, its references and orders validated, its names compared with
-    /// its indices.
+    /// Returns the plan that stands in a file, its references and orders validated, its names compared with its
+    /// indices.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(super) fn into_valid_plan(self) -> Result<Plan, PlanFault> {
         let names = self.names();
         let dynamics: Vec<DynamicsModel> = self.worlds.iter().map(|w| w.world.dynamics).collect();

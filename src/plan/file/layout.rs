@@ -1,6 +1,7 @@
 //! The layout of plan files: lines and blanks between the tokens of JSON.
 
-/// Containers deeper than this stay on one line: a segment of a track is one.
+/// The depth up to which containers have a line for each item; deeper ones, such as a segment of a track, stay on
+/// one line.
 const LINES_DEPTH: usize = 5;
 
 /// Returns compact JSON with a line for each item of the outer containers, so that a person can find an item

@@ -12,7 +12,7 @@ use super::motion_plan::Plan;
 use super::validation::check_serialisable;
 use sha2::{Digest, Sha256};
 
-/// Longest text that is read, bytes.
+/// The greatest length of a text that is read, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
 
 /// The reason why a plan cannot be written or read, with its position in the text.
@@ -52,7 +52,8 @@ impl From<serde_json::Error> for FileError {
 /// Returns a plan as text.
 ///
 /// # Errors
-/// Refuses numbers that are not finite, which JSON cannot hold.
+/// A [`FileError`] without position for a number that is not finite, which JSON cannot hold, and for nesting deeper
+/// than readers take.
 pub fn write(plan: &Plan) -> Result<String, FileError> {
     let json = PlanJson::of(plan);
     check_serialisable(&json).map_err(|fault| FileError::whole(fault.to_string()))?;
@@ -66,7 +67,8 @@ pub fn write(plan: &Plan) -> Result<String, FileError> {
 /// file is refused where it uses what was added.
 ///
 /// # Errors
-/// Refuses a text that is no plan of a known version, and a plan with a [`PlanFault`](super::PlanFault).
+/// A [`FileError`] for a text that is too long, that is no JSON of a plan, or is one of a version before 2, and for
+/// a plan with a [`PlanFault`](super::PlanFault); it has a position for errors of the JSON.
 pub fn read(text: &str) -> Result<Plan, FileError> {
     if text.len() > TEXT_MAX {
         return Err(FileError::whole(format!("the file is longer than {TEXT_MAX} bytes")));
@@ -103,12 +105,12 @@ fn newer(version: u32, error: FileError) -> FileError {
     FileError { message, ..error }
 }
 
-/// Returns the SHA-256 of a text in hexadecimal, by which plans and their pages name sources and plans.
+/// Returns the SHA-256 of a text as 64 hexadecimal digits, by which plans and their pages name sources and plans.
 pub fn digest(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Returns the JSON Schema of plan files.
+/// Returns the JSON Schema of plan files, of the version that is written.
 pub fn schema() -> serde_json::Value {
     let mut schema = schemars::schema_for!(PlanJson<'static>).to_value();
     if let Some(object) = schema.as_object_mut() {

@@ -66,7 +66,7 @@ struct ActionJson<'a> {
     /// The names of the joint or the ports that the command is about, in its order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     on: Vec<String>,
-    /// Ends the action when it holds.
+    /// The condition that ends the action when it begins to hold.
     until: Option<Cow<'a, Condition>>,
     /// The names of the joints and ports in `until`, in its order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -7,10 +7,11 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::time::tick_after;
 use crate::plan::tolerances::TOLERANCES;
 
-/// Returns the first paths and then the second, whose causes come behind `causes` others.
+/// Returns the first paths and then the second, whose causes are numbered from `causes` on.
 ///
 /// # Errors
-/// Refuses trusses that differ in their struts, in their surroundings, or in the positions of their nodes.
+/// [`OperationError`] for trusses that differ in their struts, in their surroundings, or in the positions of their
+/// nodes where they meet.
 pub(in crate::plan) fn joined(
     a: &NodePaths,
     b: &NodePaths,
@@ -30,7 +31,7 @@ pub(in crate::plan) fn joined(
         return Err(OperationError::Surroundings);
     }
     let mut new = a.clone();
-    // Each part keeps its own limits; the whole keeps what both do.
+    // Each part keeps its own limits; the whole states limits only if both have the same.
     if a.limits != b.limits {
         new.limits = TrussLimits::default();
     }

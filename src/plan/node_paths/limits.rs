@@ -8,23 +8,22 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surroundings {
-    /// Solids that struts keep their clearance from.
+    /// The solids that struts keep their clearance from, each the union of some shapes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<Vec<Placed>>,
-    /// The ground that nodes stand on, where it is not flat at height 0. Nodes are taken to be balls as
-    /// thick as the clearance on each side, struts as half of it: between its nodes a strut may be half a
-    /// clearance below.
+    /// The ground that nodes stand on; `None`: flat at height 0. Nodes are taken to be balls as thick as the
+    /// clearance on each side, struts as half of it: between its nodes a strut may be half a clearance below.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub terrain: Option<HeightField>,
 }
 
 impl Surroundings {
-    /// Returns `true` where nothing is around, and the ground is flat at height 0.
+    /// Returns true if there are no obstacles, and the ground is flat at height 0.
     pub fn is_none(&self) -> bool {
         *self == Surroundings::default()
     }
 
-    /// Returns the height of a world position above the ground, m.
+    /// Returns the height of a world position (m) above the ground, m; negative below it.
     pub fn above(&self, p: Vec3) -> f64 {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
@@ -34,37 +33,37 @@ impl Surroundings {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrussLimits {
-    /// The least angle between struts that share a node, rad; of 0 there is none.
+    /// The least angle between struts that share a node, rad; 0: no limit.
     #[serde(default)]
     pub angle: f64,
-    /// The bound that the singular values of the rigidity matrix (rows of unit vectors) that belong to no rigid motion
-    /// stay above at the keyframes; of 0 there is nothing.
+    /// The limit of rigidity: at the keyframes the least singular value of the rigidity matrix (rows of unit
+    /// vectors) that belongs to no rigid motion is above it; without unit; 0: no limit.
     #[serde(default)]
     pub rigidity: f64,
-    /// Struts whose lengths stay, and sums of lengths that do.
+    /// Sums of lengths that stay in a range; a single strut whose length stays is one, too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sums: Vec<LengthSum>,
 }
 
-/// Struts whose lengths add up to something that stays: one that failed, or those of one tube.
+/// Struts whose lengths add up to a sum in a range: one that failed, or those of one tube.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthSum {
-    /// Indices of struts.
+    /// Indices of the struts, from 0.
     pub struts: Vec<usize>,
     /// The least and the greatest sum, m.
     pub range: (f64, f64),
 }
 
 impl TrussLimits {
-    /// Returns `true` where nothing is limited.
+    /// Returns true if nothing is limited.
     pub fn is_none(&self) -> bool {
         *self == TrussLimits::default()
     }
 }
 
-/// The margins of a truss from its limits at a keyframe; negative outside. Nothing of limits that it has not, nor of
-/// distances that are more than twice the clearance.
+/// The margins of a truss from its limits at a keyframe; negative beyond a limit. `None` for limits that it has not,
+/// and for distances that are more than twice the clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Margins {
@@ -92,7 +91,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Returns `true` where no margin is stated.
+    /// Returns true if no margin is stated.
     pub fn is_none(&self) -> bool {
         *self == Margins::default()
     }

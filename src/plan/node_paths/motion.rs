@@ -11,18 +11,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NodePaths {
-    /// Index in [`Library::struts`](crate::robot::Library).
+    /// Index of the strut type in [`Library::struts`](crate::robot::Library).
     pub strut: usize,
     /// The names of the nodes, by index.
     pub node_names: Vec<String>,
-    /// Pairs of nodes.
+    /// The struts, each a pair of indices of nodes.
     pub struts: Vec<(usize, usize)>,
     /// The keyframes, in order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
     /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
-    /// Obstacles and terrain.
+    /// The obstacles and the terrain.
     #[serde(default, skip_serializing_if = "Surroundings::is_none")]
     pub surroundings: Surroundings,
 }
@@ -50,10 +50,10 @@ pub struct Keyframe {
 pub enum Interpolation {
     /// Every node moves along a straight line at constant speed.
     Linear,
-    /// The whole truss turns as a rigid body about the line through two nodes that stay, from the
-    /// first to the second by the right-hand rule; radians. No strut changes its length.
+    /// The whole truss turns as a rigid body about the line through two nodes that stay, directed from the first to
+    /// the second, by the right-hand rule. No strut changes its length.
     RigidRoll {
-        /// The two nodes that stay.
+        /// The indices of the two nodes that stay.
         edge: (usize, usize),
         /// The angle, rad.
         angle: f64,
@@ -71,7 +71,8 @@ impl NodePaths {
         self.keyframes.iter().map(|k| k.time).collect()
     }
 
-    /// Returns the world position of each node at a time in seconds, m.
+    /// Returns the world position of each node, m, at a time in seconds; before the start and after the end, that of
+    /// the nearer end.
     pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
         let after = self.keyframes.partition_point(|k| k.time <= t);
         let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {
@@ -85,7 +86,7 @@ impl NodePaths {
         }
     }
 
-    /// Returns the length of each strut at a time, m.
+    /// Returns the length (m) of each strut at the time `t` (s).
     pub fn lengths(&self, t: f64) -> Vec<f64> {
         let nodes = self.state(t);
         let at = |i: usize| Vec3::from(nodes[i]);
@@ -98,7 +99,7 @@ fn straight(from: &[[f64; 3]], to: &[[f64; 3]], part: f64) -> Vec<[f64; 3]> {
     from.iter().zip(to).map(along).collect()
 }
 
-/// Returns the nodes turned about the line through two of them.
+/// Returns the nodes turned about the line through two of them by an angle, rad.
 fn rolled(nodes: &[[f64; 3]], edge: (usize, usize), angle: f64) -> Vec<[f64; 3]> {
     let origin = Vec3::from(nodes[edge.0]);
     let turn = turned(Vec3::from(nodes[edge.1]) - origin, angle);

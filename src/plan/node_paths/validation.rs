@@ -10,8 +10,8 @@ use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
 
 impl NodePaths {
-    /// Checks that every index points at something, and that keyframes are in order of time.
-    /// `causes`: the number of causes of the plan.
+    /// Checks that every index is within its list, and that keyframes are in order of time. `causes`: the number of
+    /// causes of the plan.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.strut, library.struts.len(), "strut type")?;
         let count = self.node_names.len();

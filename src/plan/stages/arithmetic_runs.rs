@@ -1,19 +1,20 @@
-//! Arithmetic runs: numbers on which something changes by the same step from each to the next, and runs
-//! of such runs: what lists of cells become in closed form.
+//! Arithmetic runs: numbers on which something changes by the same step from each to the next, and runs of such
+//! runs, which state lists of cells in closed form.
 
-/// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length.
+/// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length: `times` lines of numbers that follow
+/// each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ArithmeticRun {
     /// The first number.
     pub first: usize,
     /// The number of lines.
     pub times: usize,
-    /// The numbers of a line.
+    /// The length of a line.
     pub length: usize,
 }
 
-/// Splits 0..count greedily into arithmetic runs. `step` is the change from one number to another; `None`
-/// where no run may hold both.
+/// Splits 0..count greedily into arithmetic runs, in ascending order. `step` is the change from one number to
+/// another; `None` if no run may hold both.
 pub fn arithmetic_runs<T: PartialEq>(
     count: usize,
     step: impl Fn(usize, usize) -> Option<T>,

@@ -9,12 +9,11 @@ use crate::plan::cause::CauseId;
 use crate::plan::lattice::grid::{Cube, Grid};
 use crate::plan::operation_error::OperationError;
 
-/// Returns the stages of the first plan and then those of the second, whose causes come behind `causes`
-/// others.
+/// Returns the stages of the first plan and then those of the second, whose causes are numbered from `causes` on.
 ///
 /// # Errors
-/// Refuses lattices of other cells, of another number of cells or of another shape, and numbers that 64 bits do
-/// not hold.
+/// [`OperationError`] for lattices of other cells, of another number of cells or of another shape where they meet,
+/// and for numbers that 64 bits do not hold.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
         return Err(OperationError::CellCounts { first: a.count, second: b.count });
@@ -88,7 +87,7 @@ fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
     Some((numbers, shift))
 }
 
-/// Returns runs that say where all cells are.
+/// Returns runs that state the positions and sizes of all cells; `None` if 64 bits do not hold a number.
 fn gathered(cubes: &[Cube], grid: Grid) -> Option<Vec<Run>> {
     let sizes = |i: usize| [0, 1, 2].map(|axis| cubes[i].size(axis));
     let apart = |i: usize, j: usize| [0, 1, 2].map(|axis| cubes[j].middle(axis) - cubes[i].middle(axis));

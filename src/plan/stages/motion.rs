@@ -1,9 +1,8 @@
 //! The body of plans of lattices of expanding cubes: stages, trajectories of all cells in closed form, exact.
 //!
-//! In a stage every cell moves on a straight line, and its size changes linearly, by one time law that all
-//! share; so the two end configurations say everything about it. Configurations are given by runs of cells
-//! whose positions are affine in the run's indices, with rational numbers: a million cells take a few lines,
-//! and nothing is rounded.
+//! In a stage every cell moves on a straight line, and its size changes linearly, by one time law that all share; so
+//! the two end configurations determine it. Configurations are given by runs of cells whose positions are affine in
+//! the run's indices, with rational numbers: a million cells take a few lines, and nothing is rounded.
 
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
@@ -14,18 +13,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stages {
-    /// Index in [`Library::cells`](crate::robot::Library).
+    /// Index of the cell type in [`Library::cells`](crate::robot::Library).
     pub cell: usize,
     /// The number of cells.
     pub count: u64,
-    /// The unit of time, s: that in which the greatest force brings a cell from rest to one cell size a unit
-    /// of time.
+    /// The unit of time, s: in it the greatest force brings a cell from rest to a speed of one cell size per unit of
+    /// time.
     pub time_unit: f64,
     /// The least size and the greatest speed of a cell.
     pub limits: CellLimits,
-    /// The bounds on the cells' forces.
+    /// The conditions on the cells' forces.
     pub model: Model,
-    /// The position of every cell at the start. Of two runs that name a cell the later holds.
+    /// The position of every cell at the start. If two runs name a cell, the later holds.
     pub start: Vec<Run>,
     /// The stages, in order of time.
     pub stages: Vec<Stage>,
@@ -36,13 +35,13 @@ pub struct Stages {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellLimits {
-    /// Its least size.
+    /// The least size of a cell, in (0, 1].
     pub smallest: Ratio,
-    /// Square of its greatest speed: that of a size, and that between two cells in contact.
+    /// The square of the greatest speed of a cell: that of its size, and that between two cells in contact.
     pub speed_squared: Ratio,
 }
 
-/// Those of the paper: half the size, and a speed of 1.
+/// The limits of the squeeze move's paper: half the size, and a speed of 1.
 impl Default for CellLimits {
     fn default() -> CellLimits {
         CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE }
@@ -53,22 +52,22 @@ impl Default for CellLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
-    /// No outer torque: the angular momentum about the centre of mass stays 0.
+    /// True if there is no outer torque: the angular momentum about the centre of mass stays 0.
     pub balanced: bool,
-    /// Greatest force over one contact, in units of a cell's own; `None`: no bound, as in the paper.
+    /// The greatest force over one contact, in units of a cell's own; `None`: no bound.
     pub contact_force: Option<Ratio>,
-    /// A cell's force bounds the length of its acceleration, not only the part along each axis.
+    /// True if a cell's force bounds the length of its acceleration, not only the part along each axis.
     pub euclidean: bool,
 }
 
-/// One stage: from where the one before ended to `end`. Cells that no run names stay; of two runs
-/// that name a cell the later holds.
+/// One stage: from the configuration in which the one before ended to `end`. Cells that no run names stay; if two
+/// runs name a cell, the later holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// The name of the motion, in the planner's words, such as `x-squeeze`.
     pub name: String,
-    /// Square of its duration in units of time: a rational number, where the duration is its root.
+    /// The square of the duration in squared units of time: a rational number, where the duration is its root.
     pub time_squared: Ratio,
     /// The time law that all cells share.
     pub law: Law,
@@ -85,8 +84,8 @@ pub enum Law {
     /// Speeding up at a constant rate for half the time, slowing down for the other: `σ = 2u²`, then
     /// `1 - 2(1-u)²`.
     BangBang,
-    /// The same with an interval of constant speed between; each ramp takes this fraction of the duration, at
-    /// most 1/2.
+    /// The same with an interval of constant speed between; each ramp takes this fraction of the duration, at most
+    /// 1/2.
     Trapezoid(Ratio),
     /// The motion from rest to full speed: a ramp takes this fraction of the duration, at most all of it;
     /// then the speed is kept, and the next stage continues with it.
@@ -95,18 +94,18 @@ pub enum Law {
     SlowDown(Ratio),
 }
 
-/// Cells in the order of nested counters `k`: the cell is `first + Σ stride·k`, its
-/// centre `Σ` of affine functions of the same counters.
+/// Cells in the order of nested counters `k`: the number of the cell is `first + Σ stride·k`, its centre `center + Σ
+/// step·k`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
-    /// The cell of which all counters are 0.
+    /// The number of the cell, from 0, for which all counters are 0.
     pub first: u64,
-    /// Outermost first; none for a single cell.
+    /// The counters, outermost first; none for a single cell.
     pub counters: Vec<Counter>,
-    /// Centre along x, y, z, all counters at 0.
+    /// The centre along x, y, z with all counters at 0, in cell sizes.
     pub center: [Ratio; 3],
-    /// Size along x, y, z.
+    /// The size along x, y, z of every cell of the run, in cell sizes.
     pub size: [Ratio; 3],
 }
 
@@ -114,25 +113,25 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Counter {
-    /// `k` runs through 0..count; at least 1.
+    /// The number of values of `k`, which runs through 0..count; at least 1.
     pub count: u64,
     /// The change of the cell's number for one step of `k`.
     pub stride: i64,
-    /// The change of the centre along x, y, z for one step of `k`.
+    /// The change of the centre along x, y, z for one step of `k`, in cell sizes.
     pub step: [Ratio; 3],
 }
 
-/// A cell at an instant, in metres.
+/// A cell at an instant; lengths in cell sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellBox {
-    /// Centre, in cell sizes along x, y, z.
+    /// The centre along x, y, z, in cell sizes.
     pub center: [f64; 3],
-    /// Size along x, y, z, in cell sizes.
+    /// The size along x, y, z, in cell sizes.
     pub size: [f64; 3],
 }
 
 impl Law {
-    /// Returns the parts of the duration that the ramps at the start and at the end take.
+    /// Returns the fractions of the duration, 0 to 1, that the ramps at the start and at the end take.
     pub fn ramps(self) -> (Ratio, Ratio) {
         match self {
             Law::BangBang => (Ratio(1, 2), Ratio(1, 2)),
@@ -151,7 +150,8 @@ impl Law {
         }
     }
 
-    /// Returns `σ(u)`; 0 and 1 outside 0..1.
+    /// Returns the progress `σ(u)` of the stage, 0 to 1, at the fraction `u` of its duration; `u` is clamped to
+    /// 0..1.
     pub fn progress(self, u: f64) -> f64 {
         let u = u.clamp(0.0, 1.0);
         let (first, last) = self.ramps();
@@ -166,8 +166,8 @@ impl Law {
         }
     }
 
-    /// Returns the part of the duration at which a progress is reached: the inverse of
-    /// [`progress`](Law::progress).
+    /// Returns the fraction of the duration, 0 to 1, at which a progress is reached: the inverse of
+    /// [`progress`](Law::progress). The progress is clamped to 0..1.
     pub fn part(self, progress: f64) -> f64 {
         let progress = progress.clamp(0.0, 1.0);
         let (first, last) = self.ramps();
@@ -184,19 +184,19 @@ impl Law {
 }
 
 impl Stage {
-    /// Returns the duration in units of time.
+    /// Returns the duration in units of time ([`Stages::time_unit`]).
     pub fn duration(&self) -> f64 {
         libm::sqrt(self.time_squared.to_f64())
     }
 }
 
 impl Run {
-    /// Returns the number of cells that it holds.
+    /// Returns the number of cells that it holds, with repetition.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|c| c.count).product()
     }
 
-    /// Returns every cell of the run with its centre and size, in cell sizes.
+    /// Returns every cell of the run, by its number, with its centre and size.
     pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
         (0..self.count()).map(|n| self.cell(n))
     }
@@ -222,7 +222,7 @@ impl Stages {
         self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
     }
 
-    /// Returns the time at which each stage begins, and the end, in seconds.
+    /// Returns the time at which each stage begins, and the end, in seconds, ascending from 0.
     pub fn instants(&self) -> Vec<f64> {
         let mut now = 0.0;
         let ends = self.stages.iter().map(|s| {
@@ -232,8 +232,9 @@ impl Stages {
         std::iter::once(0.0).chain(ends).collect()
     }
 
-    /// Returns runs that say where every cell is before a stage: those since the last that named every cell,
-    /// in order, so that of two that name a cell the later holds.
+    /// Returns runs that state the position of every cell before the stage of this index, or at the end if it is the
+    /// number of stages: those since the last that named every cell, in order, so that if two name a cell the later
+    /// holds. Panics if the index is larger.
     pub fn before(&self, stage: usize) -> Vec<Run> {
         let named: Vec<&[Run]> = std::iter::once(&self.start)
             .chain(self.stages[..stage].iter().map(|s| &s.end))
@@ -244,7 +245,8 @@ impl Stages {
         named[first..].concat()
     }
 
-    /// Returns every cell at a time in seconds, in cell sizes.
+    /// Returns every cell, by its number, at a time in seconds; before the start and after the end, as at the nearer
+    /// end.
     pub fn state(&self, t: f64) -> Vec<CellBox> {
         let mut cells = vec![CellBox { center: [0.0; 3], size: [1.0; 3] }; self.count as usize];
         place(&mut cells, &self.start);

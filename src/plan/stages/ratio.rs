@@ -1,11 +1,11 @@
-//! Rational numbers of plans of lattices: exact, of 64 bits.
+//! Rational numbers of plans of lattices: exact, with numerator and denominator of 64 bits.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::cmp::Ordering;
 
-/// A rational number: `[numerator, denominator]`, the denominator positive; in a file a whole number
-/// may stand alone.
+/// A rational number, numerator and denominator; the denominator must be positive, and the two need not be in lowest
+/// terms. In a file a whole number may stand alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ratio(pub i64, pub i64);
 
@@ -15,8 +15,8 @@ impl Ratio {
     /// The number 1.
     pub const ONE: Ratio = Ratio(1, 1);
 
-    /// Returns `numerator / denominator` in lowest terms; `None` where 64 bits do not hold it, or where the
-    /// denominator is 0.
+    /// Returns `numerator / denominator` in lowest terms with a positive denominator; `None` if 64 bits do not hold
+    /// it, or if the denominator is 0.
     pub fn new(numerator: i128, denominator: i128) -> Option<Ratio> {
         if denominator == 0 {
             return None;
@@ -27,14 +27,14 @@ impl Ratio {
         Some(Ratio(reduced(numerator)?, reduced(denominator)?))
     }
 
-    /// Returns the simplest rational number from `low` to `high`, both positive: that of the least denominator.
-    /// `None` where 64 bits hold none.
+    /// Returns the simplest rational number from `low` to `high`: that of the least denominator. `None` unless 0 <
+    /// low <= high < 1e15, or if 64 bits hold none.
     pub fn simplest(low: f64, high: f64) -> Option<Ratio> {
         if !(low > 0.0 && low <= high && high < 1e15) {
             return None;
         }
-        // Down the tree of Stern and Brocot, a run of turns to one side at a time: the continued
-        // fraction of what lies between.
+        // Down the tree of Stern and Brocot, a run of turns to one side at a time: the continued fraction of a
+        // number between.
         let whole = libm::floor(low);
         if whole == low || libm::floor(high) > whole {
             return Some(Ratio(libm::ceil(low) as i64, 1));
@@ -43,7 +43,7 @@ impl Ratio {
         Ratio::new(i128::from(whole as i64) * i128::from(rest.0) + i128::from(rest.1), i128::from(rest.0))
     }
 
-    /// Returns the nearest floating-point number.
+    /// Returns the nearest floating-point number, but for rounding of numbers above 2⁵³.
     pub fn to_f64(self) -> f64 {
         self.0 as f64 / self.1 as f64
     }
@@ -54,13 +54,13 @@ impl Ratio {
         product(self.0, other.1).cmp(&product(other.0, self.1))
     }
 
-    /// Returns `self · other`, or `None` where 64 bits do not hold it.
+    /// Returns `self · other` in lowest terms, or `None` if 64 bits do not hold it.
     pub fn times(self, other: Ratio) -> Option<Ratio> {
         Ratio::new(i128::from(self.0) * i128::from(other.0), i128::from(self.1) * i128::from(other.1))
     }
 }
 
-/// Returns the greatest common divisor; of 0 and `b` it is `b`.
+/// Returns the greatest common divisor; of 0 and `b` it is `b`, of 0 and 0 it is 1.
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
         (a, b) = (b, a % b);

@@ -5,7 +5,10 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::tolerances::TOLERANCES;
 
 impl Stages {
-    /// Returns the stages between two borders of stages: within a stage the cells move.
+    /// Returns the stages between two times, s, at which stages begin or end.
+    ///
+    /// # Errors
+    /// [`OperationError::InsideStage`] for another time: within a stage the cells move.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Result<Stages, OperationError> {
         let instants = self.instants();
         let border = |t: f64| {

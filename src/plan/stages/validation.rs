@@ -5,14 +5,14 @@ use super::ratio::Ratio;
 use crate::plan::fault::{PlanFault, StagesFault, need, need_index};
 use crate::robot::Library;
 
-/// The most cells of a lattice.
+/// The greatest number of cells of a lattice.
 const CELLS_MAX: u64 = 4_000_000;
-/// The largest denominator of a ramp: products of two of them fit into 128 bits.
+/// The greatest denominator of a ramp: products of two of them fit into 128 bits.
 const RAMP_DENOMINATOR_MAX: i64 = 1 << 60;
 
 impl Stages {
-    /// Checks that every run names cells there are, and that every ratio is a number in its range.
-    /// `causes`: the number of causes of the plan.
+    /// Checks that every run names cells there are, and that every ratio is a number in its range. `causes`: the
+    /// number of causes of the plan.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.cell, library.cells.len(), "cell type")?;
         need(self.count <= CELLS_MAX, || StagesFault::CellCount { most: CELLS_MAX })?;
@@ -68,7 +68,7 @@ fn run(run: &Run, count: u64) -> Result<(), PlanFault> {
     need(size.is_some_and(|n| (1..=count).contains(&n)), || StagesFault::RunSize)?;
     let counters = &run.counters;
     counters.iter().flat_map(|c| c.step).chain(run.center).chain(run.size).try_for_each(ratio)?;
-    // Lowest and highest cell, in numbers too wide to overflow.
+    // The lowest and the highest cell, in numbers too wide to overflow.
     let ends = counters.iter().map(|c| i128::from(c.stride) * (i128::from(c.count) - 1));
     let (low, high) = ends.fold((0, 0), |(low, high), end| (low + end.min(0), high + end.max(0)));
     let (low, high) = (i128::from(run.first) + low, i128::from(run.first) + high);

@@ -6,11 +6,11 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::tolerances::TOLERANCES;
 use crate::robot::matching;
 
-/// Finds the robot that the second tracks start with in the one that the first end with. The causes of
-/// the second come behind `causes` others.
+/// Finds the robot that the second tracks start with in the one that the first end with. The causes of the second
+/// are numbered from `causes` on.
 ///
 /// # Errors
-/// [`OperationError::Robots`] where it is another robot, or the same in another pose.
+/// [`OperationError::Robots`] if it is another robot, or the same in another pose.
 pub(in crate::plan) fn fitted(a: &Tracks, b: &Tracks, causes: u32) -> Result<Remap, OperationError> {
     let found = matching((&a.robot, &a.end()), (&b.robot, &b.start), TOLERANCES.join_joint)
         .map_err(OperationError::Robots)?;

@@ -45,11 +45,11 @@ struct RobotJson<'a> {
     joints: Vec<String>,
     /// Every bond that exists at some time.
     bonds: Vec<BondJson>,
-    /// The module whose body frame is drawn upright at the start, and whose pose is reported.
+    /// The index of the module whose body frame is drawn upright at the start, and whose pose is reported.
     base: usize,
     /// The name of that module.
     base_name: String,
-    /// `true` where the connections may close loops.
+    /// True if the connections may close loops.
     closed: bool,
 }
 
@@ -64,7 +64,8 @@ struct ModuleJson {
     kind_name: String,
 }
 
-/// Port `b` docked to port `a` with a turn: `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`, P at `a`.
+/// A bond: port `b` is docked to port `a`. With P at `a` and Q at `b`, `X_PQ = Rz(180°) · Rx(turn · 360° / turns)`
+/// with the `turns` of the connector; if that has a hinge at q, `Rot(axis, q)` stands before it.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Bond", deny_unknown_fields)]
 struct BondJson {

@@ -1,5 +1,4 @@
-//! The body of plans of articulated robots: piecewise polynomial joint positions, docking and
-//! undocking.
+//! The body of plans of articulated robots: joint trajectories, piecewise polynomial, with docking and undocking.
 
 use crate::plan::cause::CauseId;
 use crate::plan::polynomial;
@@ -13,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct Tracks {
     /// The robot, with every bond that exists at some time.
     pub robot: Assembly,
-    /// The joint positions and bonds before the first motion.
+    /// The joint positions and bonds before the first motion, and the pose of the base.
     pub start: State,
     /// The joint trajectories, at most one a joint, in order of joint. A joint without a track keeps its
     /// start position.
@@ -39,8 +38,8 @@ pub struct Track {
     pub segments: Vec<Segment>,
 }
 
-/// A polynomial piece in Bernstein form over `start..end`: the control points bound it, the first
-/// and last are its end positions exactly, reversing them reverses the motion.
+/// A polynomial piece in Bernstein form over the interval of time `start..end`: the control points bound it, the
+/// first and last are its end positions exactly, reversing them reverses the motion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Segment {
@@ -54,7 +53,7 @@ pub struct Segment {
     pub cause: CauseId,
 }
 
-/// The two changes of a bond.
+/// A change of a bond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DockingKind {
@@ -64,15 +63,15 @@ pub enum DockingKind {
     Undock,
 }
 
-/// A bond begins or ends to hold.
+/// An instant at which a bond begins or ceases to hold.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DockingEvent {
     /// The time, s.
     pub time: f64,
-    /// The change.
+    /// The change of the bond.
     pub kind: DockingKind,
-    /// Index in the assembly's bonds.
+    /// Index of the bond in [`Assembly::bonds`].
     pub bond: usize,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -89,19 +88,18 @@ impl Segment {
         if t >= self.end { self.last() } else { polynomial::value(&self.control, self.argument(t)) }
     }
 
-    /// Returns the velocity at the time `t` (s) within the segment, rad/s or m/s.
+    /// Returns the velocity at the time `t` (s) within the segment, rad/s or m/s; outside that at the nearer end.
     pub fn velocity(&self, t: f64) -> f64 {
         let rates = polynomial::derivative(&self.control);
         polynomial::value(&rates, self.argument(t)) / (self.end - self.start)
     }
 
-    /// Returns the position at the end, rad or m.
+    /// Returns the position at the end, rad or m. Panics without control points.
     pub fn last(&self) -> f64 {
         self.control[self.control.len() - 1]
     }
 
-    /// Returns the piece between two times (s), which are clipped to the segment; `None` where nothing is
-    /// left.
+    /// Returns the piece between two times (s), which are clipped to the segment; `None` if no time is left.
     pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
         let (start, end) = (t0.max(self.start), t1.min(self.end));
         if start >= end {
@@ -117,7 +115,7 @@ impl Segment {
 }
 
 impl Track {
-    /// Returns the index of the last segment that has begun at the time `t` (s).
+    /// Returns the index of the last segment that has begun at the time `t` (s); `None` before the first.
     fn begun(&self, t: f64) -> Option<usize> {
         self.segments.partition_point(|s| s.start <= t).checked_sub(1)
     }
@@ -128,14 +126,15 @@ impl Track {
         self.begun(t).map_or(start, |i| self.segments[i].position(t))
     }
 
-    /// Returns the velocity just after the time `t` (s), rad/s or m/s: 0 between segments.
+    /// Returns the velocity just after the time `t` (s), rad/s or m/s: 0 between segments, before the first and from
+    /// the end of the last on.
     pub fn velocity(&self, t: f64) -> f64 {
         let segment = self.begun(t).map(|i| &self.segments[i]).filter(|s| t < s.end);
         segment.map_or(0.0, |s| s.velocity(t))
     }
 
-    /// Returns the lowest and the highest position (rad or m) over the interval of time `t0..t1` (s), or a
-    /// little beyond: from the control points of the pieces.
+    /// Returns bounds on the position (rad or m) over the interval of time `t0..t1` (s), a little wider than it is:
+    /// from the control points of the pieces. `start` is the joint's position at the start of the plan.
     pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
         let at = self.position(start, t0);
         let first = self.begun(t0).unwrap_or(0);
@@ -161,14 +160,14 @@ impl Tracks {
         }
     }
 
-    /// Returns the track of a joint, if it ever moves.
+    /// Returns the track of a joint; `None` if it never moves.
     pub fn track(&self, joint: JointId) -> Option<&Track> {
         let at = self.tracks.binary_search_by_key(&joint, |t| t.joint).ok()?;
         Some(&self.tracks[at])
     }
 
-    /// Returns joint positions and bonds at the time `t` (s), events at that very instant included. The base
-    /// keeps its pose: the judge computes its motion.
+    /// Returns joint positions and bonds at the time `t` (s), events at that very instant included; before the start
+    /// and after the end, as at the nearer end. The base keeps its pose: the judge computes its motion.
     pub fn state(&self, t: f64) -> State {
         let mut state = self.start.clone();
         for track in &self.tracks {
@@ -181,13 +180,13 @@ impl Tracks {
         state
     }
 
-    /// Returns the state that the plan ends in.
+    /// Returns the state in which the plan ends.
     pub fn end(&self) -> State {
         self.state(self.duration)
     }
 
-    /// Returns the lowest and the highest position of a joint (rad or m) over the interval of time `t0..t1`
-    /// (s); see [`Track::bounds`].
+    /// Returns bounds on the position of a joint (rad or m) over the interval of time `t0..t1` (s); see
+    /// [`Track::bounds`].
     pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
         let start = self.start.joints[joint.0 as usize];
         self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))

@@ -1,4 +1,4 @@
-//! Programs and motions of one robot, said of another that matches it.
+//! Maps programs and motions of one robot to another that matches it.
 
 use super::motion::{DockingEvent, Segment, Track, Tracks};
 use crate::plan::cause::CauseId;
@@ -8,8 +8,8 @@ use crate::plan::world::{Exemption, ExemptionKind};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
 use std::sync::Arc;
 
-/// A map from the modules, ports, joints, bonds and causes of robot B to those of robot A, which has the
-/// bonds that B needs beside its own.
+/// A map from the modules, ports, joints, bonds and causes of robot B to those of robot A. The latter is given the
+/// bonds of B that it lacks.
 #[derive(Clone, Debug)]
 pub struct Remap {
     /// Robot A with the bonds of B.
@@ -26,8 +26,8 @@ pub struct Remap {
 }
 
 impl Remap {
-    /// Returns the map for motion `a` and then motion `b`. `found` is where the robot of `b`, at its start, is
-    /// found in that of `a`, at its end; the causes of `b` come behind `causes` others.
+    /// Returns the map for motion `a` and then motion `b`. `found` is the isomorphism from the robot of `b`, at its
+    /// start, to that of `a`, at its end; the causes of `b` are numbered from `causes` on.
     pub fn new(a: &Tracks, b: &Tracks, found: &Matching, causes: u32) -> Remap {
         let (mut robot, mut start) = (a.robot.clone(), a.start.clone());
         let mut hinges = Vec::new();
@@ -60,8 +60,8 @@ impl Remap {
         Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// Returns the names that differ: of modules, and of joints of modules that lie turned round (name in B,
-    /// name in A).
+    /// Returns the names that differ, as (name in B, name in A): of modules, and of joints of modules that lie
+    /// turned. `b` is robot B.
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
         let mut pairs = Vec::new();
         for (module, instance) in b.modules.iter().enumerate() {
@@ -80,7 +80,8 @@ impl Remap {
         pairs
     }
 
-    /// Returns motion `a`, then motion `b`.
+    /// Returns motion `a`, then motion `b`, as one motion of robot A; the two must be those that the map was made
+    /// for.
     pub fn tracks(&self, a: &Tracks, b: &Tracks) -> Tracks {
         let end = a.end();
         let mut tracks: Vec<Track> = a.tracks.clone();
@@ -90,7 +91,7 @@ impl Remap {
             let segments = self.segments(track, a.duration, at);
             match tracks.binary_search_by_key(&joint, |t| t.joint) {
                 Ok(known) => tracks[known].segments.extend(segments),
-                Err(place) => tracks.insert(place, Track { joint, segments }),
+                Err(index) => tracks.insert(index, Track { joint, segments }),
             }
         }
         let docks = b.events.iter().map(|d| DockingEvent {
@@ -110,7 +111,8 @@ impl Remap {
         }
     }
 
-    /// Returns the segments of a track, delayed by `seam`; the first begins exactly at the joint's position.
+    /// Returns the segments of a track of B, mapped to A and delayed by `seam` (s); the first begins exactly at the
+    /// joint's position `at`, if that is given.
     fn segments(&self, track: &Track, seam: f64, at: Option<f64>) -> Vec<Segment> {
         let offset = self.found.offsets[track.joint.0 as usize];
         let mut segments: Vec<Segment> = track
@@ -129,7 +131,7 @@ impl Remap {
         segments
     }
 
-    /// Returns an exemption of B, said of A, later by `seam` seconds.
+    /// Returns an exemption of B mapped to A, `seam` seconds later.
     pub fn exemption(&self, exemption: &Exemption, seam: f64) -> Exemption {
         Exemption {
             kind: self.kind(&exemption.kind),
@@ -151,7 +153,7 @@ impl Remap {
         }
     }
 
-    /// Returns a program of B, said of A; what is shared stays shared.
+    /// Returns a program of B mapped to A; shared nodes stay shared.
     pub fn program(&self, root: &Arc<Node>) -> Arc<Node> {
         let graph = Graph::of(root);
         let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());
@@ -243,8 +245,8 @@ impl Remap {
     }
 }
 
-/// Returns a bond of A, between the same ports, that may serve again: one without a hinge, which might have
-/// turned since.
+/// Returns a bond of A between the same ports that may serve again: one without a hinge, which might have turned
+/// since. `None` if there is none.
 fn free_bond(robot: &Assembly, image: &Bond, start: &State) -> Option<usize> {
     let swapped = Bond { a: image.b, b: image.a, turn: image.turn };
     let found = robot.bonds[..start.bonds.len()].iter().position(|b| b == image || *b == swapped)?;

@@ -8,11 +8,11 @@ use crate::plan::program::{Action, Command, Node, Otherwise, Profile, Target};
 use crate::robot::JointId;
 use std::sync::Arc;
 
-/// Returns the program that does what the tracks say: a series for every joint and one for docking, in
-/// parallel. Each action lasts exactly as long as its segment; gaps are waits.
+/// Returns the program that does what the tracks say: a series for every joint and one for docking, in parallel.
+/// Each action lasts exactly as long as its segment; gaps are waits.
 ///
 /// # Errors
-/// [`OperationError::NoCommand`] where a segment is a motion that no command states.
+/// [`OperationError::NoCommand`] for a segment of degree above 3 that is no smooth move.
 pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, OperationError> {
     let mut branches = Vec::with_capacity(tracks.tracks.len() + 1);
     for track in &tracks.tracks {

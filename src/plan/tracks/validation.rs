@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Tracks {
-    /// Checks that every index points at something, that segments and docks are in order, and that
-    /// joints do not jump. `causes`: the number of causes of the plan.
+    /// Checks that every index is within its list, that segments and docks are in order, and that joints do not
+    /// jump. `causes`: the number of causes of the plan.
     pub(in crate::plan) fn validate(&self, causes: usize) -> Result<(), PlanFault> {
         robot(&self.robot)?;
         let (joints, bonds) = (self.robot.joints().count(), self.robot.bonds.len());
@@ -76,7 +76,7 @@ impl Tracks {
         need_finite("the robot", &*self.robot.library)
     }
 
-    /// Checks that joints can be moved, stay within sight, and that ports which are docked mate.
+    /// Checks that joints can be moved and stay in their bounds, and that ports which are docked mate.
     pub(in crate::plan) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         // The library of the plan has been checked, and is that of its robot, as a rule.
         if !Arc::ptr_eq(library, &self.robot.library) {
@@ -141,7 +141,7 @@ fn port(port: PortRef, robot: &Assembly) -> Result<(), PlanFault> {
     need_index(port.port, robot.module_type(port.module).ports.len(), "port")
 }
 
-/// Returns `true` for a joint that has a motor of its own.
+/// Returns true for a joint that has a motor of its own.
 fn takes_commands(robot: &Assembly, owner: JointOwner) -> bool {
     match owner {
         JointOwner::Module { module, joint } => {
@@ -152,7 +152,7 @@ fn takes_commands(robot: &Assembly, owner: JointOwner) -> bool {
     }
 }
 
-/// Checks that bonds which hold mate what mates, and take no port twice.
+/// Checks that the connectors of bonds which hold mate, and that no port is held twice.
 fn ports(robot: &Assembly, holds: &[bool]) -> Result<(), PlanFault> {
     let mut taken = BTreeSet::new();
     let connector = |port: PortRef| robot.module_type(port.module).ports[port.port].connector;

@@ -1,9 +1,9 @@
-//! The validation of plans: what lets the judge, and everyone else, index without asking.
+//! The validation of plans: the conditions under which the judge, and everyone else, may index without asking.
 //!
-//! [`validate`] asks what a reader must know: every index points at something, times are in order,
-//! joints do not jump. [`check`] asks in addition that all numbers mean something: then a plan can be
-//! judged. The quality of the motion is for the judge. Rules of one family of bodies stand in that family's
-//! folder, through [`Body`](super::Body).
+//! [`validate`] checks what a reader must know: every index is within its list, times are in order, joints do not
+//! jump. [`check`] checks in addition that all numbers are finite and in their ranges: then a plan can be judged.
+//! The quality of the motion is for the judge. Rules of one family of bodies stand in that family's folder, through
+//! [`Body`](super::Body).
 
 mod program;
 mod serialisable;
@@ -18,8 +18,8 @@ use super::visit::Graph;
 use super::world::Ground;
 use crate::robot::validation::{QUANTITY_MAX, check_library};
 
-/// Validates the library, the references and the orders of a plan: what reading a file asks of it. The library is
-/// held to the rules of programs.
+/// Validates the library, the references and the orders of a plan, as a reader of files does. The library is held to
+/// the rules of programs.
 ///
 /// # Errors
 /// The first fault that was found.

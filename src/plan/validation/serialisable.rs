@@ -6,23 +6,23 @@ use serde::ser::{self, Serialize};
 /// A part of a value that JSON cannot hold.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unwritable {
-    /// A number that is not finite, with the field that holds it.
+    /// A number that is not finite.
     Number {
-        /// The name of the field.
+        /// The name of the last named field that holds it; empty if there is none.
         field: &'static str,
         /// The number.
         value: f64,
     },
     /// A field that is nested more deeply than readers take.
     TooDeep {
-        /// The name of the field.
+        /// The name of the field; empty if there is none.
         field: &'static str,
     },
-    /// Another reason, in the words of the value itself.
+    /// Another reason, in the words of the value's serialisation.
     Other(String),
 }
 
-/// Deepest nesting that is written; readers refuse more than 128.
+/// The greatest depth of nesting that is written; readers refuse more than 128.
 const DEPTH_MAX: usize = 100;
 
 /// Refuses numbers that are not finite, and nesting deeper than [`DEPTH_MAX`].
