@@ -248,6 +248,6 @@ pub struct Strut {
     pub force: f64,
     /// Mass, kg.
     pub mass: f64,
-    /// Least distance to other struts, m.
+    /// The least distance of its axis from those of struts that share no node with it, and from obstacles, m.
     pub clearance: f64,
 }

@@ -9,11 +9,12 @@ use super::grid::Cube;
 use super::lanes::Overlap;
 use super::window::{self, Window};
 
-/// Pairs that are examined, for each cell: cells that move by little have a few neighbours.
+/// The greatest number of pairs that are examined, for each cell: cells that move by little have a few neighbours.
 const PAIRS_MAX: usize = 500;
 
-/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
-/// two cells as an error. `None` where more pairs come near each other than are examined.
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of two
+/// cells as an error. `before` and `after` are the cells by number at the two ends of the stage. `None` if more
+/// pairs come near each other than are examined.
 pub fn examine(before: &[Cube], after: &[Cube], forest: &mut ContactForest) -> Option<Result<(), Overlap>> {
     // Contacts that last are contacts at the start, too: boxes that touch before the stage.
     let contacts = pairs_near(before, |i, j| {
@@ -43,13 +44,12 @@ pub fn examine(before: &[Cube], after: &[Cube], forest: &mut ContactForest) -> O
     Some(Ok(()))
 }
 
-/// Greatest depth of the recursive splitting by separating planes.
+/// The greatest depth of the recursive splitting by separating planes.
 const DEPTH_MAX: usize = 12;
 
-/// Returns the groups of cells that are not separated by axis-aligned planes. A plane that no cell crosses
-/// at the start, and one in the same order at the end, splits the set; the parts are split along the next
-/// axis. Gaps are linear in the path parameter, so nothing overlaps across such a plane. Groups of one
-/// cell are left out.
+/// Returns the groups of cells that are not separated by axis-aligned planes. A plane that no cell crosses at the
+/// start, and one in the same order at the end, splits the set; the parts are split along the next axis. Gaps are
+/// linear in the path parameter, so nothing overlaps across such a plane. Groups of one cell are left out.
 fn groups(before: &[Cube], after: &[Cube]) -> Vec<Vec<u32>> {
     let mut found = Vec::new();
     let mut open = vec![((0..before.len() as u32).collect::<Vec<u32>>(), 0, DEPTH_MAX)];
@@ -95,8 +95,8 @@ fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> V
     parts
 }
 
-/// Calls `visit` with every pair of cells whose swept bounding boxes touch or overlap. `None` where there
-/// are too many.
+/// Calls `visit` with every pair of cells, the lower number first, whose swept bounding boxes touch or overlap.
+/// `None` if there are too many.
 pub fn for_swept_pairs(before: &[Cube], after: &[Cube], mut visit: impl FnMut(usize, usize)) -> Option<()> {
     let visited = pairs_near(&swept(before, after), |i, j| {
         visit(i, j);
@@ -148,8 +148,9 @@ fn overlaps_on_the_way(a: (&Cube, &Cube), b: (&Cube, &Cube)) -> bool {
 /// Coordinates of a tile of the uniform grid, along z, y and x.
 type Tile = (i64, i64, i64);
 
-/// Calls `visit` with every pair of boxes that touch or overlap, until it returns an overlap. `None` where
-/// there are too many pairs. Broad phase on a uniform grid whose tiles are as large as the largest box.
+/// Calls `visit` with every pair of boxes, the lower index first, that touch or overlap, until it returns an
+/// overlap. `None` if there are too many pairs. Broad phase on a uniform grid whose tiles are as large as the
+/// largest box.
 fn pairs_near(
     boxes: &[Cube],
     mut visit: impl FnMut(usize, usize) -> Option<Overlap>,
@@ -163,7 +164,7 @@ fn pairs_near(
     let mut order: Vec<(Tile, u32)> = boxes.iter().enumerate().map(|(i, b)| (key(b), i as u32)).collect();
     order.sort_unstable();
     let mut left = PAIRS_MAX.saturating_mul(boxes.len()).saturating_add(1000);
-    // Of the 27 tiles around one, those that come behind it: the rest of its row, and four rows.
+    // The later half of the 27 tiles around one: the rest of its row, and four rows.
     const ROWS: [(i64, i64); 4] = [(0, 1), (1, -1), (1, 0), (1, 1)];
     let mut ahead = [0_usize; ROWS.len()];
     for (i, &((z, y, x), cell)) in order.iter().enumerate() {

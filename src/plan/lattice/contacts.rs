@@ -1,9 +1,9 @@
 //! Connectedness of cells by contacts, and the contact forces of a spanning forest.
 //!
 //! Contacts that last a whole stage are joined to trees by union and find. In a tree the contact forces are
-//! statically determinate: a contact carries what accelerates the cells behind it. That is the force
-//! certificate: summed over the contacts of a cell it gives the cell's own acceleration, exactly, because it
-//! is made of the same integers.
+//! statically determinate: a contact carries the force that accelerates the cells on its far side. That is the force
+//! certificate: summed over the contacts of a cell it gives the cell's own acceleration, exactly, because it is made
+//! of the same integers.
 
 use super::grid::Cube;
 
@@ -12,18 +12,18 @@ use super::grid::Cube;
 pub struct ContactForest {
     /// The union-find parent of each cell.
     above: Vec<u32>,
-    /// The edges of the forest: contacts that joined two trees.
+    /// The edges of the forest, as numbers of cells: contacts that joined two trees.
     pub links: Vec<(u32, u32)>,
-    /// Greatest relative displacement of two cells in contact along an axis, twice, in grid lines.
+    /// Twice the greatest relative displacement of two cells in contact along an axis, in grid lines.
     pub relative: i64,
-    /// The contact with the greatest relative displacement.
+    /// The two cells in contact with the greatest relative displacement; (0, 0) if nothing moves.
     pub fastest: (u32, u32),
 }
 
 /// A cell while forces are passed on from the leaves.
 #[derive(Clone, Copy)]
 struct ForceNode {
-    /// Twice the sum of the displacements of the cell and of those behind it, in lines.
+    /// Twice the sum of the displacements of the cell and of the leaves that were removed at it, in grid lines.
     behind: i128,
     /// Number of edges that are not removed yet.
     degree: u32,
@@ -51,8 +51,8 @@ impl ContactForest {
         at as u32
     }
 
-    /// Adds a contact that lasts the stage. `relative` is twice the greatest relative displacement of its
-    /// cells along an axis, in grid lines.
+    /// Adds a contact of the cells `a` and `b` that lasts the stage. `relative` is twice the greatest relative
+    /// displacement of the two along an axis, in grid lines.
     pub fn touch(&mut self, a: u32, b: u32, relative: i64) {
         if relative > self.relative {
             (self.relative, self.fastest) = (relative, (a, b));
@@ -65,7 +65,8 @@ impl ContactForest {
         }
     }
 
-    /// Returns the size and the first cell of each connected component, largest first.
+    /// Returns the size and the lowest cell of each connected component, largest first; of equal ones that of the
+    /// lower cell.
     pub fn components(&mut self) -> Vec<(usize, u32)> {
         let mut sizes = vec![0_usize; self.above.len()];
         for cell in 0..self.above.len() as u32 {
@@ -87,14 +88,15 @@ impl ContactForest {
         self.links.len() + 1 >= self.above.len()
     }
 
-    /// Returns the greatest force along an axis that an edge of the forest carries, with that edge. The force
-    /// is given as twice the sum of the displacements of the cells behind the edge, in grid lines; its factor
-    /// follows from the time scaling of the stage.
+    /// Returns the greatest force along an axis that an edge of the forest carries, with that edge. `before` and
+    /// `after` are the cells at the ends of the stage. The force is given as twice the absolute sum of the
+    /// displacements of the cells on one side of the edge, in grid lines; its factor follows from the time scaling
+    /// of the stage.
     ///
     /// # Errors
     ///
-    /// The sum that is left over at a root, where the displacements of a component do not add up to zero:
-    /// then an external force would be needed.
+    /// The sum that is left over at a root, if the displacements of a component do not add up to zero: then an
+    /// external force would be needed.
     pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {
         let moved = |(old, new): (&Cube, &Cube)| ForceNode {
             behind: i128::from(new.middle(axis) - old.middle(axis)),

@@ -2,18 +2,18 @@
 
 use std::fmt;
 
-/// A reason for which stages of a lattice cannot be put into integers, or cannot be measured in them.
+/// A reason why stages of a lattice cannot be put into integers, or cannot be measured in them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LatticeFault {
-    /// The common denominator of all coordinates is too large.
+    /// The common denominator of all coordinates is too large: a cell would take more than 2⁴⁰ grid lines.
     GridTooFine,
-    /// A coordinate is too large.
+    /// A coordinate is too large: a face would lie more than 2⁴⁸ grid lines from the origin.
     CellsTooFar,
     /// More pairs of cells come near each other than are examined.
     Entangled,
     /// The centre of mass moves, so contact forces alone do not explain the motion.
     CentreMoves,
-    /// A cell does not fill a lattice site.
+    /// A cell does not fill a lattice site, a cube of its full size at whole multiples of it from the others.
     OffLattice,
 }
 

@@ -4,13 +4,13 @@ use super::fault::LatticeFault;
 use crate::plan::stages::motion::{Run, Stages};
 use crate::plan::stages::ratio::Ratio;
 
-/// An axis-aligned cell at one end of a stage: the coordinates of its lower and upper faces along x, y
-/// and z, in grid lines.
+/// An axis-aligned cell at one end of a stage: the coordinates of its lower and upper faces along x, y and z, in
+/// grid lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cube {
-    /// Lower faces.
+    /// The coordinates of its lower faces.
     pub lo: [i64; 3],
-    /// Upper faces.
+    /// The coordinates of its upper faces.
     pub hi: [i64; 3],
 }
 
@@ -32,16 +32,15 @@ impl Cube {
     }
 }
 
-/// Greatest coordinate of a face, in grid lines: sums over all cells of products of two of them stay
-/// below 2¹²⁷.
+/// The greatest coordinate of a face, in grid lines: sums over all cells of products of two of them stay below 2¹²⁷.
 const FACE_MAX: i128 = 1 << 48;
-/// Greatest number of grid lines to a cell.
+/// The greatest number of grid lines to a cell.
 const LINES_MAX: i128 = 1 << 40;
 
 /// A grid that all faces of one plan, or of several, lie on.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// Grid lines to the edge of a full-sized cell.
+    /// The number of grid lines to the edge of a full-sized cell.
     pub lines: i64,
 }
 
@@ -60,7 +59,7 @@ impl Grid {
     ///
     /// # Errors
     ///
-    /// [`LatticeFault::GridTooFine`] where a cell would take more than 2⁴⁰ lines.
+    /// [`LatticeFault::GridTooFine`] if a cell would take more than 2⁴⁰ lines.
     pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, LatticeFault> {
         let mut lines: i128 = 2;
         for run in runs {
@@ -83,11 +82,12 @@ impl Grid {
         i128::from(self.lines / denominator) * i128::from(numerator)
     }
 
-    /// Writes the cells that `runs` name to their indices in `cubes`; the others stay as they are.
+    /// Writes the cells that `runs` name to their indices in `cubes`; the others stay as they are. The runs must be
+    /// among those that the grid was made of, and name cells that there are.
     ///
     /// # Errors
     ///
-    /// [`LatticeFault::CellsTooFar`] where a face would lie more than 2⁴⁸ lines from the origin.
+    /// [`LatticeFault::CellsTooFar`] if a face would lie more than 2⁴⁸ lines from the origin.
     pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         runs.iter().try_for_each(|run| self.place_run(run, cubes))
     }

@@ -1,25 +1,25 @@
 //! Contacts and overlaps of stages in which cells move along one axis only, by a sweep along that axis.
 //!
-//! Cells with the same cross-section form a lane. Within a lane, and between lanes whose cross-sections
-//! overlap, the order along the axis may not change and gaps are never negative: gaps are linear in the path
-//! parameter, so both ends of the stage decide it for all of it, and neighbours decide it for all pairs.
+//! Cells with the same cross-section form a lane. Within a lane, and between lanes whose cross-sections overlap, the
+//! order along the axis may not change and gaps are never negative: gaps are linear in the path parameter, so both
+//! ends of the stage decide it for all of it, and neighbours decide it for all pairs.
 
 use super::contacts::ContactForest;
 use super::grid::Cube;
 use super::tiles::{Section, Tile, Tiles};
 
-/// Two cells that overlap.
+/// Two cells that overlap during a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
-    /// The cells.
+    /// The numbers of the two cells.
     pub cells: (u32, u32),
-    /// True if they overlap at the start of the stage, false if later only.
+    /// True if they overlap at the start of the stage, false if only later.
     pub at_start: bool,
 }
 
-/// A cell within its lane: its faces along the axis before and after the stage.
+/// A cell within its lane: its lower and upper face along the axis before and after the stage, in grid lines.
 #[derive(Clone, Copy)]
-struct Place {
+struct LaneCell {
     before: (i64, i64),
     after: (i64, i64),
     cell: u32,
@@ -27,7 +27,7 @@ struct Place {
 
 struct Lanes {
     /// The cells by lane; in order along the axis before the stage.
-    places: Vec<Place>,
+    places: Vec<LaneCell>,
     /// The index in `places` of the first of each lane, and the end.
     starts: Vec<usize>,
     sections: Vec<Section>,
@@ -35,12 +35,13 @@ struct Lanes {
     tiles: Vec<Tile>,
 }
 
-/// Comparisons of lanes that a stage may take, for each cell: sound plans take a few.
+/// The number of comparisons of lanes that a stage may take, for each cell: sound plans take a few.
 const COMPARISONS_MAX: usize = 200;
 
-/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
-/// two cells as an error. All cells move along `axis` only; `lines` is the number of grid lines to a cell.
-/// `None` where more lanes lie side by side than are compared.
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of two
+/// cells as an error. `before` and `after` are the cells by number at the two ends of the stage. All cells move
+/// along `axis` (0 to 2) only; `lines` is the number of grid lines to a cell. `None` if more lanes lie side by side
+/// than are compared.
 pub fn examine(
     before: &[Cube],
     after: &[Cube],
@@ -54,7 +55,7 @@ pub fn examine(
     if let Some(overlap) = all.clone().find_map(|lane| in_line(lanes.lane(lane))) {
         return Some(Err(overlap));
     }
-    let contacts = |places: &[Place], forest: &mut ContactForest| {
+    let contacts = |places: &[LaneCell], forest: &mut ContactForest| {
         for pair in places.windows(2) {
             if pair[0].before.1 == pair[1].before.0 && pair[0].after.1 == pair[1].after.0 {
                 forest.touch(pair[0].cell, pair[1].cell, relative_displacement(&pair[0], &pair[1]));
@@ -101,7 +102,7 @@ fn budget(cells: usize) -> usize {
 }
 
 impl Lanes {
-    /// Sorts the cells into lanes. `None` where too many cross-sections share a tile.
+    /// Sorts the cells into lanes. `None` if too many cross-sections share a tile.
     fn of(before: &[Cube], after: &[Cube], axis: usize, lines: i64) -> Option<Lanes> {
         // The lane of each cell; neighbours in the list of cells mostly share one.
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -133,11 +134,11 @@ impl Lanes {
         }
         starts.push(end);
         // Counting sort of the cells into their lanes, then by position within each.
-        let empty = Place { before: (0, 0), after: (0, 0), cell: 0 };
+        let empty = LaneCell { before: (0, 0), after: (0, 0), cell: 0 };
         let mut places = vec![empty; before.len()];
         for (cell, ((old, new), lane)) in before.iter().zip(after).zip(lane_of).enumerate() {
             let at = &mut next[lane as usize];
-            places[*at] = Place {
+            places[*at] = LaneCell {
                 before: (old.lo[axis], old.hi[axis]),
                 after: (new.lo[axis], new.hi[axis]),
                 cell: cell as u32,
@@ -151,7 +152,7 @@ impl Lanes {
         Some(Lanes { places, starts, sections, tiles: order.into_iter().map(|(tile, _)| tile).collect() })
     }
 
-    fn lane(&self, lane: usize) -> &[Place] {
+    fn lane(&self, lane: usize) -> &[LaneCell] {
         &self.places[self.starts[lane]..self.starts[lane + 1]]
     }
 
@@ -176,14 +177,14 @@ impl Lanes {
     }
 }
 
-/// Returns twice the relative displacement of two cells, in grid lines.
-fn relative_displacement(a: &Place, b: &Place) -> i64 {
-    let moved = |p: &Place| p.after.0 + p.after.1 - p.before.0 - p.before.1;
+/// Returns twice the absolute relative displacement of two cells, in grid lines.
+fn relative_displacement(a: &LaneCell, b: &LaneCell) -> i64 {
+    let moved = |p: &LaneCell| p.after.0 + p.after.1 - p.before.0 - p.before.1;
     (moved(a) - moved(b)).abs()
 }
 
-/// Returns the first two neighbours in a lane that overlap.
-fn in_line(places: &[Place]) -> Option<Overlap> {
+/// Returns the first two neighbours in a lane that overlap; `None` if none do.
+fn in_line(places: &[LaneCell]) -> Option<Overlap> {
     places.windows(2).find_map(|pair| {
         let at_start = pair[0].before.1 > pair[1].before.0;
         let found = at_start || pair[0].after.1 > pair[1].after.0;
@@ -192,7 +193,7 @@ fn in_line(places: &[Place]) -> Option<Overlap> {
 }
 
 /// Merges two lanes in order along the axis.
-fn merge(a: &[Place], b: &[Place], merged: &mut Vec<Place>) {
+fn merge(a: &[LaneCell], b: &[LaneCell], merged: &mut Vec<LaneCell>) {
     merged.clear();
     let (mut i, mut j) = (0, 0);
     while i < a.len() && j < b.len() {
@@ -211,7 +212,7 @@ fn merge(a: &[Place], b: &[Place], merged: &mut Vec<Place>) {
 /// Calls `touch` with the cells of two lanes that face each other during the whole stage. Their overlap
 /// along the axis is a concave function of the path parameter, so it is positive inside where it is negative
 /// at neither end, unless it is 0 at both.
-fn side_by_side(a: &[Place], b: &[Place], mut touch: impl FnMut(&Place, &Place)) {
+fn side_by_side(a: &[LaneCell], b: &[LaneCell], mut touch: impl FnMut(&LaneCell, &LaneCell)) {
     let overlap = |p: (i64, i64), q: (i64, i64)| p.1.min(q.1) - p.0.max(q.0);
     let (mut i, mut j) = (0, 0);
     while i < a.len() && j < b.len() {

@@ -8,32 +8,33 @@ use crate::plan::stages::ratio::Ratio;
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 
-/// Sums and extremes of the displacements of all cells over a stage. Displacements are counted twice, in
-/// grid lines: they are those of the sum of a cell's two faces.
+/// Sums and extremes of the displacements of all cells over a stage. Displacements are counted twice, in grid lines:
+/// they are those of the sum of a cell's two faces. The default is the stage without cells.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
-    /// True for the axes along which a face moves.
+    /// True for the axes along which some face moves.
     pub axes: [bool; 3],
-    /// Greatest magnitude of a displacement along an axis, with its cell.
+    /// The greatest absolute displacement along an axis, with its cell.
     pub farthest: (i64, u32),
-    /// Sum of the displacements along each axis: zero if the centre of mass stays.
+    /// The sum of the displacements along each axis: zero if the centre of mass stays.
     pub drift: [i128; 3],
-    /// Greatest change of an edge length, in grid lines (counted once), with its cell.
+    /// The greatest absolute change of an edge length, in grid lines (counted once), with its cell.
     pub resized: (i64, u32),
-    /// Smallest edge length at the end, in grid lines, with its cell.
+    /// The smallest edge length at the end, in grid lines, with its cell.
     pub smallest: (i64, u32),
-    /// Largest edge length at the end, in grid lines, with its cell.
+    /// The largest edge length at the end, in grid lines, with its cell.
     pub largest: (i64, u32),
-    /// Four times the sum of the cross products of position and displacement: zero without angular momentum.
+    /// Four times the sum of the cross products of position and displacement, in squared grid lines: zero without
+    /// angular momentum.
     pub turning: [i128; 3],
-    /// Sum of the squared norms of the displacements.
+    /// The sum of the squared norms of the displacements.
     pub squares: i128,
-    /// Greatest squared norm of a displacement.
+    /// The greatest squared norm of a displacement.
     pub square: i128,
 }
 
 impl Change {
-    /// Returns the sums and extremes for the cells before and after a stage, in one pass.
+    /// Returns the sums and extremes for the cells before and after a stage, by number, in one pass.
     pub fn of(before: &[Cube], after: &[Cube]) -> Change {
         let mut change = Change { smallest: (i64::MAX, 0), ..Change::default() };
         for (cell, (old, new)) in before.iter().zip(after).enumerate() {
@@ -83,27 +84,27 @@ impl Change {
     }
 }
 
-/// Keeps the greater value with its cell.
+/// Keeps the greater value with its cell; of equal ones the first.
 fn keep(worst: &mut (i64, u32), value: i64, cell: u32) {
     if value > worst.0 {
         *worst = (value, cell);
     }
 }
 
-/// The time scaling `σ(t)` of a stage, which takes the path parameter from 0 to 1, with exact comparisons of
-/// the speeds and accelerations that follow from it.
+/// The time scaling `σ(t)` of a stage, which takes the path parameter from 0 to 1, with exact comparisons of the
+/// speeds and accelerations that follow from it.
 pub struct TimeScaling {
     time_squared: Ratio,
     /// Peak of `σ'` times the duration, as a fraction.
     speed: (i64, i64),
-    /// The parts of the duration in which the stage speeds up and slows down.
+    /// The fractions of the duration in which the stage speeds up and slows down.
     ramps: (Ratio, Ratio),
-    /// The shorter ramp's part of the duration.
+    /// The shorter ramp's fraction of the duration; a ramp of none is left out.
     ramp: Ratio,
 }
 
 impl TimeScaling {
-    /// Returns the time scaling of a stage, whose duration must not be zero if speeds are asked for.
+    /// Returns the time scaling of a stage. Its duration must not be zero if speeds or accelerations are asked for.
     pub fn of(stage: &Stage) -> TimeScaling {
         let (first, last) = stage.law.ramps();
         // 2 / (2 - first - last)
@@ -124,8 +125,8 @@ impl TimeScaling {
         }
     }
 
-    /// Compares the peak acceleration (or force) of what moves by `distance / lines` cells over the stage with
-    /// a limit in cells per squared time unit.
+    /// Compares the peak acceleration (or force, per mass of a cell) of a thing that moves by `distance / lines`
+    /// cells over the stage with a limit in cells per squared time unit.
     pub fn compare_acceleration(&self, distance: i128, lines: i128, limit: Ratio) -> Ordering {
         // distance · speed / (ramp · T²) against the limit
         let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
@@ -136,8 +137,8 @@ impl TimeScaling {
         left.cmp(&right)
     }
 
-    /// Compares the squared peak acceleration with 1, for what moves by a distance with this square in
-    /// squared grid lines, `lines` to a cell.
+    /// Compares the squared peak acceleration, in cells per squared time unit, with 1, for a thing that moves by a
+    /// distance with this square in squared grid lines, `lines` to a cell.
     pub fn compare_acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
         let product = |factors: [i128; 3]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let big = i128::from;
@@ -147,7 +148,7 @@ impl TimeScaling {
         (BigInt::from(square) * &left * &left).cmp(&(&right * &right))
     }
 
-    /// Compares the squared peak speed of what moves by `distance / lines` cells over the stage with a limit
+    /// Compares the squared peak speed of a thing that moves by `distance / lines` cells over the stage with a limit
     /// in squared cells per squared time unit.
     pub fn compare_speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
         let product = |factors: &[i64]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
@@ -157,8 +158,9 @@ impl TimeScaling {
         left.cmp(&right)
     }
 
-    /// Compares the squared peak speed as [`TimeScaling::compare_speed_squared`] does, but only while the path
-    /// parameter is in a window. On a ramp the square of `σ'` is linear in `σ`.
+    /// Compares a bound on the squared peak speed as [`TimeScaling::compare_speed_squared`] does, but only while the
+    /// path parameter is in a window: the least of the peak of the stage and of the speeds that the ramps allow at
+    /// the ends of the window. On a ramp the square of `σ'` is linear in `σ`.
     pub fn compare_speed_squared_within(
         &self,
         window: Window,
@@ -182,7 +184,8 @@ impl TimeScaling {
         self.compare_speed_squared(distance, lines, limit).min(first).min(last)
     }
 
-    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator.
+    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator, not in lowest
+    /// terms.
     pub fn acceleration_ratio(&self) -> (i64, i64) {
         (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)
     }
@@ -198,13 +201,13 @@ impl TimeScaling {
     }
 }
 
-/// Checks that velocities are continuous between two stages, where the first does not end at rest or the
-/// second does not begin at rest. Each stage is given with the cells at its outer end, `between` are those
-/// at the instant between them.
+/// Checks that velocities are continuous between two stages, if the first does not end at rest or the second does
+/// not begin at rest. Each stage is given with the cells, by number, at its outer end, `between` are those at the
+/// instant between them.
 ///
 /// # Errors
 ///
-/// The first cell whose velocity jumps.
+/// The number of the first cell whose velocity jumps.
 pub fn velocities_continue(
     (stage, before): (&Stage, &[Cube]),
     between: &[Cube],

@@ -2,19 +2,20 @@
 
 use crate::plan::stages::ratio::Ratio;
 
-/// Greatest number of contacts for each cell if edges are at least half a cell long: nine on each of six
-/// sides, each contact shared by two cells.
+/// The greatest number of contacts for each cell if edges are at least half a cell long: nine on each of six sides,
+/// each contact shared by two cells.
 const CONTACTS: f64 = 27.0;
 
-/// Returns a duration, in time units, below which no motion takes the cells from one shape to the other
-/// while the centre of mass stays. `before` and `after` give twice the centres of all cells along an axis,
-/// in any order, in grid lines; `lines` is the number of grid lines to a cell.
+/// Returns a duration, in time units, below which no motion takes the cells from one shape to the other while the
+/// centre of mass stays; 0 if the shapes are the same but for a translation and there is no limit of force. `before`
+/// and `after` give twice the centres of all cells along an axis (0 to 2), in any order, in grid lines; `lines` is
+/// the number of grid lines to a cell; `contact_force` is the greatest force over a contact in units of a cell's
+/// own, `None` if it is not limited.
 ///
-/// Some cell must go at least as far along an axis as cells matched in order do, at worst, and to go
-/// `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. With contact forces of at
-/// most `κ` the moment `S = ½ Σ x²` changes by at least `-c n κ` a unit of time twice, for at most `c`
-/// contacts a cell whose centres are at most 1 apart: so `T² ≥ 2 |ΔS| / (c n κ)`. The derivation is in
-/// `docs/planners/squeeze.md`.
+/// Some cell must move at least as far along an axis as the farthest does if cells are matched in order, and to move
+/// by `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. With contact forces of at most `κ`
+/// the moment `S = ½ Σ x²` changes by at least `-c n κ` a unit of time twice, for at most `c` contacts a cell whose
+/// centres are at most 1 apart: so `T² ≥ 2 |ΔS| / (c n κ)`. The derivation is in `docs/planners/squeeze.md`.
 pub fn lower_bound(
     before: impl Fn(usize) -> Vec<i64>,
     after: impl Fn(usize) -> Vec<i64>,

@@ -10,9 +10,9 @@ use super::lower_bound::lower_bound;
 use super::{boxes, lanes};
 use crate::plan::stages::motion::Stages;
 
-/// Returns twice the greatest relative displacement along an axis, in grid lines, of two cells that are in
-/// contact during the whole stage; `lines` is the number of grid lines to a cell. `None` where more pairs
-/// of cells come near each other than are examined.
+/// Returns twice the greatest relative displacement along an axis, in grid lines, of two cells that are in contact
+/// during the whole stage; `before` and `after` are the cells by number at its ends, `lines` is the number of grid
+/// lines to a cell. Overlaps are not reported. `None` if more pairs of cells come near each other than are examined.
 pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i64) -> Option<i64> {
     let mut forest = ContactForest::new(before.len());
     // Overlaps are found when the plan is judged.
@@ -20,12 +20,12 @@ pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i6
     Some(forest.relative)
 }
 
-/// Returns for each stage the greatest contact force times the square of its duration, in the plan's units,
-/// as numerator and denominator.
+/// Returns for each stage the greatest contact force times the square of its duration, as numerator and denominator:
+/// the force in units of a cell's own, the duration in units of time.
 ///
 /// # Errors
 ///
-/// Every [`LatticeFault`] but [`LatticeFault::OffLattice`].
+/// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
 pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let grid = Grid::of(stages)?;
     let mut before = vec![Cube::default(); stages.count as usize];
@@ -49,8 +49,8 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
     Ok(peaks)
 }
 
-/// Returns the duration, in seconds, below which no motion leads from the plan's first shape to its last
-/// under the same limits.
+/// Returns the duration, in seconds, below which no motion takes the plan's first shape to its last under the same
+/// limits ([`lower_bound`]).
 ///
 /// # Errors
 ///
@@ -64,21 +64,22 @@ pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
     Ok(time_between(stages, &start, &cubes, grid))
 }
 
-/// Returns the lower bound on the duration between two configurations, in seconds.
+/// Returns the lower bound on the duration between two configurations, in seconds: those of `start` and `end`, on
+/// `grid`, under the unit of time and the limit of force of `stages`.
 pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
     let middles = |cubes: &[Cube], axis: usize| cubes.iter().map(|cube| cube.middle(axis)).collect();
     let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
     lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
 }
 
-/// The integer coordinates of lattice sites.
+/// The integer coordinates x, y, z of lattice sites, in cells.
 pub type Places = Vec<[i64; 3]>;
 
 /// Returns the lattice sites that the cells fill at the start and at the end of a plan, sorted and translated
 /// so that the lowest along each axis is 0.
 ///
 /// # Errors
-/// [`LatticeFault::OffLattice`] where a cell does not fill a site; [`LatticeFault::GridTooFine`] or
+/// [`LatticeFault::OffLattice`] if a cell does not fill a site; [`LatticeFault::GridTooFine`] or
 /// [`LatticeFault::CellsTooFar`].
 pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
     let grid = Grid::of(stages)?;
@@ -101,9 +102,10 @@ fn places(cubes: &[Cube], lines: i64) -> Result<Places, LatticeFault> {
     Ok(places)
 }
 
-/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of
-/// two cells as an error; by a sweep where cells move along one axis only. `None` where more pairs of cells
-/// come near each other than are examined.
+/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of two
+/// cells as an error; by a sweep if cells move along one axis only. `change` must be that of `before` and `after`,
+/// the cells by number; `lines` is the number of grid lines to a cell. `None` if more pairs of cells come near each
+/// other than are examined.
 pub fn examine(
     before: &[Cube],
     after: &[Cube],

@@ -1,10 +1,10 @@
-//! The law of lattice motion in exact integer arithmetic, which the planner of lattices and the judge share:
-//! where cells are, which of them overlap or are in contact during a stage, how fast they move under the
-//! stage's time scaling, and what forces their contacts carry.
+//! The law of lattice motion in exact integer arithmetic, which the planner of lattices and the judge share: the
+//! positions of cells, their overlaps and contacts during a stage, their speeds under the stage's time scaling, and
+//! the forces that their contacts carry.
 //!
-//! The law says what happens in a stage; it knows no limits of a plan, and accepts nothing. `squeeze` uses
-//! it to choose durations of stages, the judge ([`verify::lattice`](crate::plan::verify::lattice)) to compare
-//! every quantity of the finished stages with the plan's limits again.
+//! The law describes a stage; it knows no limits of a plan, and accepts nothing. `squeeze` uses it to choose
+//! durations of stages, the judge ([`verify::lattice`](crate::plan::verify::lattice)) to compare every quantity of
+//! the finished stages with the plan's limits again.
 
 pub mod fault;
 pub mod grid;

@@ -12,23 +12,23 @@ pub(super) type Section = [(i64, i64); 2];
 /// Coordinates of a tile, along the second axis and the first.
 pub(super) type Tile = (i64, i64);
 
-/// Greatest number of tiles in the dense table, for each cell.
+/// The greatest number of tiles in the dense table, for each cell.
 const TABLE_MAX: usize = 4;
-/// Stands for no lane.
+/// The index of no lane.
 const NONE: u32 = u32::MAX;
 
 /// The lanes by the tile of their cross-section's lower corner.
 pub(super) struct Tiles {
     lines: i64,
     origin: (i64, i64),
-    /// Tiles along the first axis.
+    /// The number of tiles along the first axis.
     width: usize,
     /// The first lane of each tile, if there is a table.
     table: Option<Vec<u32>>,
     map: BTreeMap<Tile, u32>,
-    /// The cross-section of each lane.
+    /// The cross-section of each lane, by its number.
     pub sections: Vec<Section>,
-    /// The next lane of the tile of each lane.
+    /// The next lane of the same tile, for each lane.
     next: Vec<u32>,
 }
 

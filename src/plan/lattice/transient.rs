@@ -8,22 +8,22 @@ use super::boxes::for_swept_pairs;
 use super::grid::Cube;
 use super::window::{Window, order, overlap};
 
-/// A contact for a part of the stage, or for all of it.
+/// A contact of two cells for a part of the stage, or for all of it.
 #[derive(Clone, Copy, Debug)]
 pub struct TransientContact {
-    /// The cells.
+    /// The numbers of the two cells, the lower first.
     pub cells: (u32, u32),
-    /// Twice the greatest relative displacement of the cells over the whole stage along an axis, grid lines.
+    /// Twice the greatest relative displacement of the cells along an axis over the whole stage, in grid lines.
     pub relative: i64,
-    /// While it holds.
+    /// The open interval of the path parameter in which it holds.
     pub window: Window,
 }
 
-/// Intervals times contacts and cells that are examined: some seconds of work.
+/// The greatest product of intervals with contacts and cells that is examined: some seconds of work.
 const WORK_MAX: usize = 300_000_000;
 
-/// Returns all contacts that hold at some time of the stage. `None` where too many pairs of cells come near
-/// each other.
+/// Returns all contacts that hold at some time of the stage between `before` and `after`, the cells by number.
+/// `None` if too many pairs of cells come near each other.
 pub fn transient_contacts(before: &[Cube], after: &[Cube]) -> Option<Vec<TransientContact>> {
     let mut found = Vec::new();
     for_swept_pairs(before, after, |i, j| {
@@ -42,8 +42,8 @@ pub fn transient_contacts(before: &[Cube], after: &[Cube]) -> Option<Vec<Transie
     Some(found)
 }
 
-/// Returns the window in which two cells are in contact across an axis; each is given before and after the
-/// stage.
+/// Returns the window in which two cells are in contact across an axis; each is given before and after the stage.
+/// `None` if there is none.
 fn contact([a, b]: [(&Cube, &Cube); 2], axis: usize) -> Option<Window> {
     let closed =
         |p: (&Cube, &Cube), q: (&Cube, &Cube)| p.0.hi[axis] == q.0.lo[axis] && p.1.hi[axis] == q.1.lo[axis];
@@ -55,8 +55,8 @@ fn contact([a, b]: [(&Cube, &Cube); 2], axis: usize) -> Option<Window> {
         .try_fold(Window::WHOLE, |window, across| overlap([a, b], across, window))
 }
 
-/// Returns the intervals between successive instants at which a contact begins or ends. `None` where there
-/// are too many for so many cells.
+/// Returns the intervals between successive instants at which one of the contacts `passing` begins or ends,
+/// ascending from 0 to 1. `None` if there are too many for so many `cells`.
 pub fn contact_intervals(passing: &[TransientContact], cells: usize) -> Option<Vec<Window>> {
     let ends = passing.iter().flat_map(|contact| [contact.window.from, contact.window.to]);
     let mut instants: Vec<_> = ends.chain([Window::WHOLE.from, Window::WHOLE.to]).collect();

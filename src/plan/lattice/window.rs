@@ -14,9 +14,9 @@ pub(super) fn order(a: Fraction, b: Fraction) -> Ordering {
 /// An open interval of the path parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// Lower end.
+    /// The lower end, not below 0.
     pub from: Fraction,
-    /// Upper end.
+    /// The upper end, not above 1.
     pub to: Fraction,
 }
 
@@ -24,8 +24,8 @@ impl Window {
     /// The whole stage.
     pub const WHOLE: Window = Window { from: (0, 1), to: (1, 1) };
 
-    /// Returns the part of the interval on which the linear function with the values `start` at 0 and
-    /// `end` at 1 is positive; `None` if there is none.
+    /// Returns the part of the interval in which the linear function with the values `start` at 0 and `end` at 1 is
+    /// positive; `None` if there is none.
     pub fn where_positive(self, start: i64, end: i64) -> Option<Window> {
         let (start, end) = (i128::from(start), i128::from(end));
         let mut window = self;
@@ -54,8 +54,8 @@ impl Window {
     }
 }
 
-/// Returns the part of `window` on which the projections of two moving cells onto an axis overlap. Each
-/// cell is given by its state before and after the stage; faces move linearly. `None`: nowhere.
+/// Returns the part of `window` in which the projections of two moving cells onto an axis overlap. Each cell is
+/// given by its state before and after the stage; faces move linearly. `None` if there is none.
 pub(super) fn overlap([a, b]: [(&Cube, &Cube); 2], axis: usize, window: Window) -> Option<Window> {
     let above =
         |p: (&Cube, &Cube), q: (&Cube, &Cube)| (p.0.hi[axis] - q.0.lo[axis], p.1.hi[axis] - q.1.lo[axis]);

@@ -35,7 +35,8 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// Returns true if an exemption of the kind excuses what happens at `t` (s), and marks it as needed.
+    /// Returns true if an exemption for which `of` is true excuses a failure of a check `kind` at `t` (s), and marks
+    /// it as needed. The end of the plan is never excused.
     pub(super) fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
         let mut excused = false;
         for (i, exemption) in self.exemptions.iter().enumerate() {
@@ -49,7 +50,7 @@ impl<'a> Ledger<'a> {
         excused
     }
 
-    /// Marks an exemption that another part of the judge found to be needed.
+    /// Marks the exemption of an index as needed by a check, as another part of the judge found.
     pub(super) fn use_exemption(&mut self, index: usize, kind: CheckKind) {
         self.used[index] = true;
         self.note_excuse(kind);
@@ -82,7 +83,7 @@ impl<'a> Ledger<'a> {
         &mut self.verdict.failures
     }
 
-    /// Records a check: failed if there is a failure of its kind, exempt if one was excused.
+    /// Records a check: failed if there is a failure of its kind, exempt if one was excused, else `otherwise`.
     pub(super) fn check(&mut self, kind: CheckKind, otherwise: Status) {
         let failed = self.verdict.failures.iter().any(|f| f.kind == kind);
         let status = match (failed, self.excused.contains(&kind)) {
@@ -109,7 +110,8 @@ impl<'a> Ledger<'a> {
         verdict.travel.iter_mut().chain([&mut verdict.heading]).for_each(round);
     }
 
-    /// Returns the verdict: failures in order of time, exemptions that nothing needed listed.
+    /// Returns the verdict: failures in order of time, exemptions that nothing needed listed, and a note that counts
+    /// the failures that are not listed.
     pub(super) fn finish(mut self) -> Verdict {
         self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
         self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
@@ -123,7 +125,7 @@ impl<'a> Ledger<'a> {
     }
 }
 
-/// Keeps the lower of a worst value so far and a new one, with its time (s) and names.
+/// Keeps the lesser of a worst value so far and a new one, with its time (s) and names; of equal ones the first.
 pub(super) fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
     if worst.as_ref().is_none_or(|w| value < w.value) {
         *worst = Some(Worst { value, time, at: at() });

@@ -1,9 +1,9 @@
 //! The one judge of plans. It knows no planner, and uses nothing that a plan states about its own
 //! correctness.
 //!
-//! There is a judge for each family of plans: [`articulated`] robots are followed from sample to sample,
-//! [`lattice`]s are judged in whole numbers, [`truss`]es in closed form. Each family's module describes the
-//! order of its checks.
+//! There is a judge for each family of plans: [`articulated`] robots are followed from sample to sample, and between
+//! samples by conservative advancement, [`lattice`]s are judged in whole numbers, [`truss`]es in closed form. Each
+//! family's module describes the order of its checks.
 #![allow(non_snake_case)]
 
 mod ledger;
@@ -31,7 +31,8 @@ pub fn verify(plan: &Plan) -> Verdict {
     }
 }
 
-/// Judges one state of a robot: Definition V.2 of the compositional-design paper.
+/// Returns the verdict on one state of a robot, judged as a plan that lasts no time: Definition V.2 of the
+/// compositional-design paper.
 pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &Settings) -> Verdict {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     verify(&Plan::bare(robot.library.clone(), Body::Tracks(tracks), *world, *settings))

@@ -3,23 +3,23 @@
 
 use crate::plan::tolerances::TOLERANCES;
 
-/// A point on the ground, m.
+/// A point on the ground: x and y in the world, m.
 pub(super) type Point = [f64; 2];
 
 /// The position of a point relative to a support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
-    /// Distance to the nearest edge, positive inside, m.
+    /// The distance to the nearest edge, m: positive inside, negative outside.
     pub distance: f64,
-    /// The two points of the nearest edge, as indices of the points given.
+    /// The two ends of the nearest edge, as indices of the points that span the polygon, counter-clockwise.
     pub edge: (usize, usize),
-    /// Least width of the hull, m.
+    /// The least width of the polygon, m.
     pub width: f64,
 }
 
-/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear
-/// points are left out. Of coinciding points the first is taken. One or two corners where the points do not
-/// span an area.
+/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear points
+/// are left out. Of coinciding points the first is taken. One or two corners are left if the points do not span an
+/// area, none without points.
 pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
@@ -37,7 +37,7 @@ pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     corners
 }
 
-/// Returns one side of the hull: always turning left.
+/// Returns one side of the hull, always turning left, as indices.
 fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut side: Vec<usize> = Vec::new();
     for index in order {
@@ -52,7 +52,8 @@ fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
     side
 }
 
-/// Returns the margin of `at` in the hull of `points`; `None` where they do not span an area.
+/// Returns the margin of the point `at` in the hull of `points`; `None` if they do not span an area, or one no wider
+/// than [`TOLERANCES`] allow for a line.
 pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
     let corners = hull(points);
     if corners.len() < 3 {

@@ -10,7 +10,8 @@ use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Checks the smallest and the largest edge at the end of a stage (K1). Returns false where one fails.
+    /// Checks the smallest and the largest edge at the end of a stage (K1). Returns false if one is beyond its
+    /// limit.
     pub(super) fn sizes(
         &self,
         change: &Change,
@@ -112,7 +113,7 @@ impl Judgement<'_> {
         self.fail_at(CheckKind::Speed, step.from, Some(step.stage), found, &[a, b], ledger);
     }
 
-    /// Returns the peak speed, in m/s, of what moves by `distance / lines` cells in the stage.
+    /// Returns the peak speed, in m/s, of a thing that moves by `distance / lines` cells in the stage.
     fn speed(&self, step: &Step, distance: i64, lines: i64) -> f64 {
         distance as f64 / lines as f64 * step.scaling.peak_speed() * self.cell.size / self.stages.time_unit
     }

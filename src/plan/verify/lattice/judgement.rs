@@ -30,7 +30,7 @@ pub(super) struct Step<'a> {
     pub change: Change,
     /// Its time scaling.
     pub scaling: TimeScaling,
-    /// Grid lines to a cell.
+    /// The number of grid lines to a cell.
     pub lines: i64,
 }
 
@@ -60,7 +60,7 @@ impl Judgement<'_> {
         ledger.fail(Failure { message, value, limit, at: names(cells), ..self.failure(kind, time, stage) });
     }
 
-    /// Returns an empty failure, blamed on the command behind the stage.
+    /// Returns an empty failure at a time (s), blamed on the command that the stage comes from.
     pub(super) fn failure(&self, kind: CheckKind, time: f64, stage: Option<&Stage>) -> Failure {
         Failure {
             kind,

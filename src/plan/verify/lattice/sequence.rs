@@ -11,7 +11,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Dynamics, Ground, Plan, Ratio, Run, Stage, World};
 use std::fmt;
 
-/// Greatest number of cells times stages that is judged: some minutes of work.
+/// The greatest number of cells times stages that is judged: some minutes of work.
 const WORK_MAX: u64 = 1_000_000_000;
 
 /// A reason for which a lattice plan is not judged.
@@ -52,7 +52,7 @@ impl fmt::Display for NotJudged {
 }
 
 impl Judgement<'_> {
-    /// Checks what the model assumes: no gravity, no ground, and units that the cell is capable of.
+    /// Checks the assumptions of the model: no gravity, no ground, and units that the cell is capable of.
     pub(super) fn assumptions(&self, plan: &Plan) -> Result<(), NotJudged> {
         let floats = |world: &World| world.gravity == 0.0 && world.ground == Ground::Off;
         if !plan.worlds.iter().all(|w| floats(&w.world)) {

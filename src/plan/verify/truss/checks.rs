@@ -10,7 +10,7 @@ use crate::plan::{CheckKind, Failure, Interpolation, Plan, Status, World, Worst}
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Judges the start of a plan of one keyframe as a step in which nothing moves.
+    /// Judges the start of a plan of one keyframe as a step in which nothing moves; does nothing for other plans.
     pub(super) fn at_rest(
         &self,
         x: &[Vec3],

@@ -18,7 +18,7 @@ pub(super) struct Step {
     pub interpolation: Interpolation,
     /// The time of the start, s.
     pub start: f64,
-    /// Seconds; positive.
+    /// The duration, s; positive.
     pub duration: f64,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Judgement<'a> {
     pub strut: &'a Strut,
     /// The obstacles of the plan's surroundings.
     pub obstacles: Vec<Obstacle>,
-    /// The greatest slope of uneven ground, as a ratio; 0 on flat ground.
+    /// The greatest slope of uneven ground, without unit; 0 on flat ground.
     pub steepest: f64,
 }
 
@@ -47,7 +47,7 @@ impl Judgement<'_> {
         format!("{} -- {}", self.paths.node_names[a], self.paths.node_names[b])
     }
 
-    /// Returns a failure at a time, blamed on the command behind the step that follows.
+    /// Returns a failure at a time (s), blamed on the command of the step that follows.
     pub(super) fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
         let cause =
             self.paths.keyframes.iter().find(|keyframe| keyframe.time > time).map(|keyframe| keyframe.cause);

@@ -1,5 +1,5 @@
-//! Lengths of struts whose ends go straight on: their squares are parabolas, so the extremes of lengths
-//! and rates are known in closed form.
+//! Lengths of struts whose ends move on straight lines: their squares are parabolas, so the extremes of lengths and
+//! rates are known in closed form.
 
 use super::judgement::Step;
 use crate::geometry::Vec3;
@@ -10,7 +10,7 @@ pub(super) struct Lengths {
     pub least: (f64, f64),
     /// The greatest length, m, and its time, s.
     pub most: (f64, f64),
-    /// The greatest rate, m/s.
+    /// The greatest absolute rate, m/s.
     pub rate: f64,
 }
 

@@ -1,5 +1,5 @@
-//! The judgement of trusses, whose plans are paths of nodes: in closed form, and by bounds on how fast
-//! distances change (conservative advancement).
+//! The judgement of trusses, whose plans are paths of nodes: in closed form, and by bounds on the rates of distances
+//! (conservative advancement).
 //!
 //! Between two keyframes all nodes move on straight lines at one rate, or the truss rolls over an edge as one
 //! rigid body. Of each step the checks are made in this order: lengths of struts and their rates, distances

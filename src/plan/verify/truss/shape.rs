@@ -1,5 +1,5 @@
-//! The limits of a truss beside those of its struts: angles between struts that share a node,
-//! sums of lengths, and how far the truss is from losing its rigidity.
+//! The limits of a truss beside those of its struts: angles between struts that share a node, sums of lengths, and
+//! the rigidity that is left.
 //!
 //! Angles (by conservative advancement) and sums (by bisection) are proved between the keyframes; rigidity is
 //! sampled at the keyframes.
@@ -13,7 +13,7 @@ use crate::units::number;
 use crate::units::{Dimension, quantity};
 use nalgebra::DMatrix;
 
-/// Number of singular values that belong to rigid motions of the whole truss.
+/// The number of singular values that belong to rigid motions of the whole truss.
 const RIGID_MOTIONS: usize = 6;
 
 impl Judgement<'_> {
@@ -162,7 +162,7 @@ impl Judgement<'_> {
 }
 
 /// Returns the least singular value of the rigidity matrix that does not belong to a rigid motion of the whole
-/// truss. Rows are unit vectors along the struts, so it has no unit; 0 where the truss is not rigid.
+/// truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid.
 pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
@@ -182,7 +182,7 @@ pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
 /// Two struts that share a node.
 pub(super) struct Corner {
     node: usize,
-    /// Their other nodes.
+    /// The other node of each of the two struts.
     ends: (usize, usize),
     struts: (usize, usize),
 }
@@ -215,7 +215,7 @@ pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
     found
 }
 
-/// Returns the angle between two vectors, rad, from the norms of the sum and the difference of unit vectors:
+/// Returns the angle between two vectors, rad, 0 to π, from the norms of the sum and the difference of unit vectors:
 /// accurate for small angles, too (Kahan).
 fn angle_between(u: Vec3, v: Vec3) -> f64 {
     let (u, v) = (u.normalize(), v.normalize());

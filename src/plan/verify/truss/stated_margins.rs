@@ -9,8 +9,8 @@ use crate::plan::{CheckKind, Failure, Interpolation, Margins};
 use crate::units::number;
 
 impl Judgement<'_> {
-    /// Returns the failure of the first margin of a keyframe that is not as stated; `x` are the node positions at
-    /// the keyframe, m.
+    /// Returns the failure of the first margin of a keyframe at `time` (s) that is not as stated; `x` are the node
+    /// positions at the keyframe, m. `None` if all are as stated, or none is.
     pub(super) fn margins(
         &self,
         stated: &Margins,

@@ -1,6 +1,6 @@
 //! Distances between struts whose ends move on straight lines, by conservative advancement (Mirtich 1996): a
-//! distance changes no faster than the ends move relative to each other, so each sample proves the clearance
-//! for some time, and the next sample is taken when that time is over.
+//! distance changes no faster than the ends move relative to each other, so each sample proves the clearance for
+//! some time, and the next sample is taken when that time is over.
 
 use super::judgement::Step;
 use super::sample_budget::SampleBudget;

@@ -14,7 +14,7 @@ pub(super) struct StabilityMonitor<'a> {
     contact: f64,
     /// Distance that each node slid over the ground, m.
     slid: Vec<f64>,
-    /// The steepest slope that a foot stood on, as a ratio.
+    /// The steepest slope that a foot stood on, without unit.
     steepest: f64,
     /// Rolls so far: their times, s, with words.
     pub events: Vec<(f64, String)>,
@@ -26,12 +26,12 @@ pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
     sum / paths.struts.len().max(1) as f64
 }
 
-/// Returns the least height of a node on a step, m, and where on the step (0 to 1) it is reached.
+/// Returns the least height of a node on a step, m, and the fraction of the step (0 to 1) at which it is reached.
 pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     let (from, to) = (step.from[node], step.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
     let Interpolation::RigidRoll { edge, angle } = step.interpolation else { return ends };
-    // On its circle a node is lowest half a turn from where it is highest.
+    // On its circle a node is lowest half a turn from its highest point.
     let origin = step.from[edge.0];
     let axis = (step.from[edge.1] - origin).normalize();
     let arm = from - origin;
@@ -72,7 +72,7 @@ impl<'a> StabilityMonitor<'a> {
         self.slid.iter().enumerate().fold((0.0, 0), most)
     }
 
-    /// Returns in words what is not judged of sliding.
+    /// Returns in words the part of sliding that is not judged.
     pub(super) fn sliding(&self) -> String {
         let words = "nodes may slide on the ground";
         if self.steepest == 0.0 {
@@ -173,8 +173,8 @@ impl<'a> StabilityMonitor<'a> {
         }
     }
 
-    /// Returns the stability margin at a part of the step: the distance of the centre of mass inside the support
-    /// polygon of the feet, m; negative infinity where they span no area.
+    /// Returns the static stability margin at a fraction of the step: the distance of the centre of mass inside the
+    /// support polygon of the feet, m; negative infinity if they span no area.
     fn margin(&self, step: &Step, feet: &[usize], part: f64) -> f64 {
         let at = |node: usize| step.from[node] + (step.to[node] - step.from[node]) * part;
         let paths = self.judgement.paths;
@@ -188,7 +188,7 @@ impl<'a> StabilityMonitor<'a> {
     }
 
     /// Checks a roll over an edge of the support polygon: both ends of the edge are on the ground, all other feet
-    /// behind it, the centre of mass above it or beyond, and the rotation leads where the plan has the nodes.
+    /// behind it, the centre of mass above it or beyond, and the rotation leads to the plan's node positions.
     fn roll(&mut self, step: &Step, edge: (usize, usize), angle: f64, ledger: &mut Ledger) {
         let paths = self.judgement.paths;
         let (origin, end) = (step.from[edge.0], step.from[edge.1]);
@@ -202,7 +202,7 @@ impl<'a> StabilityMonitor<'a> {
                 message,
             ));
         };
-        // The rotation must lead where the plan has the nodes.
+        // The rotation must lead to the node positions of the plan.
         let turn = turned(along, angle);
         let off =
             step.from.iter().zip(&step.to).map(|(p, q)| (origin + turn.rotation * (p - origin) - q).norm());

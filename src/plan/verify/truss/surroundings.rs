@@ -1,8 +1,7 @@
 //! Obstacles that struts keep their clearance from, and uneven ground, by conservative advancement.
 //!
-//! A convex part stays behind the plane through its nearest
-//! point, and what comes near it does so no faster than its ends, or than the farthest of its points from
-//! the line about which it rolls.
+//! A convex part stays behind the plane through its nearest point, and a strut comes near it no faster than the
+//! faster of the strut's ends.
 
 use super::judgement::{Judgement, Step};
 use crate::geometry::distance::signed_distance_within;
@@ -30,7 +29,7 @@ pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
         .collect()
 }
 
-/// Returns the position of a node, m, at a part of a step from 0 to 1.
+/// Returns the position of a node, m, at a fraction of a step from 0 to 1.
 pub(super) fn position(step: &Step, node: usize, part: f64) -> Vec3 {
     match step.interpolation {
         Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
@@ -185,8 +184,8 @@ impl Judgement<'_> {
         ledger.fail(Failure { value: depth, ..failure });
     }
 
-    /// Returns the depth of a node, or of a strut, below the ground where it is more than `sink`, m, and the part of
-    /// the step at which it is found. The method is conservative advancement; `None` where the depth is proved to be
+    /// Returns the depth of a node, or of a strut, below the ground if it is more than `sink`, m, and the fraction
+    /// of the step at which it is found. The method is conservative advancement; `None` if the depth is proved to be
     /// less.
     fn below(&self, step: &Step, terrain: &HeightField, ends: &[usize], sink: f64) -> Option<(f64, f64)> {
         // Going straight, a node is lowest above flat triangles where it crosses their sides.
