@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub enum Ground {
     /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels, tips.
     Settle,
-    /// Level ground under the robot, and a base that keeps its pose.
+    /// Level ground, to which the robot is lowered at the start with its orientation; its base then keeps the pose.
     Fixed,
     /// The base module's body is held fast, fixed in the world: its fixture takes any force and moment, and
     /// nothing else touches the robot.

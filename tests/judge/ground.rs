@@ -54,7 +54,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         seen.samples += 1;
         let (model, stance) = (sample.model, sample.stance);
         let pose = stance.base_pose(model);
-        let centre = Vec3::new(stance.place.x, stance.place.y, stance.height);
+        let centre = Vec3::new(stance.planar_pose.x, stance.planar_pose.y, stance.height);
         let (start, c) = *first.get_or_insert((pose, centre));
         seen.base = (pose.translation.vector - start.translation.vector) * 1e3;
         seen.centre = (centre - c) * 1e3;

@@ -17,7 +17,7 @@ use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Balls of modules nearly meet where they are this part of their radii apart.
+/// The fraction of the sum of two modules' radii up to which a gap between their bounding spheres counts as near.
 const NEARLY: f64 = 1.0 / 16.0;
 
 /// The state of the search over all intervals.
@@ -25,7 +25,7 @@ pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
     bounds: MotionBounds,
-    /// The instants at which segments begin and end: intervals are cut there rather than anywhere.
+    /// The instants at which segments begin and end: intervals are preferably cut at them.
     instants: Vec<f64>,
     precision: Precision,
     samples_max: usize,
@@ -53,10 +53,10 @@ struct Region<'a> {
     excused: &'a [Excuse],
 }
 
-/// An interval so short that a penetration in it is the first.
+/// An interval so short that a penetration in it is the first of its pair.
 #[derive(Clone, Copy, Default)]
 struct Instant {
-    /// The bond at whose nominal pose the links are in each other.
+    /// The bond at whose nominal pose the links penetrate each other; `None` if a motion brings them there.
     bond: Option<usize>,
 }
 
@@ -91,8 +91,8 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Judges a window of time in which bonds stay as they are. Parts that are not connected are judged each
-    /// by itself: how they lie to one another is unknown.
+    /// Judges a window of time (from, to; s) in which bonds stay as they are. Parts that are not connected are
+    /// judged each by itself: their relative pose is unknown.
     pub(super) fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
         while let Some(first) = seen.iter().position(|seen| !seen) {
@@ -111,7 +111,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Returns the least distance at one instant, m; `None` where no two links may not touch.
+    /// Returns the least distance at one instant, m; `None` if no two links may not touch.
     pub(super) fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
         self.clearance = None;
         self.collisions.clear();
@@ -119,7 +119,7 @@ impl<'a> Advancement<'a> {
         self.clearance.as_ref().map(|nearest| nearest.distance)
     }
 
-    /// Returns what was found.
+    /// Returns the collisions and the clearance that were found.
     pub(super) fn findings(self, exemptions: &[Exemption]) -> Findings {
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
@@ -159,7 +159,7 @@ impl<'a> Advancement<'a> {
         open
     }
 
-    /// Pairs within a module whose distance no joint changes: known once and for all.
+    /// Judges the pairs within a module whose distance no joint changes: it is computed once and for all.
     fn fixed_pairs(&mut self, region: &Region, time: f64) {
         self.state.interval.middle = time;
         for &(module, _) in &region.kinematics.tree.order {
@@ -184,7 +184,7 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Judges the links that rigid bonds join: they stay at the nominal pose, where their overlap is known.
+    /// Judges the links that rigid bonds join: they stay at the nominal pose, at which their overlap is known.
     fn rigid_bonds(&mut self, region: &Region) {
         for ((x, y), bonded) in region.bonded.iter().filter(|(_, bonded)| bonded.rigid) {
             let bodies = self.bodies.first_of_link(x).zip(self.bodies.first_of_link(y));
@@ -230,8 +230,8 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Measures within modules and between neighbours at one instant, so that the search begins with
-    /// a clearance that few pairs can beat.
+    /// Measures within modules and between neighbours at one instant, so that the search begins with a clearance
+    /// that few pairs can go below.
     fn guess_clearance(&mut self, region: &Region, time: f64, open: &Open) {
         self.state.set(&region.kinematics, &self.bounds, time, time);
         let mut near = open.bodies.clone();
@@ -294,9 +294,9 @@ impl<'a> Advancement<'a> {
         near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
     }
 
-    /// Returns true if a pair of modules stays open as such. Only where their balls meet in the middle, or
-    /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which is
-    /// more than what a few halvings cost.
+    /// Returns true if a pair of modules stays open as such. Only if their bounding spheres meet in the middle, or
+    /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which costs more than
+    /// a few halvings.
     fn stays_open(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
         let (a, b) = (pair.a as usize, pair.b as usize);
         let bound = separation::module_bound(&self.view(region), &self.bodies, pair);
@@ -311,7 +311,8 @@ impl<'a> Advancement<'a> {
         hopeful
     }
 
-    /// Returns true if two bodies are separated by what is needed over the whole interval of this length (s).
+    /// Returns true if two bodies are proved to have the distance that they need over the whole interval of this
+    /// length (s).
     fn is_separated(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
         crate::interrupt::checkpoint();
         let (a, b) = (pair.a as usize, pair.b as usize);
@@ -382,8 +383,9 @@ impl<'a> Advancement<'a> {
         region.excused.iter().find(|excuse| excuse.covers(a, b))
     }
 
-    /// Measures the distance of a pair in the middle of the interval, m, exactly below `enough` and below the clearance, and
-    /// keeps the least. Beyond there is but a lower bound, which proves a separation and is no clearance.
+    /// Measures the distance of a pair in the middle of the interval, m, exactly below `enough` and below the
+    /// clearance, and keeps the least. A distance beyond is but a lower bound, which proves a separation and is no
+    /// clearance.
     fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let enough = if pair.counts { enough.max(self.least()) } else { enough };
@@ -402,8 +404,8 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short
-    /// enough to be an instant: all before is proved to be separated.
+    /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short enough
+    /// to be an instant: before it the pair is proved to be separated.
     fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: Option<Instant>) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);

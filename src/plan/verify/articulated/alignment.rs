@@ -8,6 +8,7 @@ use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::{Vec3, pose::turned};
 
+/// The number of linearised rounds of [`height_keeping_turn`].
 const TURN_ROUNDS: usize = 4;
 
 /// Returns the rotation by a rotation vector, rad.

@@ -18,7 +18,8 @@ pub(super) struct Monitor<'a> {
     /// Slip of each link with its part of the load, summed over the plan, m.
     slips: Vec<f64>,
     samples: usize,
-    /// Deepest penetration so far of the present interval: (depth, time, links' names, since).
+    /// The deepest penetration so far of the present interval: (depth, m; time, s; name of the module; begin of the
+    /// interval, s).
     deepest: Option<(f64, f64, String, f64)>,
     grounds: Vec<Ground>,
 }
@@ -109,7 +110,7 @@ impl<'a> Monitor<'a> {
         });
     }
 
-    /// Records displacement, heading, slip and the statuses; `names` gives the name of a link.
+    /// Records displacement, heading, slip and the statuses; `names` returns the name of a link.
     pub(super) fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);
@@ -146,7 +147,7 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// Returns the deepest contact point that penetrates the ground by more than its module may.
+/// Returns the deepest contact point that penetrates the ground by more than its module may; `None` if none does.
 pub(super) fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
     let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {

@@ -1,8 +1,8 @@
 //! Blame for failures: the actions whose joint, held still from its start, removes the failure (a
 //! counterfactual rollout).
 //!
-//! The plan is rolled out again up to the failure with the joint held, so that the answer takes
-//! everything into account: where the robot stands, what it tips over, what it then has to hold.
+//! The plan is rolled out again up to the failure with the joint held, so that the answer takes everything into
+//! account: the contacts of the robot, its tip-overs, and the loads that it then has.
 
 use super::base_motion::penetrating_contact;
 use super::docking;
@@ -13,19 +13,20 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Failure, Tracks};
 use crate::robot::{JointId, JointOwner};
 
-/// Actions that are named, and that are tried.
+/// The greatest number of actions that are named.
 pub(super) const BLAMED_MAX: usize = 3;
+/// The greatest number of actions that are tried.
 const TRIED_MAX: usize = 24;
 
-/// Failures for which the blame is sought; the rest name the actions that move at that time.
+/// The number of failures for which the blame is sought; the rest name the actions that move at that time.
 const FAILURES_MAX: usize = 12;
 
-/// Segments of each joint that are examined, the latest first.
+/// The number of segments of each joint that are examined, the latest first.
 const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame: a candidate.
 pub(super) struct Candidate {
-    /// The joint that it moves.
+    /// The joint that it moves, by its [`JointId`].
     pub joint: usize,
     /// The time at which its segment begins, s.
     pub start: f64,
@@ -85,7 +86,7 @@ pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Candidate> {
     found
 }
 
-/// Returns true if the failure is gone when the suspect's joint stays where it was.
+/// Returns true if the failure is gone when the candidate's joint is held from the start of its segment on.
 fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Candidate, failure: &Failure) -> bool {
     let held = Rollout { held: Some((suspect.joint, suspect.start)), ..*rollout };
     let from = checkpoints.iter().rev().find(|w| w.time <= suspect.start);
@@ -110,7 +111,7 @@ fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Candidate, f
     !failed
 }
 
-/// Returns true if what failed fails in this sample, too.
+/// Returns true if the check that failed fails in this sample, too.
 fn still(sample: &Sample, failure: &Failure, rollout: &Rollout, ledger: &mut Ledger) -> bool {
     match failure.kind {
         CheckKind::Torque | CheckKind::BondLoad => {

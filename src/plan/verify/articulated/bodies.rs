@@ -12,16 +12,16 @@ pub struct UnsoundLink {
     pub module: String,
     /// The name of the link.
     pub link: String,
-    /// The defect of the shape.
+    /// The fault of the shape.
     pub why: Unsound,
 }
 
 /// The convex parts of a robot's links.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    /// The bodies, in order of link.
+    /// The bodies, in order of link; links without shapes have none.
     pub bodies: Vec<Body>,
-    /// Index of the first body of each module, and one more at the end.
+    /// Index of the first body of each module, and the number of bodies at the end.
     first: Vec<usize>,
     /// An upper bound, for each module, on the distance of its points from its body link's origin, m.
     pub reach: Vec<f64>,
@@ -29,18 +29,19 @@ pub struct Bodies {
     kind_of: Vec<usize>,
 }
 
-/// Two bodies of one module, by their indices among its bodies.
+/// Two bodies of one module that are checked for collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InnerPair {
-    /// The first body.
+    /// The first body, by its index among the bodies of its module.
     pub a: usize,
-    /// The second body.
+    /// The second body, by its index among the bodies of its module; greater than `a`.
     pub b: usize,
     /// True if they count for the clearance: two links that a joint joins do not.
     pub counts: bool,
-    /// Deeper than this is a collision, m.
+    /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
-    /// Their distance, m, if no joint can change it: wheels on an axle, and what turns about it.
+    /// Their signed distance, m, if no joint can change it: wheels on an axle, and links that turn about it; `None`
+    /// if joints can.
     pub fixed: Option<f64>,
 }
 
@@ -51,23 +52,23 @@ pub struct Body {
     pub part: Part,
     /// The link it belongs to, by the numbering of [`Kinematics`].
     pub link: usize,
-    /// The link it moves with. A disc that turns about its own axis goes nowhere: it is carried by
-    /// the link that bears the axis.
+    /// The link that carries it, by the same numbering. A disc that turns about its own axis is carried by the link
+    /// that bears the axis: the turn changes nothing.
     pub carrier: usize,
-    /// The module it belongs to.
+    /// The index of the module that it belongs to.
     pub module: usize,
-    /// Distance of the part's farthest point from the carrier's origin, m.
+    /// An upper bound on the distance of the part's points from the carrier's origin, m.
     pub reach: f64,
     /// The centre of the part in the frame of its own link, m.
     pub home: Vec3,
 }
 
 impl Bodies {
-    /// Compiles the convex parts of all links.
+    /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts.
     ///
     /// # Errors
     ///
-    /// The first link whose shape is no solid.
+    /// The first link whose shape is not sound.
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Result<Bodies, UnsoundLink> {
         let kinds: Vec<Kind> = robot.library.modules.iter().map(Kind::new).collect::<Result<_, _>>()?;
         let mut all = Bodies {
@@ -108,14 +109,15 @@ impl Bodies {
         &self.kinds[self.kind_of[module]].inner
     }
 
-    /// Returns the allowed penetration depth of two modules, m: the smaller of what the two allow.
+    /// Returns the allowed penetration depth of two modules, given by index, m: the smaller of those that the two
+    /// allow.
     pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
     }
 
-    /// Returns the penetration depth of two links, m, each told by its module and its index there; `X_AB` is the
-    /// pose of the second in the first. 0 where they are apart.
+    /// Returns the penetration depth of two links, m, each given by its module and its index there; `X_AB` is the
+    /// pose of the second in the first. 0 if they are apart.
     pub(super) fn overlap(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         let distance = distance_of_solids(self.solid(a), &Pose::identity(), self.solid(b), X_AB);
         (-distance).max(0.0)
@@ -131,8 +133,8 @@ impl Bodies {
         self.bodies.get(first).filter(|body| body.link == link).map(|_| first)
     }
 
-    /// Returns the signed distance between two links whose world poses are at hand, m; `enough` where it is no
-    /// less.
+    /// Returns the signed distance between two links, m, or `enough` if it is no less; `poses`: the world poses of
+    /// all links.
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
             let from = self.bodies.partition_point(|body| body.link < link);
@@ -187,7 +189,7 @@ impl Kind {
     }
 }
 
-/// Returns the constraint between two bodies of a module; `None` where they are of one link, or meet by design.
+/// Returns the constraint between two bodies of a module; `None` if they are of one link, or meet by design.
 fn pair(
     kind: &ModuleType,
     solids: &[Solid],
@@ -239,15 +241,15 @@ fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) 
     (link, link, part.clone())
 }
 
-/// Returns the penetration depth of two links as drawn, m; 0 where they are apart.
+/// Returns the penetration depth of two links as drawn, m; 0 if they are apart.
 fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64 {
     let X_AB = kind.links[a].pose.inverse() * kind.links[b].pose;
     let pairs = solids[a].parts.iter().flat_map(|p| solids[b].parts.iter().map(move |q| (p, q)));
     pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max)
 }
 
-/// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the joints'
-/// arms, however they turn, and the greatest travel of slides.
+/// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the joints' arms
+/// at all angles, and the greatest travel of slides.
 fn reach(kind: &ModuleType, solids: &[Solid]) -> f64 {
     let mut arm = vec![f64::INFINITY; kind.links.len()];
     arm[0] = 0.0;

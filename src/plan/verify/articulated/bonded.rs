@@ -1,4 +1,4 @@
-//! Links that bonds join: how deep they may be in each other.
+//! Links that bonds join, and the penetration depth that they may have.
 //!
 //! Two links with mated ports belong together, so that their distance is no clearance. They are solid all the
 //! same. They may overlap as far as they do at the nominal pose of the bond, the hinge at zero, as far as the
@@ -32,7 +32,8 @@ pub(super) struct BondedPair {
     pub explained: f64,
     /// True if the links keep the nominal pose as long as the bond holds.
     pub rigid: bool,
-    /// The greatest error of a bond that closes a loop, and of each link the origin of its port.
+    /// The greatest error of a bond that closes a loop, with the origin of the port on each link; `None` if no such
+    /// bond joins them.
     error: Option<(Capture, [Vec3; 2])>,
 }
 
@@ -70,7 +71,7 @@ impl BondedLinks {
         found
     }
 
-    /// Returns what is known of two links; `None` where no bond joins them.
+    /// Returns the bonded pair of two links; `None` if no bond joins them.
     pub(super) fn get(&self, a: usize, b: usize) -> Option<&BondedPair> {
         self.0.get(&(a, b))
     }
@@ -108,7 +109,8 @@ impl BondedLinks {
 }
 
 impl BondedPair {
-    /// Returns how deep two bodies of the links may be in each other, m, if bodies that no bond joins may by `touch`.
+    /// Returns the penetration depth that two bodies of the links may have, m: `touch`, the overlap that the bond
+    /// explains, and the motion that its error allows.
     pub(super) fn allowed(&self, a: &Body, b: &Body, touch: f64) -> f64 {
         let moved = self.error.as_ref().map_or(0.0, |(error, ports)| {
             // To turn a body about its port moves none of its points by more than this.
@@ -118,7 +120,7 @@ impl BondedPair {
         touch + self.explained + moved
     }
 
-    /// Returns what holds for links that two bonds join: what the one and the other explain.
+    /// Returns the pair for links that two bonds join: the greater explained overlap and the greater error.
     fn and(&self, other: &BondedPair) -> BondedPair {
         let rigid = if other.rigid && !self.rigid { other } else { self };
         BondedPair {

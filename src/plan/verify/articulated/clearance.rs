@@ -11,15 +11,17 @@ use crate::interrupt;
 use crate::plan::{Body as Form, Plan, Tracks, validation};
 use crate::robot::Kinematics;
 
-/// Pairs of modules that are examined for one curve of clearances, if that leaves it enough points.
+/// The greatest number of pairs of modules that are examined for one curve of clearances, if that leaves it enough
+/// points.
 const PAIRS_MAX: usize = 4_000_000;
 
-/// Points of a curve that are not saved on.
+/// The number of points of a curve below which no points are left out to save work.
 const POINTS_MIN: usize = 20;
 
 /// Returns the least signed distance of links that may not touch, m, at evenly spaced times from the start to
-/// `until` (s): (time, distance). As many as asked for, or fewer for robots of more than a few hundred
-/// modules, but at least 20; none where no two such links are.
+/// `until` (s), both included: (time, distance). There are `count` + 1 of them, or fewer for robots of more than a
+/// few hundred modules, but not fewer than 21 for that reason. None if no two such links are, if `until` is not
+/// positive, for a plan that is not of an articulated robot, and for one that is not valid.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
     if until <= 0.0 || validation::check(plan).is_err() {
@@ -33,8 +35,8 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     times.iter().zip(found).filter_map(|(time, distance)| Some((*time, distance?))).collect()
 }
 
-/// Returns the least signed distance of links that may not touch, m, at each of these times (s); `None` where no two
-/// such links are. `None` for all of a plan that is not of an articulated robot, or means nothing.
+/// Returns the least signed distance of links that may not touch, m, at each of these times (s), `None` if no two
+/// such links are. `None` instead of the list for a plan that is not of an articulated robot, or is not valid.
 pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     validation::check(plan).ok()?;
@@ -54,8 +56,9 @@ fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
     Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
 }
 
-/// Returns the point (world, m) at which two modules, or two links of one, penetrate each other most at a time
-/// (s). `None` where they do not.
+/// Returns the point (world, m) at which two modules, given by index, or two links of one penetrate each other at a
+/// time (s): that of the two links that exceed their allowed depth most. `None` if these do not overlap, for a plan
+/// that is not of an articulated robot, and for one that is not valid.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     if validation::check(plan).is_err() {
@@ -82,7 +85,7 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
     Some(poses[a.carrier].transform_point(&met.into()).coords)
 }
 
-/// Returns the pairs of bodies that may not meet, with how deep they may be in each other, m.
+/// Returns the pairs of bodies that may not meet, with the penetration depth that each may have, m.
 fn pairs(
     tracks: &Tracks,
     bodies: &Bodies,

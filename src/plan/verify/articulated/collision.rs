@@ -1,10 +1,10 @@
 //! Self-collision over a whole plan by conservative advancement: at every instant and not only at samples.
 //!
-//! An interval of time is examined in its middle, where everything is known exactly; what can happen
-//! until its ends is bounded by motion bounds. Pairs that are thereby proved to be separated for the whole
-//! interval are done with; with the others the interval is halved. Far modules are separated over long
-//! intervals, near bodies over short ones, and a pair between which nothing moves at once.
-//! Intervals are visited in order of time, so that the first penetration that is met is the first.
+//! An interval of time is examined in its middle, where everything is known exactly; the motion until its ends is
+//! bounded by motion bounds. Pairs that are thereby proved to be separated for the whole interval are discarded;
+//! with the others the interval is halved. Far modules are separated over long intervals, near bodies over short
+//! ones, and a pair between which nothing moves at once. Intervals are visited in order of time, so that the first
+//! penetration that is found is the first.
 //!
 //! A proof that a pair is not nearer than the clearance found so far serves both purposes, for
 //! collisions and for the clearance.
@@ -23,46 +23,48 @@ use crate::units::{Dimension, quantity};
 /// Collisions and clearance of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// Proved, or within tolerance where links penetrate by no more than `touch`, or failed, or the number of intervals
-    /// at which it gave up.
+    /// Proved; within tolerance, if links penetrate by no more than `touch`; exempt, if every collision is excused;
+    /// failed; or the number of intervals after which it gave up.
     pub status: Status,
-    /// The collisions, in order of time; one for each pair of modules, and one more where it was excused
-    /// before.
+    /// The collisions, in order of time; one for each pair of modules, and one more if an earlier or later one of
+    /// the pair is excused.
     pub collisions: Vec<Collision>,
-    /// Least signed distance of links that may not touch. `None` where there are no two such.
+    /// The least signed distance of links that may not touch, m; `None` if there are no two such, or no such
+    /// distance was measured.
     pub clearance: Option<Worst>,
-    /// Number of intervals examined.
+    /// The number of intervals examined.
     pub samples: usize,
-    /// Indices of the exemptions that excused something.
+    /// Indices of the exemptions that excused something, ascending.
     pub used: Vec<usize>,
 }
 
-/// Two modules in each other.
+/// A penetration of two modules, or of two links of one, deeper than is allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
     /// The modules, by index; the same twice for two links of one module.
     pub modules: (usize, usize),
     /// The links that penetrate first, by their indices in their modules.
     pub links: (usize, usize),
-    /// First instant of a penetration deeper than allowed, s.
+    /// The first instant of a penetration deeper than allowed, s.
     pub time: f64,
-    /// Greatest penetration depth of the two modules' links while it lasts, m.
+    /// The greatest penetration depth of the two modules' links that was found, m.
     pub depth: f64,
     /// The time of the greatest depth, s.
     pub deepest: f64,
-    /// Allowed penetration depth, m.
+    /// The allowed penetration depth of the two links, m.
     pub allowed: f64,
     /// True if an exemption excuses it.
     pub exempt: bool,
-    /// The bond at whose nominal pose the links are in each other; `None` where a motion brings them there.
+    /// The index of the bond at whose nominal pose the links penetrate each other; `None` if a motion brings them
+    /// there.
     pub bond: Option<usize>,
 }
 
-/// Judges all instants of a plan's body.
+/// Returns the collisions and the clearance of a plan's body over all instants. `tracks` must be valid.
 ///
 /// # Errors
 ///
-/// The first link whose shape is no solid.
+/// The first link whose shape is not sound.
 pub fn judge(
     tracks: &Tracks,
     settings: &Settings,
@@ -85,7 +87,7 @@ pub fn judge(
 }
 
 impl Collision {
-    /// Returns the failure for the report.
+    /// Returns the failure for the report, without blame.
     pub fn failure(&self, robot: &Assembly) -> Failure {
         let module = |m: usize| robot.modules[m].name.clone();
         let link = |m: usize, l: usize| robot.module_type(m).links[l].name.as_str();
@@ -120,7 +122,8 @@ impl Collision {
     }
 }
 
-/// Returns in words how deep the ports of a bond lie beneath the surfaces of their links; nothing where neither does.
+/// Returns in words the depth of the ports of a bond beneath the surfaces of their links; nothing if neither is
+/// deeper than `touch`.
 fn beneath(robot: &Assembly, bond: usize) -> String {
     let port_depth = |at: PortRef| {
         let kind = robot.module_type(at.module);
@@ -164,17 +167,17 @@ fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec
     holding.filter_map(of).collect()
 }
 
-/// An exemption from collisions that holds at the moment.
+/// An exemption from collisions that holds all through a window of time.
 #[derive(Clone, Copy, Debug)]
 pub struct Excuse {
-    /// The index of the exemption.
+    /// The index of the exemption in the plan.
     pub index: usize,
-    /// `None`: of any modules.
+    /// The two modules that it is about, by index; `None`: any.
     pub modules: Option<(usize, usize)>,
 }
 
 impl Excuse {
-    /// Returns true if it excuses these two modules.
+    /// Returns true if it excuses these two modules, given by index in any order.
     pub fn covers(&self, a: usize, b: usize) -> bool {
         self.modules.is_none_or(|pair| pair == (a, b) || pair == (b, a))
     }

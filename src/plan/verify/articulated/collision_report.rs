@@ -9,7 +9,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
-/// Judges the whole plan; needs only poses of links to each other, so the ground does not matter.
+/// Judges the whole plan; needs only the relative poses of links, so the ground does not matter.
 pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     let tracks = rollout.tracks;
     let found =
@@ -56,8 +56,8 @@ fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
     (causes.map(|(_, cause)| *cause).collect(), true)
 }
 
-/// Returns the actions whose joint, held still from its start, keeps the two links apart where they would be
-/// deepest in each other; latest first.
+/// Returns the actions whose joint, held still from its start, keeps the two links apart at the instant of their
+/// greatest depth; latest first.
 fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, 0);

@@ -7,35 +7,35 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon::{self, Margin};
 
-/// A point of a feature near the ground.
+/// A point of a feature near the ground, with its normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
-    /// The index of the feature.
+    /// The index of the feature in [`Model::features`].
     pub feature: usize,
-    /// The number of the point of the feature.
+    /// The number of the point of the feature, from 0 ([`Feature::point`]).
     pub k: u8,
-    /// The link of the feature.
+    /// The link of the feature, by its number among all links.
     pub link: usize,
-    /// The position from the centre of mass; +z up, m.
+    /// The position from the centre of mass, in level axes of the stance's heading; +z up, m.
     pub p: Vec3,
-    /// Height above the ground, m.
+    /// The height above the ground, m; negative below it.
     pub gap: f64,
-    /// Normal force as a part of the weight, without friction.
+    /// The normal force as a fraction of the weight, without friction; all sum up to 1, or are 0.
     pub load: f64,
 }
 
-/// A link's contact as a whole.
+/// The contact of a link as a whole: its loaded contact points gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPatch {
-    /// The link.
+    /// The link, by its number among all links.
     pub link: usize,
-    /// Part of the weight.
+    /// The normal force as a fraction of the weight.
     pub load: f64,
-    /// Centre of pressure, horizontally from the centre of mass, m.
+    /// The centre of pressure along the first level axis, from the centre of mass, m.
     pub x: f64,
-    /// Centre of pressure along the second axis, m.
+    /// The centre of pressure along the second level axis, from the centre of mass, m.
     pub y: f64,
-    /// Load-weighted mean square distance from there, m².
+    /// The load-weighted mean square distance of the points from the centre of pressure, m².
     pub spread: f64,
 }
 
@@ -72,8 +72,8 @@ pub(super) fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
-/// Returns the static stability margin in the support polygon of the contact points that `chosen` selects; its
-/// edge is given by indices of `contact_points`.
+/// Returns the static stability margin in the support polygon of the contact points that `chosen` selects; its edge
+/// is given by indices of `contact_points`. `None` if they span no area.
 pub(super) fn margin(
     contact_points: &[ContactPoint],
     chosen: impl Fn(&ContactPoint) -> bool,
@@ -119,13 +119,14 @@ pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     found
 }
 
+/// The numbers of rounds: of the proximal method, of Newton's method in one of them, and of halvings of one step.
 const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;
 const HALVINGS_MAX: usize = 40;
 
-/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥
-/// 0, where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with
-/// `g = (1, x, y)`. The moment left is least where no such loads exist.
+/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥ 0,
+/// where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with `g = (1, x,
+/// y)`. If no such loads exist, the moment left is least.
 fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
     let near = |t: &ContactPoint| t.gap <= tolerances.gap_loaded;
     let size =

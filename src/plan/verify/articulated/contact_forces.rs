@@ -1,10 +1,10 @@
 //! The contact forces that minimise the greatest load of a robot: they decide if forces exist under which
 //! nothing is overloaded.
 //!
-//! Each contact force lies in a pyramid inside its friction cone (linearised friction); together they carry
-//! the weight. The least greatest load is the value of a linear program (LP). Its solution is not trusted:
-//! the forces are brought to exact balance and the loads computed from them, which proves that they exist;
-//! and the multipliers give a bound below which no forces whatever can come.
+//! Each contact force lies in a pyramid inside its friction cone (linearised friction); together they carry the
+//! weight. The least greatest load is the value of a linear program (LP). Its solution is not trusted: the forces
+//! are brought to exact balance and the loads computed from them, which proves that they exist; and the Lagrange
+//! multipliers give a lower bound for all contact forces.
 
 use super::contact::ContactPoint;
 use super::contact_lp::ContactLp;
@@ -21,10 +21,10 @@ use nalgebra::{Matrix6, Vector6};
 /// The half diagonal of the square inside the unit circle.
 const INSCRIBED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Greatest number of columns of an LP that is still solved.
+/// The greatest number of columns of an LP that is still solved.
 const COLUMNS_MAX: usize = 100_000;
 
-/// A unit of a force that may act: an edge of a contact's pyramid, or a component of what a bond that
+/// A unit of a force that may act: an edge of a contact's pyramid, or a component of the wrench that a bond that
 /// closes a loop transmits.
 pub(super) struct Column {
     /// The wrenches of one unit of it.
@@ -36,21 +36,22 @@ pub(super) struct Column {
 /// Contact forces in balance, with the loads that they cause.
 #[derive(Clone, Debug)]
 pub(super) struct ContactForces {
-    /// Greatest load by its limit, with forces that balance.
+    /// The greatest load as a fraction of its limit, with forces that balance.
     pub ratio: f64,
-    /// Index of that load.
+    /// The index of that load in [`Structure::loads`].
     pub load: usize,
-    /// Lower bound on the greatest load of any contact forces, from the dual solution of the LP.
+    /// A lower bound on the greatest load, as a fraction of its limit, under any contact forces; from the dual
+    /// solution of the LP.
     pub bound: f64,
-    /// Sizes of the columns, for the next sample.
+    /// The sizes of the columns, for the next sample.
     pub warm_start: WarmStart,
     /// The load at every cut under these forces and the weights, N or N·m.
     pub held: Vec<f64>,
-    /// The forces of the ground on the links, and what bonds that close loops transmit.
+    /// The forces of the ground on the links, and the wrenches that bonds that close loops transmit.
     pub wrenches: Vec<Wrench>,
 }
 
-/// Contact forces of an earlier sample: where contacts stay the same, nearly the same forces balance again.
+/// Contact forces of an earlier sample: if contacts stay the same, nearly the same forces balance again.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(super) struct WarmStart {
     /// Feature and point, in order.
@@ -61,7 +62,7 @@ pub(super) struct WarmStart {
     loops: Vec<f64>,
 }
 
-/// Number of edges of the friction pyramid of a contact.
+/// The number of edges of the friction pyramid of a contact.
 const EDGES: usize = 4;
 
 /// A query for contact forces in one stance.
@@ -76,13 +77,13 @@ pub(super) struct ContactQuery<'a> {
     pub sections: &'a [Section],
     /// The weights of the links.
     pub gravity_wrenches: &'a [Wrench],
-    /// Loads at the cuts from the weights alone.
+    /// The loads at the cuts from the weights alone, N or N·m.
     pub weights: &'a [f64],
-    /// The loads that count.
+    /// The indices of the loads that count.
     pub loads: &'a [usize],
     /// The weight of the robot, N.
     pub weight: f64,
-    /// Factor on the friction coefficients of links.
+    /// The factor on the friction coefficients of links.
     pub friction: f64,
     /// True for a fixed base: then the ground does not push, and the fixture of the base balances the rest.
     pub fixed_base: bool,
@@ -100,16 +101,16 @@ impl ContactForces {
 }
 
 impl ContactQuery<'_> {
-    /// Returns the forces of an earlier sample brought to balance here, which certifies them without an LP;
-    /// `None` where they cannot be.
+    /// Returns the forces of an earlier sample brought to balance here, which certifies them without an LP; `None`
+    /// if they cannot be.
     pub(super) fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
         let mut sizes = Vec::with_capacity(columns.len());
         for contact_point in &contacts {
             // A new contact pushes nothing yet; the load of a lost one is missed, and the others take it over.
-            let place = warm_start.contacts.binary_search(&(contact_point.feature, contact_point.k));
-            sizes.extend(place.map_or([0.0; EDGES], |at| warm_start.wrenches[at]));
+            let index = warm_start.contacts.binary_search(&(contact_point.feature, contact_point.k));
+            sizes.extend(index.map_or([0.0; EDGES], |at| warm_start.wrenches[at]));
         }
         let loops = columns.len() - sizes.len();
         sizes.extend(if warm_start.loops.len() == loops {
@@ -125,8 +126,8 @@ impl ContactQuery<'_> {
         self.columns(&self.contacts()).len() + self.loads.len()
     }
 
-    /// Solves the LP of the least greatest load; `None` where no forces balance the weight, or
-    /// the solver did not get there.
+    /// Solves the LP of the least greatest load; `None` if no forces balance the weight, the LP is too large, or the
+    /// solver did not converge.
     pub(super) fn minimise_peak_load(&self) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
@@ -139,8 +140,8 @@ impl ContactQuery<'_> {
         self.certified(&contacts, &columns, &solution.x[..columns.len()], bound)
     }
 
-    /// Touches that carry weight, reduced to the corners of each link's hull: other points of it push
-    /// no differently than their mean.
+    /// Returns the contact points that carry weight, reduced to the corners of each link's hull: a force at another
+    /// point of it is a mean of forces there. None for a fixed base.
     fn contacts(&self) -> Vec<ContactPoint> {
         if self.fixed_base {
             return vec![];
@@ -182,7 +183,8 @@ impl ContactQuery<'_> {
         columns
     }
 
-    /// Returns force and moment of a column about the centre of mass, in parts of the weight.
+    /// Returns force and moment of a column about the centre of mass, as fractions of the weight (and of the weight
+    /// times a metre).
     pub(super) fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
         for push in column.wrenches.iter().filter(|_| !column.free) {
@@ -192,7 +194,8 @@ impl ContactQuery<'_> {
         sum
     }
 
-    /// Forces near the given ones that balance to the last digits, and the loads that they make.
+    /// Returns forces near the given ones that balance to the last digits, and the loads that they make; `None` if
+    /// there are none.
     fn certified(
         &self,
         contacts: &[ContactPoint],
@@ -220,8 +223,7 @@ impl ContactQuery<'_> {
         Some(ContactForces { ratio, load: worst, bound, warm_start, held, wrenches })
     }
 
-    /// Returns the nearest sizes that balance, measured by the sizes themselves; `None` where one would have
-    /// to pull.
+    /// Returns the nearest sizes that balance, measured by the sizes themselves; `None` if one would have to pull.
     fn balanced(&self, columns: &[Column], sizes: &[f64]) -> Option<Vec<f64>> {
         if self.fixed_base {
             // Loops alone: what they transmit balances itself.

@@ -1,6 +1,5 @@
-//! The linear program (LP) of the least greatest load, kept sparse: the wrench that is passed on at every cut
-//! of the tree is a variable of its own, so that a robot of hundreds of modules is no denser than a small
-//! one.
+//! The linear program (LP) of the least greatest load, kept sparse: the wrench that is passed on at every cut of the
+//! tree is a variable of its own, so that a robot of hundreds of modules is no denser than a small one.
 
 use super::contact_forces::{Column, ContactQuery};
 use super::statics::{Load, LoadKind};
@@ -10,7 +9,7 @@ use nalgebra::Vector6;
 
 const HALF_ROOT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Directions in which a moment is bounded; its true size is judged afterwards.
+/// The directions in which a moment is bounded; its true size is judged afterwards.
 const DIRECTIONS: [[f64; 3]; 9] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -23,8 +22,8 @@ const DIRECTIONS: [[f64; 3]; 9] = [
     [0.0, HALF_ROOT, -HALF_ROOT],
 ];
 
-/// Forces are in parts of the weight, moments in parts of the weight times a metre. Columns: sizes of
-/// the wrenches, then six for every node but the first, then the greatest load.
+/// The LP with its rows of loads. Forces are in fractions of the weight, moments in fractions of the weight times a
+/// metre. Columns: sizes of the wrenches, then six for every node but the first, then the greatest load.
 pub(super) struct ContactLp {
     /// The linear program for the solver.
     pub problem: LinearProgram,
@@ -44,7 +43,7 @@ struct Node {
 /// centre of mass.
 struct Row {
     terms: Vec<(usize, Vector6<f64>)>,
-    /// The share of the weights.
+    /// The share of the weights, as a fraction of the limit.
     constant: f64,
 }
 
@@ -165,8 +164,8 @@ fn nodes(query: &ContactQuery) -> (Vec<Node>, Vec<usize>) {
     (nodes, node_of)
 }
 
-/// Returns the equations of balance. Each rigid piece passes on the wrench that it gets from its children,
-/// from the ground and by its weight; the root has no one to pass it on to. The root's equations come first.
+/// Returns the equations of balance. Each rigid piece passes on the wrench that it gets from its children, from the
+/// ground and by its weight; the root has no parent to pass it on to. The root's equations come first.
 fn balances(
     query: &ContactQuery,
     columns: &[Column],

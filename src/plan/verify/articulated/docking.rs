@@ -8,7 +8,7 @@ use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
-/// Judges every docking, and that the robot is one piece from the start to the end. Returns the bonds
+/// Judges every docking, and that the robot is one piece from the start to the end. Returns the indices of the bonds
 /// that missed.
 pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
@@ -51,7 +51,7 @@ fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&DockingEvent>, le
     });
 }
 
-/// Names that a message shows.
+/// The greatest number of names that a message shows.
 const NAMES_SHOWN: usize = 4;
 
 fn listed(names: &[String]) -> String {
@@ -84,7 +84,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &
 /// Watches the loops that the bonds close: mated faces must not be driven against each other.
 pub(super) struct Monitor<'a> {
     rollout: &'a Rollout<'a>,
-    /// Bonds that did not dock: that their loops are open is no news.
+    /// The bonds that did not dock: that their loops are open is reported already.
     missed: Vec<usize>,
     samples: usize,
     open: Vec<Failure>,
@@ -163,7 +163,8 @@ fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> boo
     residual.distance <= error.distance && residual.angle <= error.angle
 }
 
-/// Returns the error of two ports at which a bond docks and holds: what the connector states, or else that of loops.
+/// Returns the error of two ports at which a bond docks and holds: that which the connector states, or else that of
+/// loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let a = robot.bonds[bond].a;
     let connector = robot.module_type(a.module).ports[a.port].connector;

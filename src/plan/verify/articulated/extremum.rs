@@ -3,12 +3,12 @@
 use super::tolerances::NUMERICS;
 use crate::plan::polynomial::{hull, split};
 
-/// Pieces examined before the bound is taken instead of the value.
+/// The greatest number of pieces that are examined before the bound is taken instead of the value.
 const PIECES_MAX: usize = 4096;
 
-/// Returns the greatest value over 0..1 and where it is, by subdivision (the convex hull property). It is
-/// never below the true one, and above it by no more than rounding, unless a polynomial is so oscillatory
-/// that the pieces run out.
+/// Returns the greatest value over 0..1 and its argument, by subdivision (the convex hull property). The value is
+/// never below the true one, and above it by no more than rounding, unless a polynomial is so oscillatory that the
+/// pieces run out.
 pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
     let (first, last) = (control[0], control[control.len() - 1]);

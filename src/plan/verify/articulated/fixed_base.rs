@@ -1,9 +1,9 @@
 //! Gravity torques of a robot with a fixed base, proved at every instant and not only at samples.
 //!
-//! In the middle of an interval every torque is known; by how much it differs until the ends follows from how
-//! far joints can turn in it. Seen from the piece before a joint, the links distal to it change by each turn
-//! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no
-//! more than all angles before it. Stretches are halved until that is enough.
+//! In the middle of an interval every torque is known; the bound on its difference until the ends follows from the
+//! bounds on the turns of the joints. Seen from the piece before a joint, the links distal to it change by each turn
+//! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no more than
+//! all angles before it. Intervals are halved until that is enough.
 
 use super::model::{Model, Posture};
 use super::motion_bounds::{Interval, MotionBounds};
@@ -27,7 +27,7 @@ pub(super) enum BetweenSamples {
     Over { time: f64, load: usize, ratio: f64 },
 }
 
-/// Judges the whole plan, if its base is held fast all the time and no loop leaves open who carries what.
+/// Judges the whole plan, if its base is held fast all the time and no loop leaves the distribution of loads open.
 pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     let held = |world: &crate::plan::World| world.ground == Ground::Held;
     let excused = |e: &crate::plan::Exemption| matches!(e.kind, ExemptionKind::Overload(_));
@@ -50,7 +50,7 @@ pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
             return BetweenSamples::Open;
         }
         let gravity = world_at(rollout.worlds, ends[0]).gravity;
-        // Bisection: an interval is discarded where the bound proves the loads in all of it.
+        // Bisection: an interval is discarded if the bound proves the loads in all of it.
         let mut open = vec![(ends[0], ends[1])];
         while let Some((from, to)) = open.pop() {
             interrupt::checkpoint();
@@ -99,11 +99,11 @@ struct DistalLoad {
     moment: Vec3,
     /// Sum of weights times distances from the step's axis' point, N·m.
     arms: f64,
-    /// The greatest displacement of the joint (rad or m), and the greatest displacement of the distal links,
-    /// weighted.
+    /// The greatest displacement of the joint (rad or m).
     turn: f64,
+    /// The greatest displacement of the distal links, weighted, N·m.
     shift: f64,
-    /// All angles before it.
+    /// The sum of all angles before it, rad.
     before: f64,
 }
 
@@ -186,7 +186,7 @@ impl<'a> GravityLoads<'a> {
         }
         for index in (0..steps.len()).rev() {
             let own = distal[index];
-            // Along a line all moves by the same; about an axis as far as its arm is long.
+            // Along a line every point moves by the same; about an axis by the angle times its arm.
             let each = if self.angle(index, &distal) > 0.0 { own.arms } else { own.weight };
             distal[index].shift += own.turn * each;
             if let Some(parent) = self.step_of[steps[index].parent] {
@@ -197,7 +197,7 @@ impl<'a> GravityLoads<'a> {
         distal
     }
 
-    /// Returns the angle by which a step turns at most, rad; zero where it slides.
+    /// Returns the greatest angle by which a step turns, rad; zero for a slide.
     fn angle(&self, step: usize, distal: &[DistalLoad]) -> f64 {
         match self.model.kinematics.steps[step].motion {
             Motion::Along(_) => 0.0,

@@ -1,7 +1,7 @@
 //! Features of a robot that can touch the ground: vertices, circles and spheres, each with one lowest point.
 //!
-//! Wheels are exact circles. A polygon would make wells in which a chassis sticks; and a wheel's own
-//! spin changes no feature at all, which is what makes rolling cheap and exact.
+//! Wheels are exact circles: with a polygon a chassis would rest on its sides; and a wheel's own spin changes no
+//! feature at all, which makes rolling cheap and exact.
 
 use super::tolerances::NUMERICS;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
@@ -9,19 +9,19 @@ use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 /// A 3×3 matrix, mostly a rotation.
 pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 
-/// Points that stand for a circle: the lowest, and others round it so that a disc lying flat is more
+/// The number of points that represent a circle: the lowest, and others round it so that a disc lying flat is more
 /// than one point.
 pub(super) const CIRCLE_POINTS: u8 = 8;
 
-/// The greatest depth of nested unions that is examined; nobody declares deeper ones.
+/// The greatest number of shapes, nested unions included, that are examined; no robot declares more.
 const UNIONS_MAX: usize = 100_000;
 
-/// A part of a link's surface, in the frame of the link or in another one.
+/// A part of a link's surface that can touch the ground, in the frame of the link or in another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
     /// The vertex, or the centre of the circle or sphere, m.
     pub centre: Vec3,
-    /// The shape round the centre.
+    /// The shape about the centre.
     pub form: Form,
 }
 
@@ -30,9 +30,9 @@ pub struct Feature {
 pub enum Form {
     /// A point.
     Vertex,
-    /// A circle: unit normal of its plane; radius, m.
+    /// A circle: the unit normal of its plane, and the radius, m.
     Circle(Vec3, f64),
-    /// A sphere: radius, m.
+    /// A sphere: the radius, m.
     Sphere(f64),
 }
 
@@ -46,12 +46,12 @@ impl Feature {
         Feature { centre: R * self.centre + p, form }
     }
 
-    /// Returns the number of points that represent it.
+    /// Returns the number of points that represent it: 8 for a circle, else 1.
     pub fn points(&self) -> u8 {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }
 
-    /// Returns the height of its lowest point along the unit vector `up`, m.
+    /// Returns the height of its lowest point along the unit vector `up`, m, from the origin of its frame.
     pub fn lowest(&self, up: &Vec3) -> f64 {
         let centre = up.dot(&self.centre);
         match self.form {
@@ -64,7 +64,8 @@ impl Feature {
         }
     }
 
-    /// Returns point `k` of those that represent it, m; 0 is the lowest along `up`.
+    /// Returns point `k` of those that represent it, in its frame, m; 0 is the lowest along the unit vector `up`,
+    /// the others of a circle follow at eighths of a turn.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
         match self.form {
             Form::Vertex => self.centre,
@@ -77,12 +78,13 @@ impl Feature {
         }
     }
 
-    /// Returns an upper bound on the distance of any of its points from the origin, m.
+    /// Returns an upper bound on the distance of any of its points from the origin of its frame, m.
     pub fn reach(&self) -> f64 {
         self.centre.norm() + self.radius()
     }
 
-    /// Returns an upper bound on the distance of any of its points from the corresponding point of `other`, m.
+    /// Returns an upper bound on the distance of any of its points from the corresponding point of `other`, m; the
+    /// two must be one feature in two poses.
     pub fn moved(&self, other: &Feature) -> f64 {
         let centre = (self.centre - other.centre).norm();
         match (self.form, other.form) {

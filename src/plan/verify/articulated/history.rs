@@ -9,16 +9,17 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
 
-/// The greatest number of moments of a history; of a longer rollout every second, fourth, ... is kept.
+/// The greatest number of moments of a history besides the last: of a longer rollout every second, fourth, ...
+/// sample is kept.
 pub const MOMENTS_MAX: usize = 4096;
 
-/// The stride of moments that have the loads of the joints, which take longer to find.
+/// The stride of moments that have the loads of the joints, which take longer to compute.
 const LOADS_EACH: usize = 8;
 
 /// The greatest number of contact points of a moment; of more every second, third, ... is kept.
 pub const CONTACTS_MAX: usize = 128;
 
-/// The robot at an instant.
+/// The robot at an instant of a rollout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// The time, s.
@@ -27,23 +28,24 @@ pub struct Moment {
     pub base: Pose,
     /// The centre of mass of the links connected with the base, in the world, m.
     pub centre: Vec3,
-    /// Corners of the hull of what touches the ground, counter-clockwise from above, world, m; fewer
-    /// than three where the contacts span no area, none without a ground.
+    /// The support polygon: corners of the convex hull of the contact points, counter-clockwise from above, x and y
+    /// in the world, m; fewer than three if the contacts span no area, none without weight and for a base that is
+    /// held fast.
     pub support: Vec<[f64; 2]>,
-    /// Points that touch the ground, world, m: at most [`CONTACTS_MAX`] of them.
+    /// The contact points, x and y in the world, m: at most [`CONTACTS_MAX`] of them.
     pub contacts: Vec<[f64; 2]>,
-    /// Distance of the centre of mass inside that hull, negative outside, m; `None` where it spans no
-    /// area.
+    /// The static stability margin, the distance of the centre of mass inside that polygon, negative outside, m;
+    /// `None` if it has no area.
     pub margin: Option<f64>,
     /// True if the support was lost and the base is held for the time that `unstable_for` allows.
     pub held: bool,
-    /// Load by limit of each joint that states one, with the ground's forces spread evenly: (joint,
-    /// ratio). The judge may know better forces. Empty at most moments.
+    /// The ratio of load to limit of each joint that states one, with the ground's forces spread evenly, as (index
+    /// of the joint, ratio). The judge may find better forces. Empty at most moments.
     pub loads: Vec<(usize, f64)>,
 }
 
-/// Returns the moments of an articulated robot's plan, in order of time, from the start to `until` (s).
-/// Empty for plans of other families, and for plans that mean nothing.
+/// Returns the moments of an articulated robot's plan, in order of time, from the start to `until` (s) or the end of
+/// the plan. Empty for plans of other families, and for plans that are not valid.
 pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     let tolerances = Tolerances::default();
     let mut moments = Decimated::new(MOMENTS_MAX);
@@ -65,8 +67,8 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     moments
 }
 
-/// Returns the world pose of the base module's body (`X_WB`) at a time (s): where standing, rolling and tipping have
-/// brought it by then. `None` for plans that have no such body, or that mean nothing.
+/// Returns the world pose of the base module's body (`X_WB`) at the last sample up to a time (s), as standing,
+/// rolling and tipping have brought it there. `None` for plans of other families, and for plans that are not valid.
 pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
     visit(plan, time, &Tolerances::default(), &mut |sample| {
@@ -97,20 +99,20 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
 
 fn moment(sample: &Sample) -> Moment {
     let stance = sample.stance;
-    let place = stance.place;
+    let planar_pose = stance.planar_pose;
     let grounded = sample.world.gravity > 0.0 && sample.world.ground != Ground::Held;
-    let (s, c) = libm::sincos(place.yaw);
+    let (s, c) = libm::sincos(planar_pose.yaw);
     let touching =
         stance.contact_points.iter().filter(|contact_point| contact::counts(sample.model, contact_point));
     let points: Vec<[f64; 2]> = touching
         .filter(|_| grounded)
-        .map(|t| [place.x + c * t.p.x - s * t.p.y, place.y + s * t.p.x + c * t.p.y])
+        .map(|t| [planar_pose.x + c * t.p.x - s * t.p.y, planar_pose.y + s * t.p.x + c * t.p.y])
         .collect();
     let margin = if grounded { stance.margin(sample.model).map(|m| m.distance) } else { None };
     Moment {
         time: sample.time,
         base: stance.base_pose(sample.model),
-        centre: Vec3::new(place.x, place.y, stance.height),
+        centre: Vec3::new(planar_pose.x, planar_pose.y, stance.height),
         support: hull(&points).into_iter().map(|i| points[i]).collect(),
         contacts: points.iter().step_by(points.len().div_ceil(CONTACTS_MAX).max(1)).copied().collect(),
         margin,

@@ -1,8 +1,9 @@
-//! The robot in the middle of an interval of time, with bounds on how it moves until the ends.
+//! The robot in the middle of an interval of time, with bounds on its motion until the ends, for conservative
+//! advancement.
 //!
-//! Positions and velocities in the middle are exact. Positions at the ends are bounded, for each link as seen
-//! from an origin link (see [`levels`](super::reference_links)), by how far velocities can deviate from those
-//! in the middle:
+//! Positions and velocities in the middle are exact. Positions at the ends are bounded, for each link as seen from
+//! an origin link (see [`ReferenceLinks`](super::reference_links::ReferenceLinks)), by bounds on the deviation of
+//! velocities from those in the middle:
 //!
 //! - turning: `ω' = ω + q̇ z`, where the axis z turns with the link before, deviates by the joint's own
 //!   deviation plus `|q̇|` times the angle that z can turn by;
@@ -22,7 +23,8 @@ pub(super) struct IntervalState {
     /// The joints over the interval.
     pub interval: Interval,
     poses: Vec<Pose>,
-    /// World orientation, position, angular velocity (rad/s) and velocity (m/s) of each link.
+    /// Orientation, position (m), angular velocity (rad/s) and velocity (m/s) of each link, in the frame of the root
+    /// link.
     pub links: Vec<Moving>,
     /// The state of each step of the kinematics.
     joints: Vec<JointInterval>,
@@ -53,7 +55,7 @@ pub(super) struct Deviation {
     pub gradient: f64,
     /// The deviation of the angular velocity, rad/s.
     turn: f64,
-    /// Bound of the angular velocity, rad/s.
+    /// A bound on the angular velocity, rad/s.
     spin: f64,
 }
 

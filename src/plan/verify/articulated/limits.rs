@@ -13,8 +13,9 @@ use crate::units::{Dimension, quantity};
 struct Drive {
     name: String,
     limits: Limits,
-    /// Position as a sum of joints times factors.
+    /// The position as a sum of joints, by id, times factors.
     terms: Vec<(usize, f64)>,
+    /// True for positions in rad, false for m.
     turns: bool,
 }
 
@@ -41,6 +42,7 @@ pub(super) fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledge
     ledger.check(CheckKind::Acceleration, status(drives.iter().any(|d| d.limits.acceleration.is_some())));
 }
 
+/// Returns the joints that are not fixed, and the motors, of all modules and bonds.
 fn drives(robot: &Assembly) -> Vec<Drive> {
     let mut first = 0;
     let mut firsts = Vec::new();
@@ -132,6 +134,7 @@ fn sum(a: &[f64], b: &[f64], factor: f64) -> Vec<f64> {
     a.iter().zip(&b).map(|(a, b)| a + factor * b).collect()
 }
 
+/// Checks the range of a drive at the start and over all its pieces; reports the greatest excess.
 fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
     let Some((low, high)) = drive.limits.range else { return };
     let at_start: f64 = drive.terms.iter().map(|&(joint, factor)| factor * tracks.start.joints[joint]).sum();
@@ -163,6 +166,7 @@ fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Toleranc
     }
 }
 
+/// Checks the greatest speed of a drive, and keeps its margin.
 fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
     let Some(limit) = drive.limits.speed else { return };
     let mut worst: Option<(f64, f64, &Piece)> = None;
@@ -187,6 +191,7 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
     }
 }
 
+/// Checks the greatest acceleration of a drive; a jump of the speed counts as an infinite one.
 fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
     let Some(limit) = drive.limits.acceleration else { return };
     let mut worst: Option<(f64, f64, &Piece)> = None;
@@ -228,6 +233,7 @@ fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger
     ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
 }
 
+/// Returns the greatest absolute value of a polynomial over 0..1, and its argument.
 fn greatest_size(control: &[f64]) -> (f64, f64) {
     let up = greatest(control);
     let negated: Vec<f64> = control.iter().map(|c| -c).collect();

@@ -1,9 +1,9 @@
 //! Quasi-static motion over the ground while joints move, by the minimum power principle (Peshkin and Sanderson
 //! 1989): wheels roll, feet hold.
 //!
-//! The displacement is the one for which the sum of load times friction times slip over all patches
-//! is least: Coulomb friction lets the loaded contacts stick and the light ones slip. Contacts of the
-//! sample before and of this one count half each, which makes it reversible in time.
+//! The displacement is the one for which the sum of load times friction times slip over all patches is least:
+//! Coulomb friction lets the loaded contacts stick and the light ones slip. Contacts of the sample before and of
+//! this one count half each, which makes it reversible in time.
 
 use super::contact::ContactPatch;
 use super::ground_features::Mat3;
@@ -12,14 +12,14 @@ use super::stance::Stance;
 use super::tolerances::NUMERICS;
 use crate::geometry::Vec3;
 
-/// Position (m) and heading (rad) on the ground.
+/// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanarPose {
-    /// Position along the first world axis, m.
+    /// The position along the first world axis, m.
     pub x: f64,
-    /// Position along the second world axis, m.
+    /// The position along the second world axis, m.
     pub y: f64,
-    /// Heading, rad.
+    /// The heading, rad, counter-clockwise from above; 0 at the start.
     pub yaw: f64,
 }
 
@@ -39,9 +39,10 @@ impl PlanarPose {
     }
 }
 
+/// The greatest number of rounds of reweighted least squares.
 const ROUNDS_MAX: usize = 100;
 
-/// A patch with the motion by which the robot's own motion would drag it.
+/// A patch with its motion if the base stood still.
 struct SlidingPatch {
     link: usize,
     /// Part of the weight, halved.
@@ -67,8 +68,8 @@ impl SlidingPatch {
     }
 }
 
-/// Returns the pose that the robot moves to, and the slip of each loaded link (m) with its part of the weight:
-/// half of it for the patch of the sample before, half for that of this one.
+/// Returns the pose that the robot moves to, and for each loaded patch the link, its slip (m) and its load as a
+/// fraction of the weight: half of the slip for the patches of the sample before, half for those of this one.
 pub(super) fn displacement(
     model: &Model,
     old: &Stance,
@@ -84,7 +85,7 @@ pub(super) fn displacement(
         let slip = d.slip(&shift);
         (d.link, libm::hypot(slip[0], slip[1]) / 2.0, 2.0 * d.load)
     });
-    (old.place.moved(&shift), slips.collect())
+    (old.planar_pose.moved(&shift), slips.collect())
 }
 
 fn drag(

@@ -1,9 +1,9 @@
 //! The judgement of articulated robots, whose plans are tracks of joints.
 //!
-//! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials; docking,
-//! from the poses at the instants of docking; then one rollout of the plan over the ground, from sample
-//! to sample, which the checks of loops, stability, slip and torque watch; the torque between samples
-//! where the base is fixed; collisions, by conservative advancement; and last the blame for what failed.
+//! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials;
+//! docking, from the poses at the instants of docking; then one rollout of the plan over the ground, from sample to
+//! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base;
+//! collisions, by conservative advancement; and last the blame for the failures.
 
 mod tolerances;
 
@@ -68,7 +68,8 @@ use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
 
-/// Judges the plan of an articulated robot.
+/// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. The plan must have passed
+/// [`validation::check`](crate::plan::validation::check), or it panics.
 pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
@@ -97,10 +98,10 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     ledger.finish()
 }
 
-/// Number of checkpoints that are kept for rolling out parts of the plan again.
+/// The greatest number of checkpoints that are kept for rolling out parts of the plan again.
 const CHECKPOINTS_MAX: usize = 16;
 
-/// Judges everything that is judged from sample to sample. Returns checkpoints to roll out from.
+/// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from.
 fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);

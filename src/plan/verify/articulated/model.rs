@@ -8,9 +8,9 @@ use std::ops::Range;
 
 /// A robot with the bonds that hold, compiled for statics and ground contact.
 pub struct Model<'a> {
-    /// The assembly.
+    /// The assembly that was compiled.
     pub robot: &'a Assembly,
-    /// Its kinematics from the base.
+    /// Its kinematics, with the base module as the root.
     pub kinematics: Kinematics,
     /// The bodies, one for every link of the assembly, loose ones too.
     pub bodies: Vec<Body>,
@@ -18,7 +18,7 @@ pub struct Model<'a> {
     pub attached: Vec<usize>,
     /// The features of the attached links, in order of link.
     pub features: Vec<Feature>,
-    /// The link of each feature.
+    /// The number of the link of each feature.
     pub link_of: Vec<usize>,
     /// The mass of the attached links, kg.
     pub mass: f64,
@@ -27,33 +27,33 @@ pub struct Model<'a> {
 /// A link with its mass, friction and ground features.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// The module that it belongs to.
+    /// The index of the module that it belongs to.
     pub module: usize,
     /// The mass, kg.
     pub mass: f64,
     /// The centre of mass in the link's frame, m.
     pub com: Vec3,
-    /// Friction coefficient on the ground.
+    /// The coefficient of friction against the ground, without the factor of the world.
     pub friction: f64,
-    /// Gap up to which the link counts as touching the ground, m.
+    /// The greatest gap at which the link counts as touching the ground, m.
     pub contact: f64,
-    /// Its features in [`Model::features`].
+    /// The indices of its features in [`Model::features`].
     pub features: Range<usize>,
 }
 
 /// Poses of all links in the frame of the base module's body.
 #[derive(Clone, Debug)]
 pub struct Posture {
-    /// Orientation of each link.
+    /// The orientation of each link, by number; those of loose links mean nothing.
     pub R: Vec<Mat3>,
-    /// Position of each link's origin, m.
+    /// The position of each link's origin, m.
     pub p: Vec<Vec3>,
-    /// Centre of mass of the attached links.
+    /// The centre of mass of the attached links, m; without mass the origin.
     pub centre: Vec3,
 }
 
 impl<'a> Model<'a> {
-    /// Compiles `robot` with the bonds for which `bonds` says true.
+    /// Compiles `robot` with the bonds for which `bonds` is true. Panics unless there is one flag for every bond.
     pub fn new(robot: &'a Assembly, bonds: &[bool]) -> Model<'a> {
         let kinematics = Kinematics::new(robot, bonds, robot.base);
         let mut model = Model {
@@ -94,7 +94,8 @@ impl<'a> Model<'a> {
         model
     }
 
-    /// Returns the poses of all links with the joints at these positions (rad or m). `poses` is room for one pose a link.
+    /// Returns the poses of all links with the joints at these positions (rad or m), one for every joint of the
+    /// assembly. `poses` is a buffer, which is resized and overwritten.
     pub fn posture(&self, joints: &[f64], poses: &mut Vec<Pose>) -> Posture {
         poses.resize(self.bodies.len(), Pose::identity());
         self.kinematics.link_poses(joints, &Pose::identity(), poses);
@@ -108,12 +109,13 @@ impl<'a> Model<'a> {
         Posture { R, p, centre }
     }
 
-    /// Returns the link that is the body of the base module.
+    /// Returns the number of the link that is the body of the base module.
     pub fn base_link(&self) -> usize {
         self.kinematics.link(self.robot.base, 0)
     }
 
-    /// Returns all features with the robot turned by `R`, the centre of mass at the origin.
+    /// Returns all features, in the order of [`Model::features`], with the robot turned by `R` and the centre of
+    /// mass at the origin.
     pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
         let mut placed = Vec::with_capacity(self.features.len());
         for &link in &self.attached {

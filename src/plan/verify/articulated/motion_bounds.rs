@@ -19,9 +19,9 @@ struct Piece {
     start: f64,
     end: f64,
     control: Vec<f64>,
-    /// Control points of the rate, per second.
+    /// Control points of the rate, rad/s or m/s.
     rates: Vec<f64>,
-    /// Greatest magnitude of the second derivative, per second squared.
+    /// A bound on the absolute second derivative, rad/s² or m/s².
     acceleration: f64,
 }
 
@@ -34,9 +34,9 @@ pub(super) struct Interval {
     pub half: f64,
     /// Positions in the middle, rad or m.
     pub at: Vec<f64>,
-    /// Rates in the middle, per second.
+    /// Rates in the middle, rad/s or m/s.
     pub rate: Vec<f64>,
-    /// Bound on the difference of the rate from that in the middle.
+    /// Bounds on the difference of each rate from that in the middle, rad/s or m/s.
     pub deviation: Vec<f64>,
     /// True if no rate jumps within: then it deviates in proportion to the time from the middle.
     pub smooth: bool,

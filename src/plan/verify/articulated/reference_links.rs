@@ -4,11 +4,12 @@
 //! The deviation of a link from uniform motion is bounded by a sum over the joints between it and the frame
 //! that it is seen from; from the far end of a long snake that sum is too loose. A centroid splits the tree
 //! of modules into halves at most; pairs on different sides of it are seen from it, and each side is split
-//! again. So every pair has one frame on the path between its two modules, its sums run over that path alone,
-//! and there are only log₂ n frames for each link.
+//! again. So every pair has one frame on the path between its two modules, its sums run over that path alone, and
+//! there are only log₂ n frames for each link.
 
 use crate::robot::{Assembly, Kinematics};
 
+/// The index of no module and no link.
 const NOWHERE: u32 = u32::MAX;
 
 /// The centroid decomposition of the tree of modules.

@@ -13,20 +13,20 @@ use crate::interrupt;
 use crate::plan::{DockingKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
 use crate::units::{Dimension, quantity};
 
-/// A plan to roll out, with settings and tolerances.
+/// A plan to roll out, with settings and tolerances. The plan must be valid.
 #[derive(Clone, Copy)]
 pub struct Rollout<'a> {
     /// The motion.
     pub tracks: &'a Tracks,
     /// The worlds, in order of time.
     pub worlds: &'a [WorldFrom],
-    /// Exemptions that the source states.
+    /// The exemptions of the plan.
     pub exemptions: &'a [Exemption],
     /// The plan's settings of verification.
     pub settings: &'a Settings,
     /// The tolerances.
     pub tolerances: &'a Tolerances,
-    /// A joint that is held from a time on (s), to find out which command is to blame.
+    /// A joint (by id) that is held from a time on (s), to find the command to blame; `None`: all joints move.
     pub held: Option<(usize, f64)>,
 }
 
@@ -34,13 +34,13 @@ pub struct Rollout<'a> {
 pub struct Sample<'a> {
     /// The time, s.
     pub time: f64,
-    /// The sample before; the same as `time` at the start.
+    /// The time of the sample before, s; the same as `time` at the start.
     pub before: f64,
-    /// Joint positions, rad or m.
+    /// The positions of all joints by id, rad or m.
     pub joints: &'a [f64],
-    /// True for the bonds that hold.
+    /// A flag for every bond of the robot, true if it holds.
     pub bonds: &'a [bool],
-    /// The robot with those bonds.
+    /// The model of the robot with those bonds.
     pub model: &'a Model<'a>,
     /// Its stance on the ground, or over it.
     pub stance: &'a Stance,
@@ -48,15 +48,18 @@ pub struct Sample<'a> {
     pub world: &'a World,
     /// True if anything moved since the sample before.
     pub moved: bool,
-    /// Fall of the centre of mass with the joints held, m.
+    /// The fall of the centre of mass if it settles with the joints held, m.
     pub fall: f64,
-    /// Bound on the motion of points about the centre of mass since the sample before, m.
+    /// An upper bound on the motion of the robot's points about the centre of mass since the sample before, m; 0 off
+    /// the ground.
     pub motion: f64,
-    /// The loss of support since the sample before, if there was one.
+    /// The loss of support since the sample before; `None` if there was none.
     pub tip: Option<&'a TipOver>,
-    /// Slip of loaded links since the sample before, m, with their part of the weight.
+    /// For each loaded contact patch the link, its slip since the sample before, m, and its load as a fraction of
+    /// the weight.
     pub slips: &'a [(usize, f64, f64)],
-    /// The angle by which the robot turned to settle, rad; at the start, or where a ground begins.
+    /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
+    /// samples.
     pub settling: Option<f64>,
 }
 
@@ -65,28 +68,29 @@ pub struct Sample<'a> {
 pub struct TipOver {
     /// The time at which the centre of mass crossed the edge, s.
     pub time: f64,
-    /// Fall of the centre of mass, m.
+    /// The fall of the centre of mass, m.
     pub fall: f64,
-    /// Bound on the motion of the step that showed it, m.
+    /// An upper bound on the motion of points about the centre of mass in the step that showed it, m.
     pub motion: f64,
-    /// Links at the two ends of the edge.
+    /// The links at the two ends of the edge, one if they are the same; all supporting links if the support has no
+    /// area.
     pub edge: Vec<usize>,
-    /// True if an exemption covers it.
+    /// True if an exemption excuses it.
     pub excused: bool,
 }
 
-/// The reason for which a rollout ended.
+/// The reason why a rollout ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RolloutEnd {
     /// The rollout reached the end of the plan.
     AtEnd,
-    /// Too many samples; it got to this time.
+    /// The rollout took all samples that are allowed, and reached this time, s.
     Limit(f64),
     /// The observer ended the rollout.
     Stopped,
 }
 
-/// Halvings of one step: times are that close that nothing moves between them.
+/// The greatest number of halvings of one step: times are then so close that nothing moves between them.
 const HALVINGS_MAX: usize = 50;
 
 /// A state from which a rollout continues.
@@ -104,7 +108,7 @@ struct Stepper<'a> {
     model: Model<'a>,
     bonds: Vec<bool>,
     stance: Stance,
-    /// Time of the last sample.
+    /// The time of the last sample, s.
     now: f64,
     joints: Vec<f64>,
     poses: Vec<Pose>,
@@ -113,8 +117,9 @@ struct Stepper<'a> {
     samples: usize,
 }
 
-/// Rolls a plan out from its start, or from a checkpoint, until `until` (s). `observe` gets every sample, and
-/// returns false to stop.
+/// Rolls a plan out from its start, or after a checkpoint, until `until` (s) or its end. `observe` receives every
+/// sample, with a function that returns the checkpoint at it, and returns false to stop. The sample of the
+/// checkpoint itself is not observed again.
 pub fn roll_out(
     rollout: Rollout,
     from: Option<&Checkpoint>,

@@ -5,8 +5,8 @@ use super::tolerances::Tolerances;
 use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
 use crate::robot::JointId;
 
-/// Returns every instant that is a sample whatever the settings say, in order: starts and ends of segments,
-/// docking, changes of the world, ends of exemptions, the start and the end.
+/// Returns every instant that is a sample under any settings, ascending: starts and ends of segments, docking,
+/// changes of the world, ends of exemptions, the start and the end.
 pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
     let mut all = tracks.instants();
     all.extend(worlds.iter().map(|w| w.from));
@@ -31,7 +31,7 @@ pub(super) fn divisions(
     }
     let by_time = libm::ceil((t1 - t0) / settings.sample - tolerances.sample_count);
     let by_turn = libm::ceil(travel / tolerances.turn_sample - tolerances.sample_count);
-    // Beyond what a machine counts, all of it.
+    // Beyond the range of whole numbers the greatest one.
     by_time.max(by_turn).max(1.0) as usize
 }
 
@@ -48,7 +48,8 @@ pub(super) fn count(
     between.fold(1, usize::saturating_add)
 }
 
-/// Returns an upper bound on how far a joint moves, back and forth: the length of its control polygon.
+/// Returns an upper bound on the distance that a joint moves, back and forth, rad or m: the length of its control
+/// polygon.
 fn travel(tracks: &Tracks, joint: JointId, t0: f64, t1: f64) -> f64 {
     let Some(track) = tracks.track(joint) else { return 0.0 };
     let first = track.segments.partition_point(|s| s.end <= t0);

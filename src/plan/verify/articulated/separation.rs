@@ -1,5 +1,5 @@
-//! Separation of pairs of modules and bodies over an interval of time: lower bounds on their distance from
-//! bounding spheres and from separating slabs.
+//! Separation of pairs of modules and bodies over an interval of time, for conservative advancement: lower bounds on
+//! their distance from bounding spheres and from separating slabs.
 
 use super::bodies::{Bodies, Body};
 use super::interval_state::IntervalState;
@@ -11,9 +11,9 @@ use crate::robot::Kinematics;
 /// Two modules that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ModulePair {
-    /// The first module.
+    /// The index of the first module.
     pub a: u32,
-    /// The second module.
+    /// The index of the second module.
     pub b: u32,
     /// The level of their reference link.
     pub level: u32,
@@ -22,15 +22,15 @@ pub(super) struct ModulePair {
 /// Two bodies that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyPair {
-    /// The first body.
+    /// The index of the first body in [`Bodies::bodies`].
     pub a: u32,
-    /// The second body.
+    /// The index of the second body.
     pub b: u32,
     /// The level of their reference link.
     pub level: u32,
     /// True if they count for the clearance: two links that a joint joins do not.
     pub counts: bool,
-    /// Deeper than this is a collision, m.
+    /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
     /// The separating direction from a to b found last, in the frame of a's carrier; zero at first.
     pub normal: Vec3,
@@ -39,9 +39,9 @@ pub(super) struct BodyPair {
 /// Lower bounds on the distance of a pair over an interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
-    /// Lower bound of the distance over the whole interval, m.
+    /// A lower bound on the distance over the whole interval, m.
     pub least: f64,
-    /// Lower bound of the distance in the middle, m.
+    /// A lower bound on the distance in the middle, m.
     pub middle: f64,
 }
 
@@ -123,8 +123,8 @@ pub(super) fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bo
     Bound { least: ends - state.drift(deviation(a) + deviation(b)), middle }
 }
 
-/// Returns the signed distance in the middle (m), exact only below `enough`, and leaves its direction in the
-/// pair.
+/// Returns the signed distance in the middle (m), or, once it is known to be at least `enough`, a lower bound of at
+/// least that, and leaves its direction in the pair.
 pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
@@ -151,7 +151,7 @@ impl IntervalState {
     }
 
     /// Returns the distance of a point from uniform motion at the ends of the interval (m) if its velocity deviates
-    /// by so much: where nothing jumps, it deviates in proportion to time.
+    /// by so much: if nothing jumps, it deviates in proportion to time.
     fn drift(&self, deviation: f64) -> f64 {
         deviation * self.interval.half * if self.interval.smooth { 0.5 } else { 1.0 }
     }

@@ -12,18 +12,21 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
 
-/// Longest trial turn, rad (2°).
+/// The greatest trial turn, rad (2°).
 const STEP_MAX: f64 = 0.034_906_585_039_886_59;
 /// The fraction of the predicted fall that a trial must show.
 const ACCEPTED_PART: f64 = 0.1;
 /// Weight of long turns at the beginning, rad²/m, for robots of up to a metre.
 const REACH_START: f64 = 1e3;
-/// Lowest points that a refused trial adds to the bundle, and how many it holds.
+/// The number of lowest points that a refused trial adds to the bundle.
 const KEPT_POINTS: usize = 6;
+/// The greatest number of points that the bundle holds.
 const BUNDLE_MAX: usize = 60;
-/// Limits of the loops: rounds of descent, changes of the basis, shortenings of a step.
+/// The greatest number of rounds of descent.
 const ROUNDS_MAX: usize = 400;
+/// The greatest number of changes of the basis.
 const BASES_MAX: usize = 500;
+/// The greatest number of shortenings of a step.
 const SHORTENINGS_MAX: usize = 60;
 
 /// The attitude at which the descent ended.
@@ -31,11 +34,12 @@ const SHORTENINGS_MAX: usize = 60;
 pub(super) struct SettledAttitude {
     /// The rotation from where it began.
     pub turn: Mat3,
-    /// Height of the centre of mass above the lowest point, m.
+    /// The height of the centre of mass above the lowest point, m.
     pub height: f64,
 }
 
-/// Returns the height of the centre of mass (the origin) over the lowest point, with `up` pointing up.
+/// Returns the height of the centre of mass (the origin) over the lowest point, m, along the unit vector `up`; minus
+/// infinity without features.
 pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
@@ -93,7 +97,7 @@ impl SupportPlane {
     }
 }
 
-/// Planes of the points that a turn of the present step could bring down to the ground.
+/// Returns the planes of the points that a turn of the present step could bring down to the ground.
 fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<SupportPlane> {
     let up = turn.transpose() * Vec3::z();
     let mut planes = Vec::new();
@@ -106,7 +110,7 @@ fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_ma
     planes
 }
 
-/// Returns the turn to try, not longer than `step`, and the height that the planes promise there.
+/// Returns the turn to try, not longer than `step` (rad), and the height of the model's minimum there, m.
 fn trial(planes: &[SupportPlane], step: f64, reach: f64) -> (Vec3, f64) {
     let mut tau = REACH_START / reach.max(1.0) / reach.max(1.0);
     let mut basis = lowest_bundle(planes, tau);
@@ -149,7 +153,7 @@ fn lowest_bundle(planes: &[SupportPlane], tau: f64) -> Basis {
     basis
 }
 
-/// Returns the best basis among the new plane and up to two of the old.
+/// Returns the best basis among the new plane and up to two of the old; `None` if none is valid.
 fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
     let old = &basis.planes;
     let mut best: Option<Basis> = None;
@@ -169,8 +173,8 @@ fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
     best
 }
 
-/// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes; `None` where a multiplier is negative
-/// or the planes are dependent.
+/// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes; `None` if a multiplier is negative or the planes are
+/// dependent.
 fn solved(planes: &[SupportPlane], tau: f64) -> Option<Basis> {
     let n = planes.len();
     let mut matrix = nalgebra::Matrix4::<f64>::identity();
@@ -214,9 +218,9 @@ fn keep_lowest(bundle: &mut Vec<Vec3>, features: &[Feature], up: &Vec3, level: f
     bundle.drain(..excess);
 }
 
-/// Returns the first of eight small turns that lets the centre of mass fall: it leaves an unstable balance,
-/// on one point or one edge exactly under the centre of mass. A robot that stands must not be perturbed: it
-/// could be pushed over its edge.
+/// Returns the first of eight small turns that lets the centre of mass fall, with its height: it leaves an unstable
+/// balance, on one point or one edge exactly under the centre of mass. `None` if there is none, and for a robot that
+/// stands: it must not be perturbed, as it could be pushed over its edge.
 fn perturbed(features: &[Feature], turn: &Mat3, level: f64, tolerances: &Tolerances) -> Option<(Mat3, f64)> {
     let up = turn.transpose() * Vec3::z();
     let mut support = Vec::new();

@@ -30,11 +30,11 @@ pub(super) struct SupportLoss {
     pub since: f64,
     /// The time at which it ends, s.
     pub until: f64,
-    /// Fall of the centre of mass, m; `None` without a tip-over.
+    /// The fall of the centre of mass, m; `None` without a tip-over.
     pub drop: Option<f64>,
-    /// Least margin, m, or none where the contacts span no area.
+    /// The least margin, m; `None` if the contacts span no area, and for a tip-over.
     pub margin: Option<f64>,
-    /// The parts at the edge, in words, and their modules.
+    /// The parts at the edge, in words.
     pub edge: String,
     /// The modules at the edge.
     pub modules: Vec<String>,
@@ -55,7 +55,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Judges a sample. Returns a loss of support that lasted longer than is allowed, where it ends.
+    /// Judges a sample. Returns a loss of support that lasted longer than is allowed when it ends; `None` otherwise.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
         self.fixed_base |= sample.world.ground == Ground::Held;
         if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
@@ -64,7 +64,7 @@ impl<'a> Monitor<'a> {
         }
         self.ground = true;
         self.samples += 1;
-        self.tell(sample, ledger);
+        self.note_events(sample, ledger);
         let support = self.support(sample);
         if let Some(distance) = judged_margin(sample, support.as_ref()) {
             let edge = || support.as_ref().map_or_else(Vec::new, |s| edge_names(sample, &s.1));
@@ -100,7 +100,8 @@ impl<'a> Monitor<'a> {
         self.loss.is_some()
     }
 
-    /// Returns the loss that lasts to the end of the plan, at `t` (s): support must be back by then.
+    /// Returns the loss that lasts to the end of the plan, at `t` (s): support must be back by then; `None` if there
+    /// is none.
     pub(super) fn end(&mut self, t: f64) -> Option<SupportLoss> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
@@ -136,13 +137,14 @@ impl<'a> Monitor<'a> {
         };
     }
 
-    /// Ends an interval without support at `t`; returns it if it was too long.
+    /// Ends an interval without support at `t` (s); returns it if it was too long, `None` otherwise.
     fn ended(&mut self, t: f64) -> Option<SupportLoss> {
         let loss = self.loss.take()?;
         (t - loss.since > self.settings.unstable_for).then_some(SupportLoss { until: t, ..loss })
     }
 
-    /// Returns the margin in the support by the rule of the settings, and the modules' links at its edge.
+    /// Returns the margin in the support by the rule of the settings, and the links at its edge; `None` if the
+    /// support has no area.
     fn support(&self, sample: &Sample) -> Option<(Margin, [usize; 2])> {
         match self.settings.stability {
             Stability::Footprint => {
@@ -173,7 +175,8 @@ impl<'a> Monitor<'a> {
         self.standing = standing;
     }
 
-    fn tell(&self, sample: &Sample, ledger: &mut Ledger) {
+    /// Notes settling and tip-overs in the verdict.
+    fn note_events(&self, sample: &Sample, ledger: &mut Ledger) {
         if let Some(angle) = sample.settling.filter(|_| sample.fall > self.tolerances.fall_floor) {
             let angle = quantity(angle, Dimension::ANGLE);
             ledger.note(match sample.time == 0.0 {
@@ -191,8 +194,8 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// Returns the distance of the centre of mass inside its support, m: none at all in a polygon without area, unknown
-/// while the base is held.
+/// Returns the distance of the centre of mass inside its support, m: 0 in a polygon without area, `None` while the
+/// base is held.
 fn judged_margin(sample: &Sample, support: Option<&(Margin, [usize; 2])>) -> Option<f64> {
     (!sample.stance.held).then(|| support.map_or(0.0, |s| s.0.distance))
 }
@@ -238,7 +241,7 @@ fn edge_names(sample: &Sample, links: &[usize]) -> Vec<String> {
     names
 }
 
-/// Returns an edge in words: by the modules at its ends; where they are one module, by its parts.
+/// Returns an edge in words: by the modules at its ends, or by its parts if they are one module.
 fn edge_words(sample: &Sample, links: &[usize]) -> String {
     let names = edge_names(sample, links);
     let [module] = names.as_slice() else { return names.join(" and ") };
@@ -250,8 +253,8 @@ fn edge_words(sample: &Sample, links: &[usize]) -> String {
     format!("{module} ({})", links.iter().map(part).collect::<Vec<_>>().join(" and "))
 }
 
-/// Returns the margin by the paper's rule: of the mean of the modules' centres (it takes them for equally
-/// heavy) in the hull of the lowest centres. It rejects a straight chain and a single module.
+/// Returns the margin by the paper's rule: of the mean of the modules' centres (it takes them for equally heavy) in
+/// the hull of the lowest centres; `None` if they span no area, as for a straight chain and a single module.
 fn centres(sample: &Sample, tolerances: &Tolerances) -> Option<(Margin, [usize; 2])> {
     let kinematics = &sample.model.kinematics;
     let bodies: Vec<usize> = kinematics.tree.order.iter().map(|&(m, _)| kinematics.link(m, 0)).collect();

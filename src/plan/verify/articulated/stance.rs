@@ -11,18 +11,18 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::Margin;
 use nalgebra::{Rotation3, UnitQuaternion};
 
-/// A robot on the ground (or held over it), with all that the next sample needs.
+/// The state of a robot on the ground (or held over it) at a sample, with all that the next sample needs.
 #[derive(Clone, Debug)]
 pub struct Stance {
-    /// Poses of the links in the base's frame.
+    /// The poses of the links in the base's frame.
     pub posture: Posture,
-    /// Orientation of the base's frame, before the turn by the yaw of the planar pose.
+    /// The orientation of the base's frame, before the turn by the yaw of the planar pose.
     pub R: Mat3,
-    /// Height of the centre of mass, m.
+    /// The height of the centre of mass above the ground, m.
     pub height: f64,
-    /// Horizontal position of the centre of mass, and heading.
-    pub place: PlanarPose,
-    /// The features with the centre of mass at the origin, turned by `R`.
+    /// The horizontal position of the centre of mass, and the heading, in the world.
+    pub planar_pose: PlanarPose,
+    /// The features with the centre of mass at the origin, turned by `R`, in the order of [`Model::features`].
     pub features: Vec<Feature>,
     /// The contact points with their normal forces.
     pub contact_points: Vec<ContactPoint>,
@@ -30,26 +30,26 @@ pub struct Stance {
     pub patches: Vec<ContactPatch>,
     /// True if the base is held because the support was lost.
     pub held: bool,
-    /// While it is held: what stood on the ground before, each as if it carried the same.
+    /// The contact points before the base was held, each with the same load; empty otherwise.
     anchors: Vec<ContactPoint>,
 }
 
 /// The effect of a change of posture on a stance, before it is decided if the robot tips over.
 pub struct SettleAttempt {
     posture: Posture,
-    /// Orientation without any fall.
+    /// The orientation without any fall.
     R: Mat3,
     features: Vec<Feature>,
-    /// Height with that orientation, m.
+    /// The height of the centre of mass with that orientation, m.
     height: f64,
     rest: SettledAttitude,
-    /// Upper bound on how far any point moves about the centre of mass, joints' motion only, m.
+    /// An upper bound on the motion of any point about the centre of mass, from the motion of the joints only, m.
     pub motion: f64,
-    /// Fall of the centre of mass with the joints held, m.
+    /// The fall of the centre of mass if it settles with the joints held, m.
     pub fall: f64,
 }
 
-/// The outcome of an attempt.
+/// The outcome of an attempt to follow a change of posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
     /// The fall is within the tolerance.
@@ -61,10 +61,10 @@ pub enum StepOutcome {
 }
 
 impl Stance {
-    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
-    /// ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`). Also
-    /// returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless
-    /// it settles.
+    /// Returns the stance of a robot with the base at `X_WB`: kept there ([`Placement::Fixed`]), lowered to the
+    /// ground with its orientation ([`Placement::Lowered`]), or lowered and then settled ([`Placement::Settled`]).
+    /// Also returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless it
+    /// settles.
     pub fn start(
         model: &Model,
         posture: Posture,
@@ -76,7 +76,7 @@ impl Stance {
         let features = model.placed(&posture, &R);
         let up = height(&features, &Vec3::z());
         let c = X_WB.transform_point(&posture.centre.into());
-        let place = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
+        let planar_pose = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
         let level = match placement {
             Placement::Fixed => c.z,
             Placement::Settled | Placement::Lowered => up,
@@ -85,7 +85,7 @@ impl Stance {
             posture,
             R,
             height: level,
-            place,
+            planar_pose,
             features,
             contact_points: vec![],
             patches: vec![],
@@ -103,14 +103,14 @@ impl Stance {
         stance.turn(&rest);
         // The base stays over the point where it was drawn, whatever the settling did.
         let drift = stance.base_pose(model).translation.vector - X_WB.translation.vector;
-        stance.place.x -= drift.x;
-        stance.place.y -= drift.y;
+        stance.planar_pose.x -= drift.x;
+        stance.planar_pose.y -= drift.y;
         stance.find_contacts(model, tolerances);
         (stance, up - rest.height, turned)
     }
 
-    /// Follows a change of posture: turned as the masses and contacts were, then settled. While a
-    /// robot is held, the contacts are those that it stood on before.
+    /// Returns the effect of a change of posture: the robot turned as its masses and contacts were, then settled.
+    /// While a robot is held, the contacts are those before it was.
     pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> SettleAttempt {
         let mut R = self.R * mass_alignment(model, &self.posture, &posture);
         let mut features = model.placed(&posture, &R);
@@ -125,8 +125,8 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
-    /// Returns the robot settled as attempted. Returns the slip of each loaded link with its part of the
-    /// weight.
+    /// Returns the robot settled as attempted, and for each loaded contact patch the link, its slip (m), and its
+    /// load as a fraction of the weight.
     pub fn settled(
         &self,
         model: &Model,
@@ -139,12 +139,13 @@ impl Stance {
         next.anchors.clear();
         next.turn(&rest);
         next.find_contacts(model, tolerances);
-        let (place, slips) = displacement(model, self, &next.posture, &next.R, next.height, &next.patches);
-        next.place = place;
+        let (planar_pose, slips) =
+            displacement(model, self, &next.posture, &next.R, next.height, &next.patches);
+        next.planar_pose = planar_pose;
         (next, slips)
     }
 
-    /// Returns the robot held as it would be without falling, lowered to touch the ground.
+    /// Returns the robot held in its attitude without the fall, lowered to touch the ground.
     pub fn holding(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
         if !self.held {
@@ -157,18 +158,19 @@ impl Stance {
         next
     }
 
-    /// Returns the stance with the same base pose in a new posture.
+    /// Returns the stance with the same base pose in a new posture, without settling.
     pub fn kept(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Stance {
         let X_WB = self.base_pose(model);
         Stance::start(model, posture, &X_WB, Placement::Fixed, tolerances).0
     }
 
-    /// Returns the static stability margin in the support polygon of the contacts; `None` where they span no area.
+    /// Returns the static stability margin in the support polygon of the contacts; `None` if they span no area.
     pub fn margin(&self, model: &Model) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact::counts(model, contact_point))
     }
 
-    /// Returns the static stability margin with contacts of (nearly) no gap only.
+    /// Returns the static stability margin of the contacts whose gap is at most `gap_exact`; `None` if they span no
+    /// area.
     pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
     }
@@ -179,12 +181,12 @@ impl Stance {
         self.link_pose(link)
     }
 
-    /// Returns `X_WL`, the world pose of a link.
+    /// Returns `X_WL`, the world pose of the link of a number.
     pub fn link_pose(&self, link: usize) -> Pose {
-        let (s, c) = libm::sincos(self.place.yaw);
+        let (s, c) = libm::sincos(self.planar_pose.yaw);
         let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;
         let p = turned * (self.posture.p[link] - self.posture.centre)
-            + Vec3::new(self.place.x, self.place.y, self.height);
+            + Vec3::new(self.planar_pose.x, self.planar_pose.y, self.height);
         let R = turned * self.posture.R[link];
         let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(R));
         Pose::from_parts(p.into(), rotation)
@@ -195,7 +197,7 @@ impl Stance {
             posture: attempt.posture,
             R: attempt.R,
             height: attempt.height,
-            place: self.place,
+            planar_pose: self.planar_pose,
             features: attempt.features,
             contact_points: vec![],
             patches: vec![],
@@ -230,9 +232,9 @@ pub enum Placement {
 }
 
 impl SettleAttempt {
-    /// Returns the outcome: steady, tipped over, or undecided. The height of the centre of mass over its
-    /// attitude moves by no more than the points do, so following the old minimum releases at most twice
-    /// that; a fall of more is a minimum that vanished.
+    /// Returns the outcome: steady, tipped over, or undecided. The height of the centre of mass over its attitude
+    /// changes by no more than the points move, so following the old minimum releases at most twice that; a fall of
+    /// more is a minimum that vanished.
     pub fn outcome(&self, tolerances: &Tolerances) -> StepOutcome {
         if self.fall <= tolerances.fall_floor {
             StepOutcome::Steady

@@ -1,9 +1,9 @@
 //! Quasi-static loads of joints, motors and bonds, by the method of sections: the efforts `Jᵀ F` of the
 //! (transposed) Jacobian, computed link by link.
 //!
-//! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's
-//! wrenches) have a force and a moment about a point there, and that is what is held. Every load that
-//! has a limit is a sum of such cuts, linear in the forces.
+//! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's wrenches) have a
+//! force and a moment about a point there, and the cut holds these. Every load that has a limit is a sum of such
+//! cuts, linear in the forces.
 
 use super::model::Model;
 use super::stance::Stance;
@@ -12,7 +12,7 @@ use crate::robot::{JointId, JointKind, PortRef};
 use crate::robot::{Motion, Step};
 use nalgebra::DMatrix;
 
-/// Everything of a model that holds loads; compiled once for its bonds.
+/// The loads and cuts of a model; compiled once for its bonds.
 pub(super) struct Structure {
     /// All loads that have a limit.
     pub loads: Vec<Load>,
@@ -25,16 +25,16 @@ pub(super) struct Structure {
     pub closing: Vec<(usize, usize, usize)>,
 }
 
-/// Something that holds a load and says how much it can.
+/// A load of a joint, motor or bond that states a limit.
 #[derive(Clone, Debug)]
 pub(super) struct Load {
     /// The name in reports.
     pub name: String,
     /// The kind of load, which says how its terms combine.
     pub kind: LoadKind,
-    /// The limit; N·m or N.
+    /// The limit, N·m or N; positive.
     pub limit: f64,
-    /// Cuts with factors.
+    /// The cuts whose forces (N) or moments (N·m) make the load, each with its factor.
     pub terms: Vec<(usize, f64)>,
 }
 
@@ -49,7 +49,7 @@ pub(super) enum LoadKind {
     Moment,
 }
 
-/// A cut of the tree, and the component of force or moment asked for.
+/// A cut of the tree, and the component of force or moment that it holds.
 #[derive(Clone, Copy, Debug)]
 enum Cut {
     /// A cut at the joint of a step, by the joint's coordinate.
@@ -163,7 +163,7 @@ impl Structure {
         sections.iter().map(|s| s.of(&zero, &force[s.link], &moment[s.link])).collect()
     }
 
-    /// Returns the size of a load from what its cuts hold, N·m or N; a pull is signed.
+    /// Returns the size of a load from the forces that its cuts hold, N·m or N; a pull is signed.
     pub(super) fn size(&self, load: &Load, held: &[f64]) -> f64 {
         let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
         match load.kind {
@@ -173,8 +173,8 @@ impl Structure {
         }
     }
 
-    /// Returns the generalised force that a motor supplies at a joint, by virtual work: the cuts that the joint
-    /// moves, with their factors.
+    /// Returns the generalised force (N or N·m) that a motor supplies at a joint, by virtual work: the cuts that the
+    /// joint moves, with their factors.
     pub(super) fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
@@ -214,8 +214,8 @@ impl Structure {
         }
     }
 
-    /// Adds the loads of motors. With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the
-    /// motors': where F has an inverse, the motors' follow.
+    /// Adds the loads of motors. With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the motors': if
+    /// F has an inverse, the motors' follow.
     fn motors(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for &(module, _) in &model.kinematics.tree.order {
             let motors = &model.robot.module_type(module).motors;
@@ -256,6 +256,7 @@ impl Structure {
         }
     }
 
+    /// Adds the pull and the moment of every bond in the tree whose connectors limit them, with cuts at the bond.
     fn bonds(&mut self, model: &Model) {
         for &(module, bond) in &model.kinematics.tree.order {
             let Some(bond) = bond else { continue };
@@ -303,7 +304,8 @@ impl Structure {
     }
 }
 
-/// Returns the force and the moment that the weaker of two connectors holds.
+/// Returns the force (N) and the moment (N·m) that the weaker of two connectors holds; `None` if neither states a
+/// limit.
 fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
     let connector = |port: PortRef| {
         let index = model.robot.module_type(port.module).ports[port.port].connector;

@@ -8,9 +8,9 @@ use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Settings, Tracks, World, WorldFrom};
 use crate::robot::{Assembly, State};
 
-/// Returns the corners of the support polygon, the hull of what touches the ground, counter-clockwise from
-/// above, in the frame of the base module's body as it rests; m. Fewer than three where the contacts span no
-/// area.
+/// Returns the corners of the support polygon, the convex hull of the contact points, of a robot that rests on level
+/// ground, counter-clockwise from above, in the frame of the base module's body as it rests; m. Fewer than three if
+/// the contacts span no area. The state must be valid.
 pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     let rollout = Rollout {
@@ -27,9 +27,8 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         let touching =
             stance.contact_points.iter().filter(|contact_point| contact::counts(sample.model, contact_point));
         // The heading is zero at the start, so the levelled frame is the world's but for its origin.
-        let points: Vec<_> = touching
-            .map(|contact_point| [stance.place.x + contact_point.p.x, stance.place.y + contact_point.p.y])
-            .collect();
+        let points: Vec<_> =
+            touching.map(|t| [stance.planar_pose.x + t.p.x, stance.planar_pose.y + t.p.y]).collect();
         let X_BW = stance.base_pose(sample.model).inverse();
         let on_ground = |i: usize| X_BW.transform_point(&[points[i][0], points[i][1], 0.0].into()).coords;
         corners = hull(&points).into_iter().map(on_ground).collect();

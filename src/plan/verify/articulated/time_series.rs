@@ -1,7 +1,7 @@
-//! The quantities that the judge works out, at times that others choose. Nothing is judged here.
+//! The quantities that the judge computes, at times that others choose. Nothing is judged here.
 //!
 //! The rollout is the judge's own. A time between two of its samples is reached by one more step from the sample
-//! before, so that what is asked for does not change the rollout.
+//! before, so that the choice of times does not change the rollout.
 
 use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
@@ -18,18 +18,20 @@ pub struct Instant {
     pub time: f64,
     /// World pose of the base module's body (`X_WB`).
     pub base: Pose,
-    /// The distance of the centre of mass inside the support, by the plan's rule of stability, m; negative outside.
-    /// `None` where nothing stands, or the base is held while support is missing.
+    /// The distance of the centre of mass inside the support, by the plan's rule of stability, m; negative outside,
+    /// 0 in a support without area. `None` without a ground or weight, and while the base is held because support is
+    /// missing.
     pub margin: Option<f64>,
-    /// The torque (N·m) or force (N) that a motor supplies at each joint, in the joint's positive direction. `None`
-    /// where nothing is weighed, the judge does not know it, or it was not asked for.
+    /// The torque (N·m) or force (N) that a motor supplies at each joint, by [`JointId`](crate::robot::JointId), in
+    /// the joint's positive direction. `None` without weight, if the judge does not know it, and if it was not
+    /// requested.
     pub efforts: Vec<Option<f64>>,
-    /// The forces of the ground; `None` where nothing is weighed, the judge does not know them, or they were not
-    /// asked for.
+    /// The forces of the ground; `None` without weight, if the judge does not know them, and if they were not
+    /// requested.
     pub forces: Option<Vec<GroundForce>>,
 }
 
-/// The quantities of an instant that are worked out.
+/// The quantities of an instant that are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// The pose and the stability margin of the robot.
@@ -49,9 +51,9 @@ pub struct GroundForce {
     pub force: Vec3,
 }
 
-/// Returns what the judge knows at these times (s), which ascend and lie within the plan. Fewer where the judge took all
-/// samples that are allowed before it got there; none for plans that are not of an articulated robot, or that mean
-/// nothing.
+/// Returns the judge's quantities at these times (s), which ascend and lie within the plan, in the same order. Fewer
+/// if the judge took all samples that are allowed before it got there; none for plans of other families, and for
+/// plans that are not valid.
 pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     if validation::check(plan).is_err() {
@@ -96,7 +98,7 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     found
 }
 
-/// Reads what the judge's monitors know of samples.
+/// Reads the quantities of samples from the judge's monitors.
 struct Gauge<'a> {
     plan: &'a Plan,
     detail: Detail,
@@ -113,12 +115,12 @@ impl Gauge<'_> {
             Detail::Loads => self.torque.read(sample, &mut ledger).unwrap_or_else(unknown),
             Detail::Stance => unknown(),
         };
-        let place = sample.stance.place;
-        let (s, c) = libm::sincos(place.yaw);
+        let planar_pose = sample.stance.planar_pose;
+        let (s, c) = libm::sincos(planar_pose.yaw);
         let turned = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
         let force = |push: &super::statics::Wrench| GroundForce {
             module: sample.model.kinematics.module_of(push.link),
-            point: turned(&push.p) + Vec3::new(place.x, place.y, sample.stance.height),
+            point: turned(&push.p) + Vec3::new(planar_pose.x, planar_pose.y, sample.stance.height),
             force: turned(&push.f),
         };
         Instant {

@@ -6,11 +6,11 @@ pub struct Precision {
     /// Penetration is proved to be no deeper than `touch` and this, m. Default 1 µm: far below any
     /// `touch`, well above rounding.
     pub tol_depth: f64,
-    /// The clearance, and the depth of a collision, are within this of the true ones, m. Default
-    /// 20 µm: halving it costs √2 times as many intervals.
+    /// The greatest error of the clearance, and of the depth of a collision, m. Default 20 µm: halving it costs √2
+    /// times as many intervals.
     pub tol_clearance: f64,
-    /// A first penetration (by more than `touch` and `tol_depth`) is found no later than this after
-    /// it began, s. Default 1 µs: below a tick of any controller.
+    /// The greatest time from the begin of a first penetration (by more than `touch` and `tol_depth`) to that at
+    /// which it is found, s. Default 1 µs: below a tick of any controller.
     pub tol_time: f64,
 }
 
@@ -25,8 +25,8 @@ impl Default for Precision {
 pub struct Tolerances {
     /// Predicted fall below which settling ends. Default 1e-9 m: rounding of coordinates.
     pub fall_min: f64,
-    /// Fall up to which a change between rest attitudes counts as no tip-over. Default 1 mm: a quarter of the
-    /// usual contact tolerance.
+    /// Fall up to which a change between rest attitudes counts as no tip-over. Default 1 mm: the usual contact
+    /// tolerance.
     pub fall_floor: f64,
     /// Gap up to which a contact point bears weight. Default 1 mm: real contacts yield.
     pub gap_loaded: f64,

@@ -1,8 +1,8 @@
 //! Quasi-static loads of joints, motors and bonds, compared with their limits.
 //!
-//! First with the loads that the ground takes without friction: where nothing is overloaded with those,
-//! forces exist. Loads whose far side touches nothing are the same whatever the forces are. The best contact
-//! forces are sought only for others, and only where the first answer is no.
+//! First with the loads that the ground takes without friction: if nothing is overloaded with those, forces exist.
+//! Loads whose far side touches nothing are the same under all forces. The best contact forces are sought only for
+//! others, and only if the first answer is no.
 
 use super::contact::ContactPoint;
 use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
@@ -31,7 +31,7 @@ pub(super) struct Monitor<'a> {
     samples: usize,
     /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
     unknown: usize,
-    /// Size of all LPs solved so far.
+    /// The size of all LPs solved so far, columns and loads.
     effort: usize,
     /// The samples at which the existence of forces that overload nothing was not decided.
     undecided: usize,
@@ -94,21 +94,21 @@ pub(super) struct Overload {
 struct UnevenForces {
     time: f64,
     name: String,
-    /// Greatest load by its limit with even forces without friction, and with the best forces.
+    /// Greatest load as a fraction of its limit with even forces without friction, and with the best forces.
     even: f64,
     best: f64,
     needs_friction: bool,
 }
 
-/// Factor by which another such time must be worse to be examined.
+/// The factor by which another such time must be worse to be examined.
 const UNEVEN_STEP: f64 = 1.1;
 
 /// The loads of one stance.
 struct Loads {
-    /// Load by limit, of all loads.
+    /// The ratio of load to limit, of all loads.
     ratios: Vec<f64>,
     held: Vec<f64>,
-    /// Loads that are judged: for all of them it is known what they hold.
+    /// The loads that are judged, by index: those that are known.
     judged: Vec<usize>,
     /// True if the forces of the ground carry the robot.
     balanced: bool,
@@ -137,7 +137,7 @@ impl<'a> Monitor<'a> {
     }
 
     /// Returns the loads of a sample as they are judged: with the ground's forces spread evenly and without
-    /// friction, or with the best ones where those would overload a joint. `None` where nothing is weighed.
+    /// friction, or with the best ones if those would overload a joint. `None` without weight or ground.
     pub(super) fn read(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<JudgedLoads> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return None;
@@ -188,11 +188,13 @@ impl<'a> Monitor<'a> {
     fn weigh(&mut self, sample: &Sample, ledger: &mut Ledger) {
         // Taken out while it is used, so that the rest can be written to.
         let Some(compiled) = self.compiled.take() else { return };
-        self.weigh_in(sample, &compiled, ledger);
+        self.compare_loads(sample, &compiled, ledger);
         self.compiled = Some(compiled);
     }
 
-    fn weigh_in(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
+    /// Compares the loads of joints and bonds in one sample with their limits: by a feasible guess, else for
+    /// statically determinate loads, else by the LP of contact forces.
+    fn compare_loads(&mut self, sample: &Sample, compiled: &Compiled, ledger: &mut Ledger) {
         let structure = &compiled.structure;
         // Loads of the normal forces without friction (a feasible guess, not an optimum).
         let sections = structure.sections(sample.stance);
@@ -278,8 +280,8 @@ impl<'a> Monitor<'a> {
         keep_least(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
     }
 
-    /// Records where the loads of even contact forces were too great, and if others without friction would
-    /// do.
+    /// Records the greatest load that even contact forces would make, if it is over its limit, and if others without
+    /// friction would do.
     fn uneven(&mut self, time: f64, query: ContactQuery, worst: (usize, f64), best: &ContactForces) {
         if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
             return;
@@ -290,7 +292,7 @@ impl<'a> Monitor<'a> {
         self.uneven = Some(UnevenForces { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
-    /// Adds the work of the motors since the sample before: what they give, not what they get back.
+    /// Adds the positive work of the motors since the sample before; negative work is not regained.
     fn work(&mut self, sample: &Sample, compiled: &Compiled, held: &[f64]) {
         let effort = |joint| compiled.structure.joint_effort(joint, held, &compiled.effects);
         let efforts: Vec<f64> = (0..sample.joints.len()).map(effort).collect();
@@ -334,7 +336,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes in what was proved about the time between samples.
+    /// Takes in the result about the time between samples.
     pub(super) fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
         self.proved = *between == BetweenSamples::Proved;
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
@@ -437,7 +439,7 @@ pub(super) struct LoadGauge {
 
 impl LoadGauge {
     /// Returns the ratio of load to limit of every joint that states one, with the ground's forces spread evenly and
-    /// without friction: (joint, ratio). Empty where nothing is weighed.
+    /// without friction: (joint by id, ratio). Empty without weight or ground.
     pub(super) fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return vec![];
@@ -457,19 +459,19 @@ impl LoadGauge {
     }
 }
 
-/// Returns true if a load of this name is over its limit in a sample: for finding which command is to blame.
+/// Returns true if a load of this name is over its limit in a sample, to find the command to blame.
 pub(super) fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
     let mut observe = Monitor::new(tolerances);
     observe.observe(sample, ledger);
     observe.failures.iter().any(|f| f.name == name)
 }
 
-/// Size of LPs (columns and loads) that are solved for the sake of an exact margin; after that only where the
+/// The size of LPs (columns and loads) that are solved for the sake of an exact margin; after that only if the
 /// existence of forces is open. About 500 LPs of a walker of 15 modules, 20 of a snake of 300.
 const EFFORT_FOR_MARGIN: usize = 60_000;
 
-/// Returns the best forces: those of the sample before, brought to balance here, do if nothing is worse than
-/// what was seen already; otherwise by an LP.
+/// Returns the best forces: those of the sample before, brought to balance here, do if nothing is worse than the
+/// worst seen already; otherwise by an LP. `None` if neither gives forces.
 fn best(
     query: &ContactQuery,
     warm_start: &mut WarmStart,
@@ -548,7 +550,7 @@ fn determinate_loads(
     loads.iter().copied().filter(all).collect()
 }
 
-/// Returns a function that says of a cut if no forces of the ground can change what it holds.
+/// Returns a function that is true of a cut if no forces of the ground can change the load that it holds.
 fn determinate_cuts<'s>(
     structure: &'s Structure,
     sample: &Sample,
