@@ -12,7 +12,7 @@ use crate::plan::verify::support_polygon::{self, Margin};
 pub struct ContactPoint {
     /// The index of the feature in [`Model::features`].
     pub feature: usize,
-    /// The number of the point of the feature, from 0 ([`Feature::point`]).
+    /// The number of the point of the feature, from 0.
     pub k: u8,
     /// The link of the feature, by its number among all links.
     pub link: usize,

@@ -61,8 +61,8 @@ pub enum StepOutcome {
 }
 
 impl Stance {
-    /// Returns the stance of a robot with the base at `X_WB`: kept there ([`Placement::Fixed`]), lowered to the
-    /// ground with its orientation ([`Placement::Lowered`]), or lowered and then settled ([`Placement::Settled`]).
+    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
+    /// ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`).
     /// Also returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless it
     /// settles.
     pub fn start(
