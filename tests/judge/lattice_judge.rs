@@ -4,12 +4,14 @@ use crate::planners::squeeze::{to_halves, truth};
 use crate::support::lattices::{BALANCED, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_of};
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, CauseId, CheckKind, Ground, Law, Model, Plan, Ratio, Run, Snapshot, Stage, Stages, Verdict, World,
-    WorldFrom, sliced,
+    Body, CauseId, CellLimits, CheckKind, Counter, Ground, Law, Model, Plan, Ratio, Run, Snapshot, Stage,
+    Stages, Verdict, World, WorldFrom, sliced,
 };
 use modl::planners::squeeze::{accordion, fold, shear, to_row};
+use modl::robot::{Cell, Library};
 use proptest::prelude::*;
 use serde_json::Value;
+use std::sync::Arc;
 
 /// A cell in the plane: centre and size along x and y.
 type Flat = [Ratio; 4];
@@ -297,6 +299,57 @@ fn centred(cells: &[Flat]) -> Vec<Flat> {
     let sum: i64 = cells.iter().map(|c| c[0].0).sum();
     let n = cells.len() as i64;
     cells.iter().map(|c| [ratio(n * c[0].0 - sum, n), c[1], c[2], c[3]]).collect()
+}
+
+/// Many small cells on a large one, whose projections on every axis overlap so that no plane separates them; the last
+/// of the small cells is there twice. A long row of cells beside them affords many comparisons to the whole.
+fn crowd_with_a_twin() -> Stages {
+    let (small, side) = (ratio(1, 20), 12_i64);
+    let step = |x: i64, y: i64, z: i64| [ratio(x, 40), ratio(y, 40), ratio(z, 40)];
+    let counter = |stride: i64, step: [Ratio; 3]| Counter { count: side as u64, stride, step };
+    let crowd = Run {
+        first: 0,
+        counters: vec![
+            counter(side * side, step(2, 0, 1)),
+            counter(side, step(1, 2, 0)),
+            counter(1, step(0, 1, 2)),
+        ],
+        center: step(21, 3, 41),
+        size: [small; 3],
+    };
+    let count = (side * side * side) as u64;
+    let last = 3 * (side - 1);
+    let one = |first: u64, center: [Ratio; 3], size: Ratio| Run {
+        first,
+        counters: vec![],
+        center,
+        size: [size; 3],
+    };
+    let row = Run {
+        first: count + 3,
+        counters: vec![Counter { count: 1500, stride: 1, step: step(-40, 0, 0) }],
+        center: step(-20, 20, 20),
+        size: [Ratio::ONE; 3],
+    };
+    let start = vec![
+        crowd,
+        one(count, step(21 + last, 3 + last, 41 + last), small),
+        one(count + 1, step(20, 20, 20), Ratio::ONE),
+        one(count + 2, step(41, 20, 40), small),
+        row,
+    ];
+    let limits = CellLimits { smallest: small, ..UNIT };
+    Stages { cell: 0, count: count + 1503, time_unit: 1.0, limits, model: PAPER, start, stages: vec![] }
+}
+
+#[test]
+fn a_start_with_too_many_near_pairs_to_examine_is_not_proved() {
+    let mut plan = plan_of(crowd_with_a_twin());
+    let small = Cell { shrinks_to: 0.05, ..plan.library.cells[0].clone() };
+    plan.library = Arc::new(Library { cells: vec![small], ..Library::default() });
+    let verdict = judged_plan(&plan);
+    assert_eq!(kinds(&verdict), [CheckKind::Form]);
+    assert!(verdict.failures[0].message.contains("the start is too entangled"), "{verdict:?}");
 }
 
 #[test]

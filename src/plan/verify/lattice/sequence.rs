@@ -28,6 +28,8 @@ pub(super) enum NotJudged {
     Unplaced(usize),
     /// More pairs of cells come near each other in a stage than are examined: the name of the stage.
     Entangled(String),
+    /// More pairs of cells are near each other at the start than are examined.
+    EntangledStart,
 }
 
 impl From<LatticeFault> for NotJudged {
@@ -47,6 +49,7 @@ impl fmt::Display for NotJudged {
             NotJudged::Work => write!(f, "more than {WORK_MAX} cells times stages are not judged"),
             NotJudged::Unplaced(cell) => write!(f, "cell {cell} has no place or no size at the start"),
             NotJudged::Entangled(stage) => write!(f, "stage `{stage}` is too entangled to be judged"),
+            NotJudged::EntangledStart => f.write_str("the start is too entangled to be judged"),
         }
     }
 }
@@ -90,7 +93,7 @@ impl Judgement<'_> {
         }
         let mut dynamics = Dynamics::default();
         let instants = self.stages.instants();
-        self.start(&before, grid, ledger);
+        self.start(&before, grid, ledger)?;
         let mut earlier: Vec<Cube> = Vec::new();
         let mut after = before.clone();
         for (index, stage) in self.stages.stages.iter().enumerate() {
@@ -131,12 +134,12 @@ impl Judgement<'_> {
     }
 
     /// Checks K7, and the start by itself for plans that do not move at first.
-    fn start(&self, cubes: &[Cube], grid: Grid, ledger: &mut Ledger) {
+    fn start(&self, cubes: &[Cube], grid: Grid, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let change = Change::of(cubes, cubes);
         self.sizes(&change, grid.lines, 0.0, None, ledger);
         let first = self.stages.stages.first();
         if first.is_none_or(|stage| stage.time_squared.0 == 0) && change.smallest.0 > 0 {
-            self.still(cubes, ledger);
+            self.still(cubes, ledger)?;
         }
         let moving = |stage: &Stage, ramp: Ratio| ramp.0 == 0 && stage.time_squared.0 > 0;
         if let Some(stage) = first.filter(|s| moving(s, s.law.ramps().0)) {
@@ -146,15 +149,18 @@ impl Judgement<'_> {
             let end = self.stages.duration();
             self.fail(CheckKind::Rest, end, Some(stage), "the plan ends in motion".into(), ledger);
         }
+        Ok(())
     }
 
     /// Checks K2 and K3 of cells that do not move.
-    fn still(&self, cubes: &[Cube], ledger: &mut Ledger) {
+    fn still(&self, cubes: &[Cube], ledger: &mut Ledger) -> Result<(), NotJudged> {
         let mut forest = ContactForest::new(cubes.len());
         match boxes::examine(cubes, cubes, &mut forest) {
+            None => return Err(NotJudged::EntangledStart),
             Some(Err(overlap)) => self.overlapping(&overlap, 0.0, 0.0, None, ledger),
-            _ => self.connected(&mut forest, 0.0, None, ledger),
+            Some(Ok(())) => self.connected(&mut forest, 0.0, None, ledger),
         }
+        Ok(())
     }
 
     /// Checks that velocities are continuous between two stages.
@@ -181,7 +187,7 @@ impl Judgement<'_> {
         if change.is_none() {
             // A later stage without motion is judged with the stage before.
             if step.from == 0.0 && change.smallest.0 > 0 {
-                self.still(step.before, ledger);
+                self.still(step.before, ledger)?;
             }
             return Ok(());
         }
