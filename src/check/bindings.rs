@@ -5,10 +5,19 @@ use super::expr::has_params;
 use super::scope::Scope;
 use super::typed::Expr;
 use super::types::{FnType, Type};
-use crate::source::Diagnostic;
 use crate::syntax::ast;
 use crate::units::Dimension;
 use std::sync::Arc;
+
+/// The greatest number of lambdas within each other that are checked for a wider binding. Each is checked up to three
+/// times, and all in it as often.
+const WIDENING_MAX: u8 = 2;
+/// The greatest length in bytes of a lambda that is checked for a wider binding within another: what nests deeper
+/// would take its time to the power of three.
+const WIDENED_MAX: usize = 1_000;
+
+/// The first words of the error that a lambda's result is of another type.
+const RESULT_WANTS: &str = "the function's result wants";
 
 /// The types and dimensions bound to the type parameters of a built-in in one call.
 #[derive(Clone, Default)]
@@ -36,23 +45,26 @@ impl<'a> Checker<'a> {
         let known = self.diagnostics.len();
         let want = bindings.apply(&param.ty);
         let got = self.expr(scope, e, Some(&want));
-        let failed = self.diagnostics[known..].iter().any(Diagnostic::is_error);
+        let mut errors = self.diagnostics[known..].iter().filter(|d| d.is_error()).peekable();
+        let failed = errors.peek().is_some() && errors.all(|d| d.message.starts_with(RESULT_WANTS));
         let (Type::Fn(pattern), Type::Fn(bound)) = (&param.ty, &want) else {
             return self.bind_argument(got, &param.ty, param.name, bindings);
         };
-        if !failed || has_params(&bound.result) || self.widening {
+        let short = e.span.range().len() <= WIDENED_MAX;
+        let again = self.widening == 0 || self.widening < WIDENING_MAX && short;
+        if !failed || has_params(&bound.result) || !again {
             return self.bind_argument(got, &param.ty, param.name, bindings);
         }
         let told = self.diagnostics.split_off(known);
         let free = FnType { params: bound.params.clone(), result: pattern.result.clone() };
-        self.widening = true;
+        self.widening += 1;
         let result = self.expr(scope, e, Some(&Type::Fn(Arc::new(free))));
         let mut wider = bindings.clone();
         let fits = self.diagnostics.len() == known
             && matches!(&result.ty, Type::Fn(f) if self.unify(&pattern.result, &f.result, &mut wider));
         let want = wider.apply(&param.ty);
         let again = fits.then(|| self.expr(scope, e, Some(&want)));
-        self.widening = false;
+        self.widening -= 1;
         let sound = self.diagnostics.len() == known;
         self.diagnostics.truncate(known);
         match again {

@@ -243,8 +243,8 @@ pub(super) struct Checker<'a> {
     pub diagnostics: Vec<Diagnostic>,
     /// The number of declarations being checked, each needed by the one before.
     pub open_declarations: usize,
-    /// True while a lambda is checked for a wider binding of a type parameter; within it none is widened.
-    pub widening: bool,
+    /// The number of lambdas within each other that are being checked for a wider binding of a type parameter.
+    pub widening: u8,
 }
 
 impl<'a> Checker<'a> {
@@ -261,7 +261,7 @@ impl<'a> Checker<'a> {
             member_frames: HashMap::new(),
             diagnostics,
             open_declarations: 0,
-            widening: false,
+            widening: 0,
         }
     }
 

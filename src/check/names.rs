@@ -1,7 +1,7 @@
 //! Names as values: locals, members, declarations.
 
 use super::checker::{Checker, DefItem, Entity};
-use super::expr::{error_expr, expr_of};
+use super::expr::{error_expr, expr_of, has_params};
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
 use super::types::{FnType, Type};
@@ -59,6 +59,10 @@ impl<'a> Checker<'a> {
             return self.name_expr(scope, span, name, want);
         }
         match want {
+            // Nothing is known of the value that is missing where its type is still to be bound.
+            Some(missing @ Type::Optional(_)) if has_params(missing) => {
+                expr_of(span, Type::Optional(Arc::new(Type::Error)), ExprKind::Missing)
+            }
             Some(missing @ Type::Optional(_)) => expr_of(span, missing.clone(), ExprKind::Missing),
             Some(Type::Error) => error_expr(span),
             _ => {

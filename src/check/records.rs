@@ -7,6 +7,7 @@ use super::typed::{DefId, DefKind, Expr, ExprKind, RecordBuild, RecordDef, Recor
 use super::types::Type;
 use crate::source::{Diagnostic, Span, code};
 use crate::syntax::ast;
+use std::collections::HashSet;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ impl<'a> Checker<'a> {
     fn refuse_nothing_to_hold(&mut self, id: DefId) {
         // A record with the field of the first one through which it was reached.
         let mut waiting: Vec<(DefId, Option<usize>)> = vec![(id, None)];
-        let mut known = vec![id];
+        let mut known = HashSet::from([id]);
         while let Some((record, first)) = waiting.pop() {
             for (index, param) in self.signature(record).params.iter().enumerate() {
                 let Type::Record(held) = param.ty else { continue };
@@ -40,8 +41,7 @@ impl<'a> Checker<'a> {
                     return self.holds_itself(id, first);
                 }
                 // Of the records of a circle the first one is reported.
-                if held > id && !known.contains(&held) {
-                    known.push(held);
+                if held > id && known.insert(held) {
                     waiting.push((held, Some(first)));
                 }
             }

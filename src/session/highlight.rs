@@ -34,7 +34,11 @@ pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
             }
             TokenKind::Word => {
                 let begins = outline.begins.contains(&token.start) || begins_a_line(text, token.start);
-                word(&text[token.start..token.end], begins)?
+                let changes = text[token.end..].trim_start().starts_with('{');
+                match &text[token.start..token.end] {
+                    "with" if changes => Class::Keyword,
+                    found => word(found, begins)?,
+                }
             }
             _ => return None,
         };

@@ -204,6 +204,47 @@ test \"t\" { expect not (true) }
     assert_eq!(formatted(text), wanted);
 }
 
+/// Short records stand on one line, long ones have a line for each field.
+#[test]
+fn records_keep_their_lines() {
+    let text = "\
+record  S{a:Int,b:Int=3}
+/// Long.
+record Long {
+
+    /// The first.
+  a :Int
+ b: Length=3m ,   c: List<Long>=[ ],
+
+    d: fn(Int)->Angle
+}
+let d = S( a:1 )with{b:4}
+let e = Long(a: 1,
+b: 2m) with {
+a: 2
+  b: 3m,
+ }.a
+";
+    let wanted = "\
+record S { a: Int, b: Int = 3 }
+/// Long.
+record Long {
+  /// The first.
+  a: Int
+  b: Length = 3m, c: List<Long> = [],
+
+  d: fn(Int) -> Angle
+}
+let d = S(a: 1) with { b: 4 }
+let e = Long(a: 1,
+  b: 2m) with {
+    a: 2
+    b: 3m,
+  }.a
+";
+    assert_eq!(formatted(text), wanted);
+}
+
 #[test]
 fn files_are_formatted_in_place_or_only_looked_at() {
     let sandbox =

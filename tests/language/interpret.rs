@@ -85,6 +85,29 @@ fn calls_that_need_much_stack_end_with_a_diagnostic() {
     assert!(only.hints.iter().any(|hint| hint.contains("calls are nested here")), "{:?}", only.hints);
 }
 
+/// A record of another file is built, changed and compared, under its own name or another.
+#[test]
+fn records_of_other_files_are_the_same_records() {
+    let mut files = MapFiles::of(
+        "use \"lib.mod\".{Design as Plan2, fast}\nuse \"lib.mod\".{Design}\n\
+         print(fast with { bend: 2deg }, Plan2(bend: 1deg) == fast, Design(bend: 2deg).bend)\n",
+    );
+    let lib = "record Design { bend: Angle, _hidden: Int = 3 }\nlet fast = Design(bend: 1deg)\n";
+    files.0.insert("lib.mod".into(), lib.as_bytes().to_vec());
+    let ran = ran(&files, "main.mod", Mode::Run, &Options::default());
+    assert!(ran.outcome.diagnostics.is_empty(), "{:?}", ran.outcome.diagnostics);
+    assert_eq!(ran.host.printed, ["Design(bend: 2deg, _hidden: 3) true 2deg"]);
+}
+
+/// Many records in a row, and one that all of them hold, are checked in a moment.
+#[test]
+fn many_records_in_a_row_are_checked_quickly() {
+    let row = (0..3_000).map(|i| format!("record R{i} {{ next: R{}, other: R3000 }}\n", i + 1));
+    let text: String = row.chain(["record R3000 {}\n".to_owned()]).collect();
+    let checked = modl::check::check(&MapFiles::of(&text), "main.mod");
+    assert!(checked.diagnostics.is_empty(), "{:?}", checked.diagnostics.first());
+}
+
 /// Every built-in that is declared has a body, or says that it is not yet available; every body is
 /// declared, with parameters of the same names and types, of which the same may be missing.
 #[test]

@@ -96,3 +96,7 @@ let i = iterate(x => "{x}", from: 8, until: x => true)
 //                   ^^^^^ E0202
 let j = iterate(x => x + 1, from: 8, until: x => x)
 //                                               ^ E0202
+let k: Number = reduce([[1, 2.5], [3]], (a, row) => a + reduce(row, (b, x) => b + x, from: 0), from: 0)
+fn chosen<A>(a: A?, b: A) -> A = a else b
+let l: Int = chosen(_, 3)
+let m: Length = chosen(1m, 2m)
