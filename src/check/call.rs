@@ -302,35 +302,34 @@ impl<'a> Checker<'a> {
         }
         let mut rest: Vec<&'a ast::Expr> = Vec::new();
         let mut lambdas: Vec<(usize, &'a ast::Expr)> = Vec::new();
-        // Each argument goes to the parameter of its name, or to the next by position.
-        let (mut named, mut misnamed) = (false, false);
+        // Each argument goes to the parameter of its name, or to the first that has none yet; no others follow a
+        // variadic one that is named.
+        let (mut misnamed, mut listed) = (false, false);
         for arg in args {
             let index = match arg.name {
-                Some(n) => {
-                    named = true;
-                    match params.iter().position(|p| p.name == n.text) {
-                        Some(index) => index,
-                        None => {
-                            misnamed = true;
-                            self.no_parameter(name, n, signature);
-                            self.expr(scope, &arg.value, Some(&Type::Error));
-                            continue;
-                        }
+                Some(n) => match params.iter().position(|p| p.name == n.text) {
+                    Some(index) => index,
+                    None => {
+                        misnamed = true;
+                        self.no_parameter(name, n, signature);
+                        self.expr(scope, &arg.value, Some(&Type::Error));
+                        continue;
                     }
-                }
-                None if next < params.len() && params[next].variadic => {
-                    rest.push(&arg.value);
-                    filled[next] = true;
-                    continue;
-                }
-                None if named || next >= params.len() => {
-                    self.too_many(name, arg, params, named);
-                    self.expr(scope, &arg.value, Some(&Type::Error));
-                    continue;
-                }
+                },
                 None => {
-                    next += 1;
-                    next - 1
+                    let open = |i: usize| !filled[i] || params[i].variadic && !listed;
+                    next = (next..params.len()).find(|&i| open(i)).unwrap_or(params.len());
+                    if next == params.len() {
+                        self.too_many(name, arg, params);
+                        self.expr(scope, &arg.value, Some(&Type::Error));
+                        continue;
+                    }
+                    if params[next].variadic {
+                        rest.push(&arg.value);
+                        filled[next] = true;
+                        continue;
+                    }
+                    next
                 }
             };
             if filled[index] {
@@ -342,6 +341,10 @@ impl<'a> Checker<'a> {
                 continue;
             }
             filled[index] = true;
+            if params[index].variadic {
+                (listed, rest) = (true, vec![&arg.value]);
+                continue;
+            }
             // The types of a lambda's parameters are known once the other arguments have bound them.
             if matches!(arg.value.kind, ast::ExprKind::Lambda { .. }) && has_params(&params[index].ty) {
                 lambdas.push((index, &arg.value));
@@ -407,17 +410,11 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports an argument for which there is no parameter.
-    fn too_many(&mut self, function: Symbol, arg: &ast::Arg, params: &[ParamInfo], named: bool) {
-        let d = if named {
-            Diagnostic::error(code::ARGUMENTS, "an argument without a name stands behind a named one")
-                .label(arg.value.span, "name this one too")
-        } else {
-            let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
-            let d = Diagnostic::error(code::ARGUMENTS, format!("too many arguments for `{function}`"))
-                .label(arg.value.span, "there is no parameter for this one");
-            if names.is_empty() { d } else { d.hint(format!("it takes {}", names.join(", "))) }
-        };
-        self.report(d);
+    fn too_many(&mut self, function: Symbol, arg: &ast::Arg, params: &[ParamInfo]) {
+        let names: Vec<&str> = params.iter().map(|p| p.name.as_str()).collect();
+        let d = Diagnostic::error(code::ARGUMENTS, format!("too many arguments for `{function}`"))
+            .label(arg.value.span, "there is no parameter for this one");
+        self.report(if names.is_empty() { d } else { d.hint(format!("it takes {}", names.join(", "))) });
     }
 
     /// Checks one argument against the type of its parameter.

@@ -137,6 +137,16 @@ let m = half(1mm, 2mm)
 let n = half(y: 1mm)
 //           ^ E0205 no parameter `y`
 
+--- an argument without a name goes to the first parameter that has none
+fn line(from: Length, to: Length, n: Int = 2) = (to - from) / n
+let a = line(from: 1m, 3m, 4) + line(1m, n: 4, 3m) + line(to: 3m, n: 4, 1m)
+let b = line(1m, from: 2m, 3m)
+//                     ^^ E0205 `from` is given twice
+let c = line(to: 3m, 1m, 2, 5)
+//                          ^ E0205 too many arguments for `line`
+let d = Pc(behaviors: wait(1s), wait(2s))
+//                              ^^^^^^^^ E0205 too many arguments for `Pc`
+
 --- a result that needs itself
 fn f(n: Int) = f(n - 1)
 //             ^^^^^^^^ E0210 `f` | `-> Type`

@@ -70,11 +70,19 @@ print(v[0], v[2] == v.z, [v[i] for i in 0..3])
 print(v[3])
 //    ^^^^ E0501 which has 3 elements
 
+--- what takes many values takes one or a list by its name
+print(min(values: 3m), max(values: [1, 3, 2]), Sc(behaviors: wait(1s)))
+//> 3m 3 wait(1s)
+print(values: 1)
+//> 1
+
 --- a value is carried along a list, and to where a condition holds
 print(reduce([3, 1, 2], (total, x) => 10 * total + x, from: 0), reduce([], (a, x) => a + x, from: 7))
 //> 312 7
 print(reduce([1m, 2m], (a, x) => a + x, from: 0m), reduce(["a", "b"], (t, x) => t ++ x, from: ""))
 //> 3m ab
+print(reduce([3, 1, 2], from: 0, (total, x) => 10 * total + x))
+//> 312
 print(reduce([1.5, 2], (a, x) => a + x, from: 0), reduce([1, 2], (a, x) => a ++ [2 * x], from: []))
 //> 3.5 [2, 4]
 record Search { low: Number, high: Number }
