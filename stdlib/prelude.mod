@@ -385,6 +385,14 @@ extern fn iterate<A>(f: fn(A) -> A, from: A, until: fn(A) -> Bool, max: Int = 10
 /// ```
 extern fn join(list: List<Text>, with: Text = "") -> Text
 
+/// A text filled up with blanks to a width, in characters; one that is wider stays as it is.
+///
+/// Example:
+/// ```modl
+/// for n in [7, 42] { print(pad("{n} modules", 12), "|", pad("{n * 0.5573kg in kg:.1}", 8, align: right)) }
+/// ```
+extern fn pad(text: Text, width: Int, align: left | right | centre = left) -> Text
+
 /// The pieces of a text between the places where `on` stands.
 ///
 /// An empty `on` is refused.
@@ -407,7 +415,9 @@ extern fn characters(text: Text) -> List<Text>
 
 /// Prints values on one line, with a blank between them, as `{...}` in a text shows them.
 ///
-/// Quantities are shown with a unit that suits their size. A list is one value.
+/// Quantities are shown with a unit that suits their size: whole numbers and numbers of at most ten digits exactly,
+/// others with six digits. `{x in mm:.2}` in a text says the unit and the number of decimals. A list is one value; a list
+/// of records alone is a table, with one unit for each column.
 ///
 /// Example:
 /// ```modl
@@ -467,7 +477,12 @@ extern fn show(
 /// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
 /// edges that meet in the end, and the folded form after every step as further frames. A plot is a `.svg` or `.png`
-/// file. Another ending is an error.
+/// file. Another ending is an error that says what fits.
+///
+/// A list of records is a `.csv` file (RFC 4180, UTF-8): a head with units, a record a line. Each number is the shortest
+/// that gives its value back exactly when it is read in the unit of its column, which is the one that suits it where
+/// that is possible, and else the base units. A missing value is an empty field. In a `.json` file each column has its
+/// `name`, the `unit` and `dimension` of its quantities, and its `values` in that unit, SI; a missing one is `null`.
 ///
 /// Example:
 /// ```modl
@@ -477,8 +492,10 @@ extern fn show(
 /// save(Snake(n: 4), "snake.rofi")
 /// save(Snake(n: 4), "snake.json")
 /// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
+/// record Design { name: Text, bend: Angle, mass: Mass }
+/// save([Design(name: "flat", bend: 0deg, mass: 4kg), Design(name: "bent", bend: 30deg, mass: 4kg)], "designs.csv")
 /// ```
-extern fn save(what: Config | Folding | Layout | Plot, file: Text)
+extern fn save<T>(what: Config | Folding | Layout | Plot | List<T>, file: Text)
 
 /// A plot, to be shown or saved.
 extern type Plot {

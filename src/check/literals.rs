@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {
                 ast::TextPart::Literal(text) => text.as_str(),
-                ast::TextPart::Value(_) => unreachable!("matched as a literal"),
+                ast::TextPart::Value(_) | ast::TextPart::Shown { .. } => unreachable!("matched as a literal"),
             });
             return expr_of(span, Type::Text, ExprKind::Text(text.into()));
         }
@@ -105,9 +105,77 @@ impl<'a> Checker<'a> {
                     expr_of(span, Type::Text, ExprKind::Text(text.as_str().into()))
                 }
                 ast::TextPart::Value(e) => self.expr(scope, e, None),
+                ast::TextPart::Shown { value, unit, decimals } => {
+                    self.shown(scope, value, unit.as_ref(), *decimals)
+                }
             })
             .collect();
         expr_of(span, Type::Text, ExprKind::Interpolation(pieces))
+    }
+}
+
+/// The greatest number of decimals that a text may ask for.
+const DECIMALS_MAX: usize = 20;
+
+impl<'a> Checker<'a> {
+    /// Checks a quantity of a text in a stated unit, or with a stated number of decimals: `{x in mm:.2}`.
+    fn shown(
+        &mut self,
+        scope: &mut Scope,
+        value: &'a ast::Expr,
+        unit: Option<&ast::UnitExpr>,
+        decimals: Option<(Symbol, Span)>,
+    ) -> Expr {
+        let value = self.expr(scope, value, None);
+        let span = value.span;
+        let places = decimals.map(|(digits, _)| digits.as_str().parse::<usize>().unwrap_or(usize::MAX));
+        if let (Some((_, at)), Some(DECIMALS_MAX..)) = (decimals, places.filter(|n| *n > DECIMALS_MAX)) {
+            let message = format!("a text shows at most {DECIMALS_MAX} decimals");
+            self.report(Diagnostic::error(code::BAD_NUMBER, message).label(at, "too many"));
+            return error_expr(span);
+        }
+        let unit = match unit {
+            Some(written) => match self.unit(written) {
+                Some((dimension, factors)) => Some((written.span, dimension, scaled(1.0, &factors))),
+                None => return error_expr(span),
+            },
+            None => None,
+        };
+        if value.ty.is_error() {
+            return value;
+        }
+        let words = self.words(&value.ty);
+        let Some(dimension) = shown_dimension(&value.ty) else {
+            let message = format!("a unit and a number of decimals are for quantities; this is {words}");
+            self.report(
+                Diagnostic::error(code::TYPE_MISMATCH, message)
+                    .label(span, format!("this is {words}"))
+                    .hint("`{...}` alone shows any value; `pad(text, width)` fills it up"),
+            );
+            return error_expr(span);
+        };
+        if let Some((at, wanted, _)) = unit
+            && !dimension.fits(wanted)
+        {
+            let name = &self.sources.file(at.file).text[at.range()];
+            let message = format!("{words} can't be shown in `{name}`");
+            self.report(
+                Diagnostic::error(code::DIMENSION_MISMATCH, message)
+                    .label(span, format!("this is {words}"))
+                    .label(at, "another dimension"),
+            );
+            return error_expr(span);
+        }
+        let unit = unit.map(|(at, _, factor)| (self.sources.file(at.file).text[at.range()].into(), factor));
+        expr_of(span, Type::Text, ExprKind::Shown { value: Box::new(value), unit, decimals: places })
+    }
+}
+
+/// Returns the dimension of a type of quantities: one, a list, a vector, and where they may be missing.
+fn shown_dimension(ty: &Type) -> Option<Dimension> {
+    match ty {
+        Type::List(inner) | Type::Optional(inner) | Type::Vec3(inner) => shown_dimension(inner),
+        ty => ty.dimension(),
     }
 }
 

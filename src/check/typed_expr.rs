@@ -103,6 +103,15 @@ pub enum ExprKind {
     Text(Arc<str>),
     /// A text with values: its pieces in order, texts and values, which are shown as `print` shows them.
     Interpolation(Vec<Expr>),
+    /// A quantity, or a list or vector of them, as text.
+    Shown {
+        /// The quantities.
+        value: Box<Expr>,
+        /// The unit, by its name and its factor to SI; `None`: one that suits the value.
+        unit: Option<(Arc<str>, f64)>,
+        /// The number of decimals; `None`: as `print` shows them.
+        decimals: Option<usize>,
+    },
     /// A word of a choice.
     Word(Symbol),
     /// The missing value of an optional type: `_`.

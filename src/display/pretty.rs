@@ -48,6 +48,9 @@ impl Interpreter<'_> {
                 }
                 _ => self.show(value),
             },
+            Value::List(_) if let Some(table) = self.table(value) => {
+                self.show_table(&table).unwrap_or_else(|| self.show(value))
+            }
             Value::List(elements) if elements.iter().any(|e| matches!(e, Value::Text(_))) => {
                 let shown = elements.iter().map(|e| match e {
                     Value::Text(text) => quoted(text),

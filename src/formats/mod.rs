@@ -13,6 +13,7 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
+mod table;
 mod xyz;
 
 use crate::robot::{rofi, rofi_json};
@@ -20,6 +21,7 @@ use crate::robot::{rofi, rofi_json};
 pub use content::{Content, triangles};
 pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
+pub use table::{RecordCell, RecordColumn, RecordTable};
 
 /// A file format of meshes or point clouds, with its reader.
 #[derive(Clone, Copy)]
@@ -56,6 +58,10 @@ pub struct ExportFormat<T> {
 /// The export formats of foldings.
 pub const FOLDING_FORMATS: &[ExportFormat<CreasePattern>] =
     &[ExportFormat { ending: "fold", write: fold::write }];
+
+/// The export formats of lists of records.
+pub const TABLE_FORMATS: &[ExportFormat<RecordTable>] =
+    &[ExportFormat { ending: "csv", write: table::csv }, ExportFormat { ending: "json", write: table::json }];
 
 /// The export formats of robots of RoFI modules.
 pub const ROBOT_FORMATS: &[ExportFormat<rofi::World>] = &[

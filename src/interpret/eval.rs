@@ -8,6 +8,7 @@ use super::value::{Callable, Lazy, Value};
 use crate::check::family::Instantiable;
 use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId, StmtKind};
 use crate::source::{Diagnostic, Span, code};
+use crate::units::quantity_in;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -91,6 +92,11 @@ impl Interpreter<'_> {
             ExprKind::Bool(b) => Ok(Value::Bool(*b)),
             ExprKind::Text(text) => Ok(Value::text(text)),
             ExprKind::Interpolation(pieces) => self.eval_interpolation(pieces, span, frame),
+            ExprKind::Shown { value, unit, decimals } => {
+                let value = self.eval(value, frame)?;
+                let unit = unit.as_ref().map(|(name, factor)| (&**name, *factor));
+                Ok(shown(&value, unit, *decimals).map_or(Value::Unknown, Value::text))
+            }
             ExprKind::Word(word) => Ok(Value::Word(*word)),
             ExprKind::Missing => Ok(Value::Missing),
             ExprKind::Local(local) => Ok(frame.get(*local)),
@@ -550,4 +556,19 @@ fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) 
 
 fn list_is_empty(value: &Value) -> bool {
     matches!(value, Value::List(elements) if elements.is_empty())
+}
+
+/// Returns quantities as text in a unit, given by its name and its factor to SI, and with a number of decimals, as far as
+/// they are stated; `None` for other values, which `check` excludes, and where one is unknown.
+fn shown(value: &Value, unit: Option<(&str, f64)>, decimals: Option<usize>) -> Option<String> {
+    let each = |values: &mut dyn Iterator<Item = Value>| -> Option<String> {
+        let shown: Option<Vec<String>> = values.map(|value| shown(&value, unit, decimals)).collect();
+        Some(format!("[{}]", shown?.join(", ")))
+    };
+    match value {
+        Value::List(elements) => each(&mut elements.iter().cloned()),
+        Value::Vec3(v, dimension) => each(&mut v.iter().map(|x| Value::Quantity(*x, *dimension))),
+        Value::Missing => Some("_".into()),
+        value => Some(quantity_in(value.as_number()?, value.as_dimension()?, unit, decimals)),
+    }
 }

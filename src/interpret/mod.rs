@@ -41,6 +41,8 @@ pub mod verdicts;
 pub mod recalled;
 pub mod routines;
 mod run;
+pub mod table;
+mod table_text;
 
 pub mod session;
 

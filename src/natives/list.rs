@@ -2,7 +2,7 @@
 
 use super::Native;
 use super::math::order;
-use crate::interpret::argument::parameters;
+use crate::interpret::argument::{Choice, parameters};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::Eval;
@@ -33,6 +33,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("all", parameters![list: &[Value]], |_, call| {
         Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().all(is_true)))
     }),
+    Native::pure("pad", parameters![text: &str, width: usize, align: Align], pad),
     Native::pure("join", parameters![list: &[Value], with: &str], join),
     Native::pure("split", parameters![text: &str, on: &str], split),
     Native::pure("characters", parameters![text: &str], characters),
@@ -74,6 +75,35 @@ fn flatten(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn contains(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let item = call.arg("item");
     Ok(Value::Bool(call.get::<&[Value]>("list")?.iter().any(|value| value.same(item) == Some(true))))
+}
+
+/// The side on which a text stands in a wider one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Align {
+    /// Blanks follow the text.
+    Left,
+    /// Blanks come before the text.
+    Right,
+    /// Blanks stand on both sides; an odd one follows.
+    Centre,
+}
+
+impl Choice for Align {
+    const WORDS: &'static [(&'static str, Align)] =
+        &[("left", Align::Left), ("right", Align::Right), ("centre", Align::Centre)];
+}
+
+/// Runs `pad`: fills a text up with blanks to a width, in characters.
+fn pad(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let (text, width) = (call.get::<&str>("text")?, call.count("width", "a width")?);
+    interpreter.check_text(width, call.at("width"))?;
+    let blanks = width.saturating_sub(text.chars().count());
+    let before = match call.get("align")? {
+        Align::Left => 0,
+        Align::Right => blanks,
+        Align::Centre => blanks / 2,
+    };
+    Ok(Value::text(format!("{}{text}{}", " ".repeat(before), " ".repeat(blanks - before))))
 }
 
 fn join(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

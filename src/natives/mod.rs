@@ -38,6 +38,7 @@ pub mod refold;
 mod robot;
 mod rofi;
 mod save;
+mod save_table;
 mod sequence;
 mod series;
 mod shape;

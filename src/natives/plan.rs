@@ -53,8 +53,15 @@ impl Choice for Stability {
 }
 
 fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let shown: Vec<String> =
-        call.get::<&[Value]>("values")?.iter().map(|value| interpreter.show(value)).collect();
+    let values = call.get::<&[Value]>("values")?;
+    if let [value] = values
+        && let Some(table) = interpreter.table(value).and_then(|table| interpreter.show_table(&table))
+    {
+        interpreter.check_text(table.len(), call.span)?;
+        table.lines().for_each(|line| interpreter.shared.host.print(line.to_string()));
+        return Ok(Value::Nothing);
+    }
+    let shown: Vec<String> = values.iter().map(|value| interpreter.show(value)).collect();
     let line = shown.join(" ");
     interpreter.check_text(line.len(), call.span)?;
     interpreter.shared.host.print(line);

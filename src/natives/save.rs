@@ -3,16 +3,18 @@
 use super::Native;
 use super::plan::{output_path, write_output};
 use super::rofi;
+use super::save_table;
 use super::show::{Form, picture_of, plot_of};
-use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS};
+use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
 use crate::interpret::record::Record;
-use crate::interpret::stop::Eval;
+use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
+use crate::source::{Diagnostic, code};
 use crate::view::Side;
 
 /// The natives of this file.
@@ -22,51 +24,77 @@ pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
-    if let Some(plot) = plot_of(call.arg("what")) {
+    let what = call.arg("what");
+    let bytes = if let Some(plot) = plot_of(what) {
         let form = match ending {
             "svg" => Form::Svg,
             "png" => Form::Png { time: 0.0, side: Side::Corner },
-            _ => return Err(call.refuse("file", "the name of a plot's picture ends in `.svg` or `.png`")),
+            _ => return Err(wrong_ending(call, ending, "a plot")),
         };
-        let bytes = picture_of(interpreter, plot, form).expect("plots are drawn in both forms");
-        write_output(interpreter, call.at("file"), &path, bytes)?;
-        return Ok(Value::Nothing);
-    }
-    let robot = ExportFormat::of_ending(ROBOT_FORMATS, ending);
-    let folding = ExportFormat::of_ending(FOLDING_FORMATS, ending);
-    let [robots, foldings] = [ExportFormat::endings(ROBOT_FORMATS), ExportFormat::endings(FOLDING_FORMATS)];
-    let other = format!("a robot's name ends in {robots}, a folding's in {foldings}");
-    let text = match call.arg("what") {
-        Value::Instance(_) if folding.is_some() => return Err(call.refuse("file", other)),
-        Value::Record(_) if robot.is_some() => return Err(call.refuse("file", other)),
-        Value::Record(record) => {
-            let planned = match &**record {
-                Record::Plan(planned) => Some(planned),
-                Record::Native(record) => record.plan(),
-                _ => None,
-            };
-            let Some(planned) = planned else {
-                return Err(call.refuse("what", "a robot or a folding is wanted"));
-            };
-            let Some(folded) = planned.report::<Report>() else {
-                return Err(call.refuse("what", "this plan folds no pattern: `fold` makes those that do"));
-            };
-            let Some(format) = folding else {
-                let message = format!("the name of a folding's file ends in {foldings}");
-                return Err(call.refuse("file", message));
-            };
-            (format.write)(&creases(planned, folded))
-        }
-        _ => {
-            let Some(format) = robot else {
-                return Err(call.refuse("file", format!("the name of a robot's file ends in {robots}")));
-            };
-            let Some(world) = rofi::world_of(interpreter, call)? else { return Ok(Value::Unknown) };
-            (format.write)(&world)
+        picture_of(interpreter, plot, form).expect("plots are drawn in both forms")
+    } else if let Value::List(elements) = what {
+        let Some(table) = interpreter.table(what) else {
+            let empty = elements.is_empty();
+            let message =
+                if empty { "an empty list has no records to save" } else { "a list of records is wanted" };
+            return Err(call.refuse("what", message));
+        };
+        let Some(format) = ExportFormat::of_ending(TABLE_FORMATS, ending) else {
+            return Err(wrong_ending(call, ending, "a list of records"));
+        };
+        (format.write)(&save_table::for_file(interpreter, &table)).into_bytes()
+    } else if let Value::Record(record) = what {
+        let planned = match &**record {
+            Record::Plan(planned) => Some(planned),
+            Record::Native(record) => record.plan(),
+            _ => None,
+        };
+        let Some(planned) = planned else {
+            return Err(call.refuse("what", "a robot, a folding, a plot or a list of records is wanted"));
+        };
+        let Some(folded) = planned.report::<Report>() else {
+            let message = "this plan folds no pattern: `emit` writes plans, `save` the patterns of `fold`";
+            return Err(call.refuse("what", message));
+        };
+        let Some(format) = ExportFormat::of_ending(FOLDING_FORMATS, ending) else {
+            return Err(wrong_ending(call, ending, "a folding"));
+        };
+        (format.write)(&creases(planned, folded)).into_bytes()
+    } else {
+        let Some(format) = ExportFormat::of_ending(ROBOT_FORMATS, ending) else {
+            return Err(wrong_ending(call, ending, "a robot"));
+        };
+        let Some(world) = rofi::world_of(interpreter, call)? else { return Ok(Value::Unknown) };
+        (format.write)(&world).into_bytes()
+    };
+    write_output(interpreter, call.at("file"), &path, bytes)?;
+    Ok(Value::Nothing)
+}
+
+/// Returns the fault of a name whose ending does not fit the value: what fits, or everything that `save` knows.
+fn wrong_ending(call: &Call, ending: &str, value: &str) -> Stop {
+    let known = [
+        ("a robot", ExportFormat::endings(ROBOT_FORMATS)),
+        ("a folding", ExportFormat::endings(FOLDING_FORMATS)),
+        ("a plot", "`.svg` or `.png`".to_string()),
+        ("a list of records", ExportFormat::endings(TABLE_FORMATS)),
+    ];
+    let own = known.iter().find(|(kind, _)| *kind == value).map_or("", |(_, endings)| endings);
+    let elsewhere = known.iter().find(|(_, endings)| endings.contains(&format!("`.{ending}`")));
+    let (message, hint) = match elsewhere {
+        Some((other, _)) => (format!("{value} is saved as {own}; `.{ending}` is for {other}"), String::new()),
+        None => {
+            let all: Vec<String> =
+                known.iter().map(|(kind, endings)| format!("{kind} as {endings}")).collect();
+            let name =
+                if ending.is_empty() { "a name without an ending".into() } else { format!("`.{ending}`") };
+            let message = format!("{name} is no format that `save` knows; {value} is saved as {own}");
+            (message, format!("`save` writes {}; `emit` writes plans, `show` draws", all.join(", ")))
         }
     };
-    write_output(interpreter, call.at("file"), &path, text.into_bytes())?;
-    Ok(Value::Nothing)
+    let fault = Diagnostic::error(code::BAD_VALUE, message)
+        .label(call.at("file"), format!("{value} is saved as {own}"));
+    if hint.is_empty() { fault.into() } else { fault.hint(hint).into() }
 }
 
 /// Returns the crease pattern of a folding, with the shape after each of its steps.

@@ -963,6 +963,15 @@ pub enum TextPart {
     Literal(String),
     /// An interpolated value: `{expr}`.
     Value(Expr),
+    /// An interpolated quantity in a stated unit, or with a stated number of decimals: `{expr in mm:.2}`.
+    Shown {
+        /// The quantity.
+        value: Expr,
+        /// The unit.
+        unit: Option<UnitExpr>,
+        /// The number of decimals, as written, with its span.
+        decimals: Option<(Symbol, Span)>,
+    },
 }
 
 /// A clause of a comprehension.

@@ -42,9 +42,10 @@ impl Builder<'_> {
                     if !literal.is_empty() {
                         parts.push(TextPart::Literal(std::mem::take(&mut literal)));
                     }
-                    let value = self.tall_expr(next(&mut node.into_inner()));
+                    let mut inside = node.into_inner();
+                    let value = self.tall_expr(next(&mut inside));
                     height = height.max(value.height);
-                    parts.push(TextPart::Value(value.expr));
+                    parts.push(self.hole(value.expr, inside));
                 }
             }
         }
@@ -52,6 +53,22 @@ impl Builder<'_> {
             parts.push(TextPart::Literal(literal));
         }
         self.grown(span, ExprKind::Text(parts), height)
+    }
+
+    /// Builds an interpolated value with what stands behind it: a unit, a number of decimals, both, or nothing.
+    fn hole<'i>(&mut self, value: Expr, behind: impl Iterator<Item = Node<'i>>) -> TextPart {
+        let (mut unit, mut decimals) = (None, None);
+        for node in behind {
+            let span = self.span(&node);
+            match node.as_rule() {
+                Rule::hole_unit => unit = Some(self.unit(span)),
+                _ => decimals = Some((Symbol::new(&node.as_str()[1..]), span)),
+            }
+        }
+        if unit.is_none() && decimals.is_none() {
+            return TextPart::Value(value);
+        }
+        TextPart::Shown { value, unit, decimals }
     }
 
     /// Returns the text of `use "..."` and `test "..."`, with its span, quotes included.

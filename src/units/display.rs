@@ -13,8 +13,12 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
-/// Returns a plain number as text without trailing zeros: six significant digits, but always the whole part in full;
-/// with an exponent below 1e-5 and from 1e15. A number that is not finite is `inf`, `-inf` or `NaN`.
+/// The greatest difference from a decimal number of ten digits, relative, that is rounding: a unit's factor leaves some.
+const EXACT: f64 = 4.0 * f64::EPSILON;
+
+/// Returns a plain number as text: whole numbers and what has at most ten digits exactly, everything else with six
+/// significant digits, but never fewer than stand before the point. No trailing zeros, an exponent only when far from
+/// one.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -28,8 +32,41 @@ pub fn number(value: f64) -> String {
         let (mantissa, exponent) = text.split_once('e').expect("formatted with an exponent");
         return format!("{}e{exponent}", trim_zeros(mantissa));
     }
-    let decimals = (5 - magnitude).max(0) as usize;
+    let ten = format!("{value:.9e}").parse().unwrap_or(value);
+    let exact = (value - ten).abs() <= EXACT * value.abs();
+    let decimals = (if exact { 9 - magnitude } else { 5 - magnitude }).max(0) as usize;
     trim_zeros(&format!("{value:.decimals$}")).to_string()
+}
+
+/// Returns a value in SI as text, in a unit given by its name and its factor to SI, and with a number of decimals, as far
+/// as they are stated.
+pub fn quantity_in(
+    value: f64,
+    dimension: Dimension,
+    unit: Option<(&str, f64)>,
+    decimals: Option<usize>,
+) -> String {
+    if value.is_infinite() {
+        return if value > 0.0 { "infinite" } else { "-infinite" }.into();
+    }
+    let (name, factor) = match unit {
+        Some((name, factor)) => (name.to_string(), factor),
+        None if dimension == Dimension::NUMBER => (String::new(), 1.0),
+        None => fitting_unit(value, dimension),
+    };
+    let value = value / to_si(1.0, factor);
+    let digits = decimals.map_or_else(|| number(value), |places| fixed(value, places));
+    format!("{digits}{name}")
+}
+
+/// Returns a number with this many decimals; one that rounds to zero has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    if text.bytes().any(|b| matches!(b, b'1'..=b'9')) {
+        text
+    } else {
+        text.trim_start_matches('-').to_string()
+    }
 }
 
 fn trim_zeros(text: &str) -> &str {

@@ -5,5 +5,5 @@ mod display;
 mod table;
 
 pub use dimension::{Dimension, NAMED};
-pub use display::{base_units, fitting_unit, is_unit, number, quantity, usual_unit};
+pub use display::{base_units, fitting_unit, fixed, is_unit, number, quantity, quantity_in, usual_unit};
 pub use table::{UNITS, Unit, to_si, unit};

@@ -9,5 +9,6 @@ pub mod interrupt;
 pub mod plots;
 pub mod repl;
 pub mod system;
+pub mod tables;
 pub mod transcripts;
 pub mod view;

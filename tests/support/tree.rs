@@ -357,6 +357,11 @@ fn text(parts: &[TextPart]) -> String {
     let part = |part: &TextPart| match part {
         TextPart::Literal(text) => format!("{text:?}"),
         TextPart::Value(value) => expr(value),
+        TextPart::Shown { value, unit, decimals } => {
+            let unit = unit.as_ref().map_or(String::new(), |unit| format!(" {:?}", unit.factors));
+            let decimals = decimals.map_or(String::new(), |(digits, _)| format!(" .{digits}"));
+            format!("(shown {}{unit}{decimals})", expr(value))
+        }
     };
     match parts {
         [TextPart::Literal(text)] => format!("{text:?}"),

@@ -1,0 +1,124 @@
+//! Tables: lists of records with a column for each field.
+
+use super::interpreter::Interpreter;
+use super::record::{DeclaredRecord, Record};
+use super::value::Value;
+use crate::check::typed::{DefKind, RecordDef};
+use crate::units::{Dimension, base_units, fitting_unit, to_si, usual_unit};
+
+/// The greatest depth of records within records that have columns of their own; deeper ones are one text.
+const LEVELS_MAX: usize = 8;
+
+/// A list of records, by columns.
+pub struct Table {
+    /// The columns, in the order of the fields.
+    pub columns: Vec<Column>,
+    /// The number of records.
+    pub rows: usize,
+}
+
+/// The values of one field.
+pub struct Column {
+    /// The name of the field; that of a field of a record in a record is `outer.inner`, of a vector `field.x`.
+    pub name: String,
+    /// The values, one for each record.
+    pub cells: Vec<Value>,
+}
+
+impl Interpreter<'_> {
+    /// Returns a list of records of one declaration as a table; `None` for other values, and for an empty list.
+    pub fn table(&self, value: &Value) -> Option<Table> {
+        let Value::List(elements) = value else { return None };
+        let records: Option<Vec<&DeclaredRecord>> = elements.iter().map(declared).collect();
+        let records = records?;
+        let def = records.first()?.def;
+        if records.iter().any(|record| record.def != def) {
+            return None;
+        }
+        let mut columns = Vec::new();
+        self.add_columns("", &records, 0, &mut columns);
+        Some(Table { columns, rows: records.len() })
+    }
+
+    fn add_columns(
+        &self,
+        prefix: &str,
+        records: &[&DeclaredRecord],
+        level: usize,
+        columns: &mut Vec<Column>,
+    ) {
+        let Some(first) = records.first() else { return };
+        let DefKind::Record(RecordDef { fields, .. }) = &self.shared.program.def(first.def).kind else {
+            return;
+        };
+        for (index, field) in fields.iter().enumerate() {
+            let name = format!("{prefix}{}", field.name);
+            let cells: Vec<Value> = records.iter().map(|record| record.fields[index].clone()).collect();
+            let inner: Option<Vec<&DeclaredRecord>> = cells.iter().map(declared).collect();
+            if let Some(inner) = inner.filter(|_| level < LEVELS_MAX) {
+                self.add_columns(&format!("{name}."), &inner, level + 1, columns);
+            } else if cells.iter().all(|cell| matches!(cell, Value::Vec3(..))) {
+                for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+                    let part = |cell: &Value| match cell {
+                        Value::Vec3(v, dimension) => Value::Quantity(v[axis], *dimension),
+                        other => other.clone(),
+                    };
+                    let cells = cells.iter().map(part).collect();
+                    columns.push(Column { name: format!("{name}.{letter}"), cells });
+                }
+            } else {
+                columns.push(Column { name, cells });
+            }
+        }
+    }
+}
+
+fn declared(value: &Value) -> Option<&DeclaredRecord> {
+    let Value::Record(record) = value else { return None };
+    match &**record {
+        Record::Declared(record) => Some(record),
+        _ => None,
+    }
+}
+
+impl Column {
+    /// Returns the dimension of the column's quantities; `None` where it holds something else, or nothing.
+    pub fn dimension(&self) -> Option<Dimension> {
+        let other = |cell: &Value| !matches!(cell, Value::Missing) && cell.as_dimension().is_none();
+        if self.cells.iter().any(other) {
+            return None;
+        }
+        self.cells.iter().find_map(Value::as_dimension)
+    }
+
+    /// Returns the unit that suits the largest of the column's quantities, with its factor to SI; `None` for numbers
+    /// and for other values.
+    pub fn unit(&self) -> Option<(String, f64)> {
+        let dimension = self.dimension().filter(|dimension| *dimension != Dimension::NUMBER)?;
+        let finite = self.cells.iter().filter_map(Value::as_number).filter(|x| x.is_finite());
+        let largest = finite.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        Some(if largest == 0.0 { (usual_unit(dimension), 1.0) } else { fitting_unit(largest, dimension) })
+    }
+
+    /// Returns the unit in which files hold the column, with its factor to SI: the one that suits it, if every value
+    /// comes back from its decimals exactly; else the base units.
+    pub fn exact_unit(&self) -> Option<(String, f64)> {
+        let (unit, factor) = self.unit()?;
+        let mut finite = self.cells.iter().filter_map(Value::as_number).filter(|x| x.is_finite());
+        match finite.all(|x| in_unit(x, factor).is_some()) {
+            true => Some((unit, factor)),
+            false => self.dimension().map(|dimension| (base_units(dimension), 1.0)),
+        }
+    }
+}
+
+/// Returns the number that gives a value in SI back when it is read in a unit of this factor: the shortest, if there is
+/// one of ten digits.
+pub fn in_unit(value: f64, factor: f64) -> Option<f64> {
+    if factor == 1.0 {
+        return Some(value);
+    }
+    let near = value / to_si(1.0, factor);
+    let round = format!("{near:.9e}").parse().unwrap_or(near);
+    [round, near, near.next_up(), near.next_down()].into_iter().find(|x| to_si(*x, factor) == value)
+}
