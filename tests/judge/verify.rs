@@ -403,3 +403,22 @@ fn a_long_snake_is_carried_by_contact_forces_that_are_spread_as_it_needs() {
     assert!(verdict.notes.iter().any(|n| n.contains("spread evenly")), "{:?}", verdict.notes);
     assert!(verdict.notes.iter().all(|n| !n.contains("needs friction")), "{:?}", verdict.notes);
 }
+
+#[test]
+fn a_sample_of_a_large_robot_counts_as_several() {
+    let judged = |ground: Ground, modules: usize| {
+        let mut plan = Motion::new(robots::chain(modules))
+            .linear("m0", robots::TILT, 1.0, 0.0, 1.0)
+            .plan(World { ground, ..World::default() });
+        plan.settings.samples_max = 150;
+        verify(&plan)
+    };
+    let refusal = |verdict: &Verdict| {
+        let form = verdict.failures.iter().find(|f| f.kind == CheckKind::Form);
+        form.map(|failure| failure.message.clone())
+    };
+    assert_eq!(refusal(&judged(Ground::Settle, 3)), None);
+    assert_eq!(refusal(&judged(Ground::Off, 60)), None);
+    let refused = refusal(&judged(Ground::Settle, 60)).expect("a sample counts as several");
+    assert!(refused.contains("corners and rims that can touch the ground (150 of a small one)"), "{refused}");
+}

@@ -20,6 +20,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The fraction of the sum of two modules' radii up to which a gap between their bounding spheres counts as near.
 const NEARLY: f64 = 1.0 / 16.0;
 
+/// Pairs that may be examined for each sample that the settings allow. Most intervals of most robots examine fewer.
+pub(super) const CHECKS_PER_SAMPLE: usize = 2_000;
+
 /// The state of the search over all intervals.
 pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
@@ -30,6 +33,8 @@ pub(super) struct Advancement<'a> {
     precision: Precision,
     samples_max: usize,
     samples: usize,
+    /// Pairs examined, each on each interval.
+    checks: usize,
     clearance: Option<Clearance>,
     /// The key: the pair of modules, and true if it is excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
@@ -83,6 +88,7 @@ impl<'a> Advancement<'a> {
             precision,
             samples_max,
             samples: 0,
+            checks: 0,
             clearance: None,
             collisions: BTreeMap::new(),
             used: BTreeSet::new(),
@@ -105,9 +111,12 @@ impl<'a> Advancement<'a> {
             let region = Region { kinematics, levels, bonded, excused };
             self.fixed_pairs(&region, window.0);
             self.rigid_bonds(&region);
-            let open = self.all_pairs(&region);
-            self.guess_clearance(&region, window.0, &open);
-            self.advance(&region, window.0, window.1, open);
+            let mut within = Vec::new();
+            for &(module, _) in &region.kinematics.tree.order {
+                self.within(&region, module, &mut within);
+            }
+            self.guess_clearance(&region, window.0, &within);
+            self.advance_all(&region, window.0, window.1, &within);
         }
     }
 
@@ -121,9 +130,10 @@ impl<'a> Advancement<'a> {
 
     /// Returns the collisions and the clearance that were found.
     pub(super) fn findings(self, exemptions: &[Exemption]) -> Findings {
+        let reached_limit = self.reached_limit();
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
         collisions.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.modules.cmp(&b.modules)));
-        let status = if self.samples >= self.samples_max {
+        let status = if reached_limit {
             Status::Sampled(self.samples)
         } else if collisions.iter().any(|c| !c.exempt) {
             Status::Failed
@@ -144,19 +154,6 @@ impl<'a> Advancement<'a> {
         });
         let used = self.used.into_iter().filter(|index| *index < exemptions.len()).collect();
         Findings { status, collisions, clearance, samples: self.samples, used }
-    }
-
-    fn all_pairs(&self, region: &Region) -> Open {
-        let modules: Vec<usize> = region.kinematics.tree.order.iter().map(|(module, _)| *module).collect();
-        let mut open = Open::default();
-        for (i, &a) in modules.iter().enumerate() {
-            self.within(region, a, &mut open.bodies);
-            for &b in &modules[..i] {
-                let level = region.levels.between(a, b) as u32;
-                open.modules.push(ModulePair { a: a.min(b) as u32, b: a.max(b) as u32, level });
-            }
-        }
-        open
     }
 
     /// Judges the pairs within a module whose distance no joint changes: it is computed once and for all.
@@ -232,9 +229,9 @@ impl<'a> Advancement<'a> {
 
     /// Measures within modules and between neighbours at one instant, so that the search begins with a clearance
     /// that few pairs can go below.
-    fn guess_clearance(&mut self, region: &Region, time: f64, open: &Open) {
+    fn guess_clearance(&mut self, region: &Region, time: f64, within: &[BodyPair]) {
         self.state.set(&region.kinematics, &self.bounds, time, time);
-        let mut near = open.bodies.clone();
+        let mut near = within.to_vec();
         for &(module, bond) in &region.kinematics.tree.order {
             let Some(bond) = bond.map(|b| &self.robot.bonds[b]) else { continue };
             let (a, b) = (bond.a.module, bond.b.module);
@@ -247,8 +244,53 @@ impl<'a> Advancement<'a> {
         }
     }
 
+    /// Judges all pairs of modules, and the pairs of bodies `within` a module, over `from..to` (s). Pairs of modules are
+    /// listed only where the interval leaves them open: a large robot has more of them than memory holds. If too many
+    /// stay open, each half judges all of them anew.
+    fn advance_all(&mut self, region: &Region, from: f64, to: f64, within: &[BodyPair]) {
+        if !self.begin_interval(from) {
+            return;
+        }
+        self.prepare(region, from, to, &vec![true; region.levels.levels.len()]);
+        let tree = &region.kinematics.tree.order;
+        self.checks += tree.len() * tree.len() / 2;
+        let mut open = Open { modules: Vec::new(), bodies: within.to_vec() };
+        for (i, &(a, _)) in tree.iter().enumerate() {
+            for &(b, _) in &tree[..i] {
+                let level = region.levels.between(a, b) as u32;
+                let pair = ModulePair { a: a.min(b) as u32, b: a.max(b) as u32, level };
+                if self.stays_open(region, &pair, &mut open.bodies) {
+                    open.modules.push(pair);
+                }
+            }
+            crate::interrupt::checkpoint();
+            if open.modules.len() > self.precision.open_pairs_max && to - from > self.precision.tol_time {
+                drop(open);
+                let cut = self.cut(from, to);
+                self.advance_all(region, from, cut, within);
+                return self.advance_all(region, cut, to, within);
+            }
+        }
+        self.halve(region, from, to, open);
+    }
+
     /// Discards the pairs that are separated over `from..to` (s), and goes on with the rest in two halves.
     fn advance(&mut self, region: &Region, from: f64, to: f64, open: Open) {
+        if !self.begin_interval(from) {
+            return;
+        }
+        let Open { mut modules, mut bodies } = open;
+        let mut used = vec![false; region.levels.levels.len()];
+        modules.iter().for_each(|pair| used[pair.level as usize] = true);
+        bodies.iter().for_each(|pair| used[pair.level as usize] = true);
+        self.prepare(region, from, to, &used);
+        self.checks += modules.len();
+        modules.retain(|pair| self.stays_open(region, pair, &mut bodies));
+        self.halve(region, from, to, Open { modules, bodies });
+    }
+
+    /// Counts an interval; returns false where a limit is reached.
+    fn begin_interval(&mut self, from: f64) -> bool {
         interrupt::progress_checkpoint(|| {
             let least = self.clearance.as_ref().map_or_else(String::new, |nearest| {
                 format!(", clearance {} so far", quantity(nearest.distance, Dimension::LENGTH))
@@ -256,13 +298,20 @@ impl<'a> Advancement<'a> {
             let at = quantity(from, Dimension::TIME);
             format!("looked for collisions up to {at}, {} stretches{least}", self.samples)
         });
-        if self.samples >= self.samples_max {
-            return;
-        }
-        self.samples += 1;
-        let Open { mut modules, mut bodies } = open;
-        self.prepare(region, from, to, &modules, &bodies);
-        modules.retain(|pair| self.stays_open(region, pair, &mut bodies));
+        let within = !self.reached_limit();
+        self.samples += usize::from(within);
+        within
+    }
+
+    /// Returns true where as many intervals, or as many pairs, were examined as may be.
+    fn reached_limit(&self) -> bool {
+        self.samples >= self.samples_max || self.checks >= self.samples_max.saturating_mul(CHECKS_PER_SAMPLE)
+    }
+
+    /// Discards the pairs of bodies that are separated over an interval, and goes on with the rest in two halves.
+    fn halve(&mut self, region: &Region, from: f64, to: f64, open: Open) {
+        let Open { modules, mut bodies } = open;
+        self.checks += bodies.len();
         bodies.retain_mut(|pair| !self.is_separated(region, pair, to - from));
         let done = modules.is_empty() && bodies.is_empty();
         if done || to - from <= self.precision.tol_time {
@@ -275,11 +324,8 @@ impl<'a> Advancement<'a> {
     }
 
     /// Brings the state to the middle of an interval, with the levels at which pairs are open.
-    fn prepare(&mut self, region: &Region, from: f64, to: f64, modules: &[ModulePair], bodies: &[BodyPair]) {
+    fn prepare(&mut self, region: &Region, from: f64, to: f64, used: &[bool]) {
         self.state.set(&region.kinematics, &self.bounds, from, to);
-        let mut used = vec![false; region.levels.levels.len()];
-        modules.iter().for_each(|pair| used[pair.level as usize] = true);
-        bodies.iter().for_each(|pair| used[pair.level as usize] = true);
         for level in (0..used.len()).filter(|level| used[*level]) {
             self.state.deviations(&region.kinematics, &region.levels, level);
         }

@@ -1,5 +1,6 @@
 //! Collisions in the verdict: failures with the actions to blame.
 
+use super::advancement::CHECKS_PER_SAMPLE;
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision};
@@ -35,10 +36,15 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
         ledger.fail(failure);
     }
     if let Status::Sampled(samples) = found.status {
-        let message = format!(
-            "whether modules meet was not decided within {samples} stretches of time, the most allowed"
-        );
-        ledger.fail(Failure { value: samples as f64, limit: samples as f64, ..Failure::form(message) });
+        let most = rollout.settings.samples_max;
+        let within = if samples < most {
+            let checks = most.saturating_mul(CHECKS_PER_SAMPLE);
+            format!("{checks} tests of two modules or links ({CHECKS_PER_SAMPLE} for each of {most} samples)")
+        } else {
+            format!("{samples} stretches of time")
+        };
+        let message = format!("whether modules meet was not decided within {within}, the most allowed");
+        ledger.fail(Failure { value: samples as f64, limit: most as f64, ..Failure::form(message) });
     }
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;

@@ -64,7 +64,7 @@ pub use time_series::{Detail, GroundForce, Instant, instants};
 pub use tolerances::{Precision, Tolerances};
 
 use super::ledger::Ledger;
-use crate::plan::{CheckKind, Failure, Plan, Status, Tracks, Verdict};
+use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
 
@@ -85,8 +85,9 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     };
     let missed = docking::judge(&rollout, &mut ledger);
     let samples = sampling::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
-    if samples > plan.settings.samples_max {
-        ledger.fail(too_many_samples(samples, plan.settings.samples_max));
+    let features = ground_features_of(plan, tracks, samples);
+    if samples > rollout::samples_max(&plan.settings, features) {
+        ledger.fail(too_many_samples(samples, &plan.settings, features));
     } else {
         let checkpoints = check_samples(&rollout, missed, &mut ledger);
         collision_report::judge(&rollout, &mut ledger);
@@ -96,6 +97,16 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.
     ledger.check(CheckKind::Conflict, Status::Proved);
     ledger.finish()
+}
+
+/// Returns the number of features of the robot of a plan that can touch the ground; 0 where there is no ground, or where
+/// the samples are so few that it need not be known beforehand.
+fn ground_features_of(plan: &Plan, tracks: &Tracks, samples: usize) -> usize {
+    let few = samples.saturating_mul(tracks.robot.modules.len()) <= plan.settings.samples_max;
+    if few || !plan.worlds.iter().any(|from| from.world.has_floor()) {
+        return 0;
+    }
+    Model::new(&tracks.robot, &tracks.start.bonds).features.len()
 }
 
 /// The greatest number of checkpoints that are kept for rolling out parts of the plan again.
@@ -123,8 +134,8 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
     if let Some(loss) = standing.end(rollout.tracks.duration) {
         ledger.fail(loss.failure());
     }
-    if let RolloutEnd::Limit(time) = ended {
-        ledger.fail(limit_reached(rollout.settings.samples_max, time));
+    if let RolloutEnd::Limit { time, features } = ended {
+        ledger.fail(limit_reached(rollout.settings, features, time));
     }
     ledger.verdict.samples = checkpoints.seen();
     torque.between(&fixed_base::prove(rollout), rollout);
@@ -150,16 +161,28 @@ fn link_name(rollout: &Rollout, link: usize) -> String {
     String::new()
 }
 
-fn limit_reached(samples_max: usize, time: f64) -> Failure {
-    let reached = quantity(time, Dimension::TIME);
-    let message =
-        format!("the judge took {samples_max} samples, the most allowed, and got to {reached} only");
-    Failure { time, value: samples_max as f64, limit: samples_max as f64, ..Failure::form(message) }
+/// Returns in words why a large robot may take fewer samples than the settings allow; nothing of a small one.
+fn counted(settings: &Settings, features: usize) -> String {
+    let most = settings.samples_max;
+    if rollout::samples_max(settings, features) == most {
+        return String::new();
+    }
+    format!(" of a robot with {features} corners and rims that can touch the ground ({most} of a small one)")
 }
 
-fn too_many_samples(samples: usize, samples_max: usize) -> Failure {
+fn limit_reached(settings: &Settings, features: usize, time: f64) -> Failure {
+    let reached = quantity(time, Dimension::TIME);
+    let most = rollout::samples_max(settings, features);
+    let counted = counted(settings, features);
+    let message =
+        format!("the judge took {most} samples, the most allowed{counted}, and got to {reached} only");
+    Failure { time, value: most as f64, limit: most as f64, ..Failure::form(message) }
+}
+
+fn too_many_samples(samples: usize, settings: &Settings, features: usize) -> Failure {
+    let (most, counted) = (rollout::samples_max(settings, features), counted(settings, features));
     let message = format!(
-        "at the stated time between samples the plan needs {samples} of them, and {samples_max} are allowed"
+        "at the stated time between samples the plan needs {samples} of them, and {most} are allowed{counted}"
     );
-    Failure { value: samples as f64, limit: samples_max as f64, ..Failure::form(message) }
+    Failure { value: samples as f64, limit: most as f64, ..Failure::form(message) }
 }

@@ -84,10 +84,25 @@ pub struct TipOver {
 pub enum RolloutEnd {
     /// The rollout reached the end of the plan.
     AtEnd,
-    /// The rollout took all samples that are allowed, and reached this time, s.
-    Limit(f64),
+    /// The rollout took all samples that are allowed.
+    Limit {
+        /// The time that it reached, s.
+        time: f64,
+        /// The number of features of the robot that can touch the ground; 0 where there is none.
+        features: usize,
+    },
     /// The observer ended the rollout.
     Stopped,
+}
+
+/// Features that may touch the ground, of a robot whose samples count once. The samples of larger ones, which take
+/// longer, count once for each so many.
+const FEATURES_PER_SAMPLE: usize = 100;
+
+/// Returns the number of samples that a plan of a robot with so many features (see [`Model::features`]) may take, of the
+/// `samples_max` of its settings.
+pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
+    settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }
 
 /// The greatest number of halvings of one step: times are then so close that nothing moves between them.
@@ -209,8 +224,9 @@ impl<'a> Stepper<'a> {
     ) -> RolloutEnd {
         let mut targets = vec![target];
         while let Some(&t) = targets.last() {
-            if self.samples >= self.rollout.settings.samples_max {
-                return RolloutEnd::Limit(self.now);
+            let features = if self.on_ground() { self.model.features.len() } else { 0 };
+            if self.samples >= samples_max(self.rollout.settings, features) {
+                return RolloutEnd::Limit { time: self.now, features };
             }
             self.samples += 1;
             let before = self.now;

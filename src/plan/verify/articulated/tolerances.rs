@@ -12,11 +12,14 @@ pub struct Precision {
     /// The greatest time from the begin of a first penetration (by more than `touch` and `tol_depth`) to that at
     /// which it is found, s. Default 1 µs: below a tick of any controller.
     pub tol_time: f64,
+    /// The greatest number of pairs of modules that are open at once as such, beyond which an interval is cut before
+    /// all of them are listed. Default 2,000,000: memory holds these for as many halvings as there are.
+    pub open_pairs_max: usize,
 }
 
 impl Default for Precision {
     fn default() -> Precision {
-        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6 }
+        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6, open_pairs_max: 2_000_000 }
     }
 }
 
