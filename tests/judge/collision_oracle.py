@@ -54,29 +54,48 @@ def along(axis):
     return X
 
 
+def support(kind, shape):
+    """The farthest points of a convex shape, in coal's frame, along many directions (rows)."""
+    if kind == "box":
+        return lambda n: numpy.where(n >= 0, 0.5, -0.5) * numpy.array(shape["size"])
+    if kind == "sphere":
+        return lambda n: shape["radius"] * n
+    if kind in ("cylinder", "capsule"):
+        def farthest(n):
+            out = n * [1, 1, 0] if kind == "cylinder" else n
+            out = out / numpy.maximum(numpy.linalg.norm(out, axis=1), 1e-300)[:, None]
+            end = numpy.where(n[:, 2:] >= 0, 0.5, -0.5) * shape["length"]
+            return shape["radius"] * out + end * [0, 0, 1]
+
+        return farthest
+    points = numpy.array(shape["points"])
+    return lambda n: points[numpy.argmax(n @ points.T, axis=1)]
+
+
 def solid(placed):
-    """The shapes of coal with their poses in the link, and a bounding ball."""
+    """The shapes of coal with their poses in the link, a bounding ball, and their farthest points."""
     X = pose(placed["pose"])
     (kind, shape), = placed["shape"].items()
     if kind == "union":
-        return [(made, X @ Y, radius) for part in shape["parts"] for made, Y, radius in solid(part)]
+        return [(made, X @ Y, *rest) for part in shape["parts"] for made, Y, *rest in solid(part)]
+    far = support(kind, shape)
     if kind == "box":
         size = numpy.array(shape["size"])
-        return [(coal.Box(*size), X, numpy.linalg.norm(size) / 2)]
+        return [(coal.Box(*size), X, numpy.linalg.norm(size) / 2, far)]
     if kind == "sphere":
-        return [(coal.Sphere(shape["radius"]), X, shape["radius"])]
+        return [(coal.Sphere(shape["radius"]), X, shape["radius"], far)]
     if kind == "cylinder":
         r, l = shape["radius"], shape["length"]
-        return [(coal.Cylinder(r, l), X @ along(shape["axis"]), numpy.hypot(r, l / 2))]
+        return [(coal.Cylinder(r, l), X @ along(shape["axis"]), numpy.hypot(r, l / 2), far)]
     if kind == "capsule":
         r, l = shape["radius"], shape["length"]
-        return [(coal.Capsule(r, l), X @ along(shape["axis"]), r + l / 2)]
+        return [(coal.Capsule(r, l), X @ along(shape["axis"]), r + l / 2, far)]
     points = numpy.array(shape["points"])
     kept = coal.StdVec_Vec3s()
     for point in points:
         kept.append(point)
     hull = coal.ConvexBase.convexHull(kept, True, "Qt")
-    return [(hull, X, numpy.linalg.norm(points, axis=1).max())]
+    return [(hull, X, numpy.linalg.norm(points, axis=1).max(), far)]
 
 
 def bernstein(control, u):
@@ -164,13 +183,49 @@ def transform(X):
 def distance(a, b, X, Y):
     """The signed distance of two lists of shapes at two poses of their links."""
     least = numpy.inf
-    for one, X_A, r in a:
-        for other, X_B, s in b:
+    for one, X_A, r, _ in a:
+        for other, X_B, s, _ in b:
             A, B = X @ X_A, Y @ X_B
             if numpy.linalg.norm(A[:3, 3] - B[:3, 3]) - r - s < least:
                 result = coal.DistanceResult()
                 least = min(least, coal.distance(one, transform(A), other, transform(B), request, result))
     return least
+
+
+def spread(count):
+    """Directions all over the sphere (a Fibonacci lattice)."""
+    z = (2 * numpy.arange(count) + 1) / count - 1
+    turn = numpy.pi * (3 - numpy.sqrt(5)) * numpy.arange(count)
+    r = numpy.sqrt(1 - z * z)
+    return numpy.column_stack([r * numpy.cos(turn), r * numpy.sin(turn), z])
+
+
+EVERYWHERE, AROUND = spread(2000), spread(64)
+
+
+def separation(one, other, X, Y):
+    """The signed distance of two convex shapes: the most by which any direction separates them."""
+    (_, X_A, _, far), (_, X_B, _, far_other) = one, other
+    A, B = X @ X_A, Y @ X_B
+
+    def by(n):
+        n = n / numpy.linalg.norm(n, axis=1)[:, None]
+        a = far(n @ A[:3, :3]) @ A[:3, :3].T + A[:3, 3]
+        b = far_other(-n @ B[:3, :3]) @ B[:3, :3].T + B[:3, 3]
+        return n, numpy.sum(n * (b - a), axis=1)
+
+    n, found = by(EVERYWHERE)
+    best = -numpy.inf
+    for start in n[numpy.argsort(-found)[:2]]:
+        scale = 0.1
+        for _ in range(200):
+            near, values = by(numpy.vstack([start, start + scale * AROUND]))
+            k = numpy.argmax(values)
+            start, best = near[k], max(best, values[k])
+            scale *= 0.5 if k == 0 else 1
+            if scale < 1e-8:
+                break
+    return best
 
 
 class Case:
@@ -215,6 +270,17 @@ class Case:
         a, b = pair
         return distance(self.solids[a], self.solids[b], poses[a][0], poses[b][0])
 
+    def checked(self, pair, value, t):
+        """The distance that coal tells, unless it is too deep, and a search over directions finds less: coal's expanding
+        polytope sometimes stops early, or fails with the greatest number that there is."""
+        (a, b), (allowed, _) = pair, self.pairs[pair]
+        if -value <= allowed:
+            return value
+        poses = self.motion.poses(t)
+        X, Y = poses[a][0], poses[b][0]
+        parts = [(one, other) for one in self.solids[a] for other in self.solids[b]]
+        return max(value, min(separation(one, other, X, Y) for one, other in parts))
+
     def refined(self, pair, low, high):
         """The least distance of a pair between two times, and when: golden section."""
         part = (numpy.sqrt(5) - 1) / 2
@@ -243,8 +309,8 @@ class Case:
         sampled = {}
         for (a, b), (allowed, counts) in self.pairs.items():
             balls = numpy.full(len(times), numpy.inf)
-            for _, X, r in self.solids[a]:
-                for _, Y, s in self.solids[b]:
+            for _, X, r, _ in self.solids[a]:
+                for _, Y, s, _ in self.solids[b]:
                     between = (poses[a] @ X)[:, :3, 3] - (poses[b] @ Y)[:, :3, 3]
                     balls = numpy.minimum(balls, numpy.linalg.norm(between, axis=1) - r - s)
             wanted = least[0] + NEAR if counts else 0.0
@@ -252,6 +318,12 @@ class Case:
             for i in numpy.flatnonzero(balls < max(wanted, NEAR)):
                 values[i] = distance(self.solids[a], self.solids[b], poses[a][i], poses[b][i])
             i = int(numpy.argmin(values))
+            while True:
+                value = self.checked((a, b), values[i], times[i])
+                if value == values[i]:
+                    break
+                values[i] = value
+                i = int(numpy.argmin(values))
             if counts and values[i] < least[0]:
                 least = (values[i], times[i], (a, b))
             if -values[i] - allowed > excess[0]:
@@ -268,6 +340,7 @@ class Case:
                     continue
                 low, high = times[max(i - 1, 0)], times[min(i + 1, len(times) - 1)]
                 value, t = self.refined((a, b), low, high)
+                value = self.checked((a, b), value, t)
                 if counts and value < least[0]:
                     least = (value, t, (a, b))
                 if -value - allowed > excess[0]:
