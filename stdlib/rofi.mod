@@ -24,7 +24,12 @@ module Rofi(pitch: Length = 100mm) {
 
   joint alpha : shoe_a -> body_a = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m)
   joint gamma : body_a -> body_b = revolute(axis: Z, max_speed: rate, max_torque: 10N*m)
-  joint beta : body_b -> shoe_b = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m) at [0mm, 0mm, pitch]
+  joint beta : body_b -> shoe_b = revolute(
+    axis: X,
+    range: -90deg..90deg,
+    max_speed: rate,
+    max_torque: 10N*m
+  ) at [0mm, 0mm, pitch]
 
   // The two balls of a module touch in one point.
   touching shoe_a shoe_b

@@ -137,7 +137,8 @@ fn triaugmented_prism(edge: Length) -> Mesh = polyhedron(
 /// print(faces(gyroelongated_bipyramid(edge: 80mm)))
 /// ```
 fn gyroelongated_bipyramid(edge: Length) -> Mesh = polyhedron(
-  _ring(4, edge / sqrt(2), -edge / (2 * sqrt(sqrt(2)))) ++ _ring(4, edge / sqrt(2), edge / (2 * sqrt(sqrt(2))), from: 45deg)
+  _ring(4, edge / sqrt(2), -edge / (2 * sqrt(sqrt(2)))) ++
+    _ring(4, edge / sqrt(2), edge / (2 * sqrt(sqrt(2))), from: 45deg)
     ++ _tips(-edge / sqrt(2) - edge / (2 * sqrt(sqrt(2)))),
   [
     [0, 1, 4], [0, 8, 1], [0, 7, 3], [0, 3, 8], [0, 4, 7], [1, 2, 5], [1, 8, 2], [1, 5, 4],
@@ -202,9 +203,19 @@ fn tube(sides: Int, rings: Int, edge: Length) -> Mesh = {
   let height = sqrt(edge^2 - (2 * radius * sin(90deg / sides))^2)
   let n = sides
   polyhedron(
-    [[radius * cos(360deg * i / n + (k % 2) * 180deg / n), radius * sin(360deg * i / n + (k % 2) * 180deg / n), k * height]
+    [
+      [
+        radius * cos(360deg * i / n + (k % 2) * 180deg / n),
+        radius * sin(360deg * i / n + (k % 2) * 180deg / n),
+        k * height
+      ]
       for k in 0..rings + 1 for i in 0..n],
-    [if s == 0 { [k * n + i, k * n + (i + 1) % n, (k + 1) * n + (i + k % 2) % n] } else { [k * n + i, (k + 1) * n + (i + k % 2) % n, (k + 1) * n + (i + k % 2 + n - 1) % n] }
+    [
+      if s == 0 {
+        [k * n + i, k * n + (i + 1) % n, (k + 1) * n + (i + k % 2) % n]
+      } else {
+        [k * n + i, (k + 1) * n + (i + k % 2) % n, (k + 1) * n + (i + k % 2 + n - 1) % n]
+      }
       for k in 0..rings for i in 0..n for s in 0..2],
   )
 }
@@ -235,7 +246,12 @@ fn torus(radius: Length, tube: Length, around: Int, across: Int) -> Mesh = {
       (radius + tube * cos(360deg * j / n)) * sin(360deg * i / around),
       tube * sin(360deg * j / n)]
       for i in 0..around for j in 0..n],
-    [if s == 0 { [i * n + j, (i + 1) % around * n + j, (i + 1) % around * n + (j + 1) % n] } else { [i * n + j, (i + 1) % around * n + (j + 1) % n, i * n + (j + 1) % n] }
+    [
+      if s == 0 {
+        [i * n + j, (i + 1) % around * n + j, (i + 1) % around * n + (j + 1) % n]
+      } else {
+        [i * n + j, (i + 1) % around * n + (j + 1) % n, i * n + (j + 1) % n]
+      }
       for i in 0..around for j in 0..n for s in 0..2],
   )
 }

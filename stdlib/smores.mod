@@ -36,10 +36,38 @@ module Smores {
     mass: 127.498g, com: [-30.676mm, 0mm, 0mm], friction: 0.35,
   )
   /// The half with the motors, which tilts.
-  link block = box(72.3mm, 72.2mm, 59.6mm, mass: 309.551g, com: [1.7906mm, 0mm, 0mm], friction: 0.35) at [6.45mm, 0mm, 0mm]
-  link top_disc = cylinder(radius: 42mm, length: 3.2mm, axis: X, mass: 45.716g, com: [-3.8mm, 0mm, 0mm], friction: 0.75) at [47.5mm, 0mm, 0mm]
-  link left_disc = cylinder(radius: 45.3mm, length: 6mm, axis: Y, mass: 37.2637g, com: [0mm, -0.3mm, 0mm], friction: 1.0) at [0mm, 46.1mm, 0mm]
-  link right_disc = cylinder(radius: 45.3mm, length: 6mm, axis: Y, mass: 37.2637g, com: [0mm, 0.3mm, 0mm], friction: 1.0) at [0mm, -46.1mm, 0mm]
+  link block = box(
+    72.3mm,
+    72.2mm,
+    59.6mm,
+    mass: 309.551g,
+    com: [1.7906mm, 0mm, 0mm],
+    friction: 0.35
+  ) at [6.45mm, 0mm, 0mm]
+  link top_disc = cylinder(
+    radius: 42mm,
+    length: 3.2mm,
+    axis: X,
+    mass: 45.716g,
+    com: [-3.8mm, 0mm, 0mm],
+    friction: 0.75
+  ) at [47.5mm, 0mm, 0mm]
+  link left_disc = cylinder(
+    radius: 45.3mm,
+    length: 6mm,
+    axis: Y,
+    mass: 37.2637g,
+    com: [0mm, -0.3mm, 0mm],
+    friction: 1.0
+  ) at [0mm, 46.1mm, 0mm]
+  link right_disc = cylinder(
+    radius: 45.3mm,
+    length: 6mm,
+    axis: Y,
+    mass: 37.2637g,
+    com: [0mm, 0.3mm, 0mm],
+    friction: 1.0
+  ) at [0mm, -46.1mm, 0mm]
 
   joint tilt : holder -> block = revolute(axis: -Y, range: -90deg..90deg, max_speed: rate, max_torque: 2.3N*m)
   joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_torque: 2.3N*m)
@@ -291,7 +319,10 @@ config Grasper7 {
   /// Closes the arms around something in front (the published angles; the wrists stay 141 mm apart).
   behavior squeeze = Sc(
     neutral(),
-    Pc([Pc(move(a[0].tilt, to: 90deg), move(a[1].tilt, to: 17.188734deg), move(a[2].tilt, to: 72.811266deg)) for a in [l, r]]),
+    Pc([
+      Pc(move(a[0].tilt, to: 90deg), move(a[1].tilt, to: 17.188734deg), move(a[2].tilt, to: 72.811266deg))
+      for a in [l, r]
+    ]),
   )
 
   /// Opens the arms.

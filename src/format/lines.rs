@@ -1,5 +1,6 @@
 //! Lines: their pieces, their indentation, and blank lines between them.
 
+use super::breaks::breaks;
 use super::columns::Line;
 use super::spacing::{Piece, before_last};
 use crate::syntax::{Outline, Role, TokenKind};
@@ -13,9 +14,10 @@ struct OpenBracket {
     line: usize,
 }
 
-/// Returns the formatted lines of a text; unreadable chunks stay as they are.
-pub(super) fn lines(text: &str, outline: &Outline) -> Vec<Line> {
-    let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false };
+/// Returns the formatted lines of a text; unreadable chunks stay as they are. Lines that are too wide are broken if
+/// `broken`.
+pub(super) fn lines(text: &str, outline: &Outline, broken: bool) -> Vec<Line> {
+    let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false, broken };
     let start = outline.chunks.first().map_or(0, |chunk| chunk.range.start);
     let mut tokens = outline.tokens.iter().peekable();
     let mut at = start;
@@ -49,6 +51,8 @@ struct Layout<'t> {
     before: Option<Piece<'t>>,
     /// True if the last line ended with an opening bracket.
     opened: bool,
+    /// True if lines that are too wide are broken.
+    broken: bool,
 }
 
 impl<'t> Layout<'t> {
@@ -64,7 +68,8 @@ impl<'t> Layout<'t> {
                 blanks += 1;
                 continue;
             }
-            self.line(line, pieces.get(at..).unwrap_or_default(), blanks > 0);
+            let begin = at - line.len() - 1;
+            self.fitted(&pieces[begin..], line.len(), blanks > 0);
             blanks = 0;
         }
         // Blank lines at the end of a chunk are put before the next.
@@ -73,13 +78,29 @@ impl<'t> Layout<'t> {
         }
     }
 
-    /// Formats a line; `rest` are the pieces of its chunk after it.
-    fn line(&mut self, line: &[Piece<'t>], rest: &[Piece<'t>], blank: bool) {
-        let first = line[0];
-        if blank && !self.opened && !first.closes() {
+    /// Formats the first `length` of the pieces of a chunk, which are a line, as several lines if one is too wide.
+    fn fitted(&mut self, pieces: &[Piece<'t>], length: usize, blank: bool) {
+        if blank && !self.opened && !pieces[0].closes() {
             self.lines.push(Line::blank());
         }
-        let indent = self.indent(line, rest);
+        let mut parts = vec![(0, length)];
+        while let Some((from, to)) = parts.pop() {
+            let (line, rest) = pieces[from..].split_at(to - from);
+            let indent = self.indent(line, rest);
+            let breaks = if self.broken { breaks(line, indent) } else { Vec::new() };
+            if breaks.is_empty() {
+                self.line(line, indent);
+                continue;
+            }
+            let starts = std::iter::once(0).chain(breaks.iter().copied());
+            let ends = breaks.iter().copied().chain([line.len()]);
+            let own: Vec<(usize, usize)> = starts.zip(ends).map(|(a, b)| (from + a, from + b)).collect();
+            parts.extend(own.into_iter().rev());
+        }
+    }
+
+    /// Formats a line.
+    fn line(&mut self, line: &[Piece<'t>], indent: usize) {
         let mut out = Line { indent, text: String::new(), comment: None };
         for (index, piece) in line.iter().enumerate() {
             if piece.token.kind == TokenKind::LineComment && index > 0 {

@@ -1,9 +1,10 @@
 //! The formatter: the one style for programs, applied by `modl fmt`.
 //!
-//! The author's line breaks are kept; indentation, spaces within a line and blank lines are normalised, as
-//! gofmt does. Formatting never changes the meaning: no token is added, moved or left out, and none changes
-//! its line. An unreadable run of items stays as it is.
+//! The author's line breaks are kept, and lines that are too wide get more; indentation, spaces within a line and
+//! blank lines are normalised. Formatting never changes the meaning: no token is added, moved or left out. An
+//! unreadable run of items stays as it is.
 
+mod breaks;
 mod columns;
 mod lines;
 mod spacing;
@@ -29,10 +30,13 @@ pub fn format(id: FileId, text: &str) -> Option<Formatted> {
     let Some(outline) = Outline::of(text) else {
         return Some(Formatted { text: text.to_owned(), diagnostics: parse(id, text).diagnostics });
     };
-    let formatted = columns::aligned(lines::lines(text, &outline));
+    let laid_out = |broken| columns::aligned(lines::lines(text, &outline, broken));
     if outline.chunks.iter().all(|chunk| chunk.sound) {
-        let same = skeleton(text) == skeleton(&formatted);
-        return same.then_some(Formatted { text: formatted, diagnostics: Vec::new() });
+        let meaning = skeleton(text);
+        // A line stays wide where a break would change what the program means.
+        let formatted = [true, false].map(laid_out).into_iter().find(|text| skeleton(text) == meaning)?;
+        return Some(Formatted { text: formatted, diagnostics: Vec::new() });
     }
+    let formatted = laid_out(true);
     Some(Formatted { text: formatted, diagnostics: parse(id, text).diagnostics })
 }

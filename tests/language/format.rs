@@ -2,6 +2,7 @@
 //! never what it means.
 
 use crate::desk::cli::Sandbox;
+use crate::support::fences::fences;
 use crate::support::generated::{Dice, program};
 use modl::format::format;
 use modl::source::FileId;
@@ -44,6 +45,12 @@ fn the_library_and_the_examples_are_in_style() {
     let page = include_str!("../../docs/style.md");
     let listing = page.split("```modl check\n").nth(1).and_then(|rest| rest.split("```").next());
     all.insert("docs/style.md".to_owned(), listing.expect("the page shows a program").to_owned());
+    // Listings of the tour are what `modl fmt` leaves as it is; more at the end of a file is one too.
+    for fence in fences(include_str!("../../docs/tour.md"), "docs/tour.md") {
+        if fence.modl().is_some() {
+            all.insert(fence.place.clone(), fence.code.clone());
+        }
+    }
     let other: Vec<&String> =
         all.iter().filter(|(_, text)| formatted(text) != **text).map(|(n, _)| n).collect();
     assert!(other.is_empty(), "`modl fmt` would change {other:?}");
@@ -243,6 +250,107 @@ let e = Long(a: 1,
   }.a
 ";
     assert_eq!(formatted(text), wanted);
+}
+
+/// The greatest width of a line, as the page on style says.
+const WIDTH: usize = 120;
+
+#[test]
+fn lines_that_are_too_wide_are_broken() {
+    let text = "\
+let a = fold(octahedron(edge: 80mm), module: Mori, objective: \"energy\", gravity: true, seed: 7, budget: 100000, checks: true)
+let b = first_of_the_long_names * second_of_the_long_names + third_of_the_long_names * fourth_of_the_long_names - the_last_of_them
+let c = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31]
+behave(Pc([move(module.the_first_joint, to: 30deg, in: 500ms, profile: linear) for module in all_of_the_modules_in_order]))
+let h = [[one_of_the_numbers(k, n), another_of_the_numbers(k, n), the_last_of_the_numbers(k, n)] for another_index in 0..count]
+let i = if one_condition(of: several) == another_one(of: several) { the_first_of_the_branches } else { the_second_of_the_branches(k) }
+config C { part first: AModuleWithALongName  part second: AModuleWithALongName  connect first.top -- second.bottom  base first }
+let d = [[radius * cos(360deg * i / number_of_points), radius * sin(360deg * i / number_of_points), height * k / layers],
+  [0mm, 0mm, 0mm]]
+let e = \"a text is never broken, however long it is, since its line breaks would be part of what it says, word by word by word\"
+let f = 3  // neither is a comment behind short code, however long it is, since nothing of the code before it is too wide
+";
+    let wanted = "\
+let a = fold(
+  octahedron(edge: 80mm),
+  module: Mori,
+  objective: \"energy\",
+  gravity: true,
+  seed: 7,
+  budget: 100000,
+  checks: true
+)
+let b = first_of_the_long_names * second_of_the_long_names + third_of_the_long_names * fourth_of_the_long_names -
+  the_last_of_them
+let c = [
+  1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31
+]
+behave(
+  Pc([move(module.the_first_joint, to: 30deg, in: 500ms, profile: linear) for module in all_of_the_modules_in_order])
+)
+let h = [
+  [one_of_the_numbers(k, n), another_of_the_numbers(k, n), the_last_of_the_numbers(k, n)]
+  for another_index in 0..count
+]
+let i = if one_condition(of: several) == another_one(of: several) {
+  the_first_of_the_branches
+} else {
+  the_second_of_the_branches(k)
+}
+config C {
+  part first: AModuleWithALongName
+  part second: AModuleWithALongName
+  connect first.top -- second.bottom
+  base first
+}
+let d = [
+  [radius * cos(360deg * i / number_of_points), radius * sin(360deg * i / number_of_points), height * k / layers],
+  [0mm, 0mm, 0mm]]
+let e = \"a text is never broken, however long it is, since its line breaks would be part of what it says, word by word by word\"
+let f = 3  // neither is a comment behind short code, however long it is, since nothing of the code before it is too wide
+";
+    assert_eq!(formatted(text), wanted);
+    assert_eq!(formatted(wanted), wanted);
+    assert!(skeleton(text).is_some() && skeleton(text) == skeleton(wanted));
+}
+
+/// The program on as few lines as may be, so that lines are long.
+fn unbroken(text: &str) -> String {
+    let tokens = modl::syntax::Outline::of(text).expect("short").tokens;
+    let (mut out, mut depth, mut at) = (String::new(), 0, 0);
+    for (i, token) in tokens.iter().enumerate() {
+        let word = &text[token.start..token.end];
+        let before = i.checked_sub(1).map_or("", |before| &text[tokens[before].start..tokens[before].end]);
+        out.push_str(&text[at..token.start]);
+        // Within round and square brackets lines do not matter behind a comma and an opening bracket.
+        match word {
+            "\n" if depth > 0 && matches!(before, "," | "(" | "[") => out.push(' '),
+            _ => out.push_str(word),
+        }
+        depth += i32::from(matches!(word, "(" | "[")) - i32::from(matches!(word, ")" | "]"));
+        at = token.end;
+    }
+    out
+}
+
+#[test]
+fn wide_programs_keep_their_meaning_and_fit_where_they_can() {
+    let (mut broken, mut wide) = (0, 0);
+    for seed in 0..GENERATED / 10 {
+        let mut dice = Dice::new(seed);
+        let forms = crate::language::forms::program(&mut dice);
+        // Long names make wide lines.
+        let text = unbroken(&forms)
+            .replace("Int", "IntIntIntIntIntIntIntIntIntInt")
+            .replace(" b1", " b1_and_more_of_it_and_more");
+        let once = formatted(&text);
+        assert_eq!(once, formatted(&once), "the second time is another:\n{text}");
+        assert!(skeleton(&text) == skeleton(&once), "another program:\n{text}");
+        broken += usize::from(once.lines().count() > text.lines().count());
+        wide += once.lines().filter(|line| line.chars().count() > WIDTH).count();
+    }
+    assert!(broken > 100, "only {broken} programs have wide lines");
+    assert!(wide < broken, "{wide} lines are wider than they may be");
 }
 
 #[test]
