@@ -1714,8 +1714,8 @@ extern fn verify(
   world: World?,
 ) -> Report
 
-// Planners. Where there is a search, `seed` makes another choice among equals, `budget` bounds the work
-// in steps, `timeout` can only turn a result into a refusal.
+// Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0
+// unless it is given), `budget` bounds the work in steps, `timeout` can only turn a result into a refusal.
 
 /// A flat pattern: panels side by side, joined along the hinges that will fold.
 extern type Layout {
@@ -1822,7 +1822,7 @@ extern fn fold(
   root: auto | Int = auto,
   method: exact | heuristic | enumerate = exact,
   step: auto | Time = auto,
-  seed: Int = 0,
+  seed: auto | Int = auto,
   budget: Int = 100_000_000,
   minimise: energy | peak_torque | steps = energy,
   inertia: lamina | prism | point = lamina,
@@ -1897,7 +1897,7 @@ extern fn refold(
   to: Mesh | Shape,
   module: Module,
   step: auto | Time = auto,
-  seed: Int = 0,
+  seed: auto | Int = auto,
   budget: Int = 20_000_000,
 ) -> Refolding
 
@@ -2007,7 +2007,7 @@ extern type Unwinding is Plan {
 extern fn tosnake(
   robot: Config,
   gravity: off | on | Acceleration = off,
-  seed: Int = 0,
+  seed: auto | Int = auto,
   budget: Int = 5_000_000,
   timeout: Time?,
   collisions: motion | none | detection | avoidance = motion,
@@ -2029,7 +2029,7 @@ extern fn reconfigure(
   from: Config,
   to: Config,
   gravity: off | on | Acceleration = off,
-  seed: Int = 0,
+  seed: auto | Int = auto,
   budget: Int = 5_000_000,
   timeout: Time?,
   collisions: motion | none | detection | avoidance = motion,
@@ -2085,7 +2085,7 @@ extern fn morph(
   tolerance: Length = 20mm,
   budget: Int = 300,
   orientations: Int = 0,
-  seed: Int = 0,
+  seed: auto | Int = auto,
   angle: Angle = 0deg,
   rigidity: Number = 0,
   failed: List<Text> = [],

@@ -194,7 +194,7 @@ pub(super) struct Globals {
     /// Use the standard library in this folder instead of the one built in
     #[arg(long, global = true, value_name = "DIR")]
     pub stdlib: Option<PathBuf>,
-    /// Seed of the planners
+    /// Seed of the planners that a program gives none
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub seed: u64,
     /// Threads that a planner may use; results don't depend on it [default: one for each processor]

@@ -57,7 +57,7 @@ pub enum Mode {
 pub struct Options {
     /// The text that the names of the tests to run contain; `None`: all tests.
     pub filter: Option<String>,
-    /// The seed that a plan records whose planner takes none. Planners take theirs from their parameter `seed`.
+    /// The seed of planners that are given none by `seed:`; every plan records the seed that it was made with.
     pub seed: u64,
     /// True if a page is drawn of every plan that is emitted; where there is none, of the declared robots.
     pub pages: bool,

@@ -1,5 +1,6 @@
 //! Planning of behaviours, and judging of plans.
 
+use super::argument::{Auto, WordOr};
 use super::causes::PlanCauses;
 use super::design::Design;
 use super::interpreter::Interpreter;
@@ -233,6 +234,14 @@ impl Interpreter<'_> {
             seed: Some(self.shared.options.seed),
             tool: format!("modl {}", env!("CARGO_PKG_VERSION")),
             ..Provenance::default()
+        }
+    }
+
+    /// Returns the seed of a planner: the one that is stated, else that of the run.
+    pub fn seed(&self, stated: WordOr<Auto, usize>) -> u64 {
+        match stated {
+            WordOr::Word(Auto) => self.shared.options.seed,
+            WordOr::Value(seed) => seed as u64,
         }
     }
 

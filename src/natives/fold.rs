@@ -48,7 +48,7 @@ arguments! {
         root: WordOr<Auto, usize> as "a face",
         method: Method,
         step: WordOr<Auto, Positive> as "the time of a step",
-        seed: usize as "a seed",
+        seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
         minimise: Minimise,
         inertia: MassModel,
@@ -113,7 +113,7 @@ fn fold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let passive = Passive { faces: arguments.passive, module: arguments.passive_module };
     let (sheet, target) = fold_supply::panels(interpreter, &mut supply, &passive, target)?;
     let problem = problem(call, &arguments, target, &sheet)?;
-    let settings = Settings { judge: interpreter.judge_settings(), ..settings(&arguments) };
+    let settings = Settings { judge: interpreter.judge_settings(), ..settings(interpreter, &arguments) };
     let causes = interpreter.planner_causes(call.span);
     let Solution { body, program, report } = fold::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
@@ -150,7 +150,7 @@ fn problem(call: &Call, arguments: &Arguments, target: fold::Target, sheet: &She
     })
 }
 
-fn settings(arguments: &Arguments) -> Settings {
+fn settings(interpreter: &Interpreter, arguments: &Arguments) -> Settings {
     Settings {
         method: arguments.method,
         minimise: arguments.minimise,
@@ -162,7 +162,7 @@ fn settings(arguments: &Arguments) -> Settings {
         inertia: arguments.inertia,
         count: arguments.count,
         hinge_radius: arguments.hinge_radius.map(|Positive(radius)| radius),
-        seed: arguments.seed as u64,
+        seed: interpreter.seed(arguments.seed),
         budget: arguments.budget as u64,
         ..Settings::default()
     }

@@ -32,7 +32,7 @@ arguments! {
         to: &'c Value,
         module: &'c Rc<Instance>,
         step: WordOr<Auto, Positive> as "the time of a step",
-        seed: usize as "a seed",
+        seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
     }
 }
@@ -70,7 +70,7 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             WordOr::Word(Auto) => None,
             WordOr::Value(Positive(step)) => Some(step),
         },
-        seed: arguments.seed as u64,
+        seed: interpreter.seed(arguments.seed),
         budget: arguments.budget as u64,
         judge: interpreter.judge_settings(),
     };

@@ -1,7 +1,7 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
 use super::Native;
-use crate::interpret::argument::{Choice, Positive, WordOr, arguments};
+use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::{Design, Instance};
 use crate::interpret::evaluator_thread::HostProxy;
@@ -62,7 +62,7 @@ arguments! {
     /// The arguments about the search, which both calls have.
     struct SearchArguments {
         gravity: WordOr<Gravity, f64>,
-        seed: usize as "a seed",
+        seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
         timeout: Option<Positive> as "a timeout",
         collisions: Collisions,
@@ -107,7 +107,7 @@ impl Options {
     ///
     /// # Errors
     /// A fault where gravity is negative, or the paper's own method is to plan under gravity.
-    fn of(call: &Call, arguments: &SearchArguments) -> Eval<Options> {
+    fn of(interpreter: &Interpreter, call: &Call, arguments: &SearchArguments) -> Eval<Options> {
         let SearchArguments { gravity, seed, budget, timeout, collisions } = *arguments;
         let world = world(call, gravity)?;
         if world.gravity > 0.0 && collisions != Collisions::Motion {
@@ -115,7 +115,7 @@ impl Options {
             return Err(call.refuse("gravity", why));
         }
         let timeout = timeout.map(|Positive(seconds)| seconds);
-        Ok(Options { world, seed: seed as u64, budget: budget as u64, timeout, collisions })
+        Ok(Options { world, seed: interpreter.seed(seed), budget: budget as u64, timeout, collisions })
     }
 
     fn settings(&self, interpreter: &Interpreter) -> Settings {
@@ -225,7 +225,7 @@ impl Subject {
 /// Runs `tosnake`.
 fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let TosnakeArguments { robot, search } = TosnakeArguments::read(call)?;
-    let options = Options::of(call, &search)?;
+    let options = Options::of(interpreter, call, &search)?;
     let Some(subject) = Subject::of(interpreter, call, "robot", robot)? else { return Ok(Value::Unknown) };
     let causes = interpreter.planner_causes(call.span);
     let settings = options.settings(interpreter);
@@ -246,7 +246,7 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Runs `reconfigure`: unwinds both robots, and joins the first motion with the reverse of the second.
 fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ReconfigureArguments { from, to, search } = ReconfigureArguments::read(call)?;
-    let options = Options::of(call, &search)?;
+    let options = Options::of(interpreter, call, &search)?;
     let counts = [from, to].map(|instance| instance.design.module_count());
     if counts[0] != counts[1] {
         return Err(module_counts_differ(call, counts[0], counts[1]));

@@ -3,7 +3,7 @@
 use super::Native;
 use super::truss_limits::{LimitArguments, limits, obstacles};
 use crate::geometry::{HeightField, Vec3};
-use crate::interpret::argument::{Choice, Positive, arguments};
+use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::design::{Design, DesignKind, Instance, TrussDesign};
 use crate::interpret::evaluator_thread::HostProxy;
 use crate::interpret::interpreter::Interpreter;
@@ -38,7 +38,7 @@ arguments! {
         tolerance: Positive as "the tolerance",
         budget: usize as "a number of steps",
         orientations: usize as "a number of orientations",
-        seed: usize as "a seed",
+        seed: WordOr<Auto, usize> as "a seed",
         timeout: Option<Positive> as "a timeout",
         ..limits: LimitArguments<'c>,
     }
@@ -116,7 +116,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         tolerance: arguments.tolerance.0,
         steps_max: arguments.budget,
         orientations: arguments.orientations,
-        seed: arguments.seed as u64,
+        seed: interpreter.seed(arguments.seed),
         ..morph::Settings::default()
     };
     let timeout = arguments.timeout.map(|seconds| seconds.0);
@@ -144,7 +144,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "morph", World::FREE, solution))
+    Ok(planned(interpreter, call, design, "morph", World::FREE, (solution, Some(settings.seed))))
 }
 
 /// Runs `locomote`; warns of a plan that does not reach the end of the path.
@@ -191,7 +191,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "locomote", World::default(), solution))
+    Ok(planned(interpreter, call, design, "locomote", World::default(), (solution, None)))
 }
 
 /// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is no truss, or
@@ -331,13 +331,14 @@ fn planned<R: PlannerReport>(
     design: Rc<Design>,
     planner: &str,
     world: World,
-    solution: Solution<R>,
+    (solution, seed): (Solution<R>, Option<u64>),
 ) -> Value {
     let causes = interpreter.planner_causes(call.span);
     let strut = truss_of(&design).and_then(TrussDesign::strut_kind).cloned();
     let library = Arc::new(Library { struts: strut.into_iter().collect(), ..Library::default() });
     let Solution { body, report, .. } = solution;
-    let plan = interpreter.bare_plan(planner, body, library, world, &causes);
+    let mut plan = interpreter.bare_plan(planner, body, library, world, &causes);
+    plan.provenance.seed = seed.or(plan.provenance.seed);
     let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }

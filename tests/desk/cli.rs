@@ -105,6 +105,28 @@ fn a_wrong_call_ends_with_2_and_says_why() {
 }
 
 #[test]
+fn planners_take_the_seed_of_the_command_line_unless_they_are_given_one() {
+    let program = |seed: &str| {
+        let plan = format!("let p = tosnake(tangle(6, 60, seed: 3){seed})");
+        format!("use std.rofi.tangle\n{plan}\nprint(p.steps, p.duration)\nemit(p, \"a.plan.json\")\n")
+    };
+    let (open, stated) = (program(""), program(", seed: 5"));
+    let s = Sandbox::new(&[("open.mod", open.as_bytes()), ("stated.mod", stated.as_bytes())]);
+    let planned = |arguments: &[&str]| {
+        let printed = s.run(arguments).out;
+        let plan: serde_json::Value =
+            serde_json::from_slice(&fs::read(s.path("out/a.plan.json")).expect("a plan")).expect("JSON");
+        (printed, plan["provenance"]["seed"].as_u64())
+    };
+    let with_five = planned(&["run", "open.mod", "--seed", "5"]);
+    assert_eq!(with_five.1, Some(5));
+    assert_eq!(planned(&["run", "stated.mod", "--seed", "7"]), with_five);
+    let without = planned(&["run", "open.mod"]);
+    assert_eq!(without.1, Some(0));
+    assert_ne!(without.0, with_five.0, "other seeds find other ways");
+}
+
+#[test]
 fn a_fine_program_ends_with_0_and_a_wrong_one_with_1() {
     let s = Sandbox::new(&[("a.mod", FINE), ("bad.mod", b"let a = \xff\n")]);
     assert_eq!(s.run(&["check", "a.mod"]).code, 0);
