@@ -49,15 +49,15 @@ pub(super) struct Mistake<'t> {
     /// The text of the piece.
     pub(super) text: &'t str,
     /// The offset of the piece in the whole text.
-    base: usize,
+    pub(super) base: usize,
     /// The file of the piece.
-    file: FileId,
+    pub(super) file: FileId,
     /// The tokens of the piece; of the `{ }` of a text where the mistake is in one.
     pub(super) tokens: Vec<Token>,
     /// The index of the faulty token; the number of tokens if the piece ends too early.
     pub(super) found: usize,
     /// The failure that the parser reported.
-    failure: &'t Failure,
+    pub(super) failure: &'t Failure,
     /// The body that the piece stands in.
     pub(super) place: BodyKind,
     /// True if the mistake is in the `{ }` of a text.
@@ -128,6 +128,7 @@ impl Mistake<'_> {
             return explain::too_deep(self.span_of(0), "this");
         }
         None.or_else(|| self.later())
+            .or_else(|| self.foreign_format())
             .or_else(|| self.name_of_test())
             .or_else(|| self.assignment())
             .or_else(|| self.first_word())

@@ -22,6 +22,7 @@ mod record_mistakes;
 mod recover;
 mod scan;
 mod split;
+mod text_mistakes;
 mod words;
 
 pub use lex::{Token, TokenKind};

@@ -54,6 +54,18 @@ let c = """"""
     let a = "x{b +} {c}"
 //                ^ E0001 an expression is missing before `}`
 
+--- formats of other languages
+    print("{x:.2f} of {y} mm")
+//           ^^^^ E0001 `.2f` is no format of a value | decimals are written `{x:.2}`, a unit before them
+
+--- a width in a hole
+    print("{f(n: 1):>8}")
+//                 ^^^ E0001 `>8` is no format of a value | `pad(text, 8)` fills a text up to a width
+
+--- a unit behind the decimals
+    print("{x:.2 in mm}")
+//           ^^^^^^^^^ E0001 `.2 in mm` is no format of a value | before the decimals: `{x in mm:.2}`
+
 --- two expressions in a hole
     print("a {x y} b")
 //              ^ E0001 is missing before `y`
