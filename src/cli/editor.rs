@@ -16,8 +16,9 @@ use std::path::PathBuf;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-/// The time limit of completion; without a result in time there are no candidates.
-const COMPLETION_TIMEOUT: Duration = Duration::from_millis(50);
+/// The time limit of completion, up to which an answer feels immediate; without a result in time there are no
+/// candidates. The aim is half of it, so that a busy machine keeps the limit.
+const COMPLETION_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// The most entries in the history.
 const HISTORY_MAX: usize = 10_000;

@@ -130,7 +130,7 @@ fn an_expression_of_the_command_line_is_evaluated() {
     let ran = sandbox.run(&["-e", "4 * 90deg"]);
     assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "360deg\n", ""));
     let ran = sandbox.run(&["-e", "use std.smores.Smores", "-e", "mass(Smores())"]);
-    assert_eq!((ran.code, ran.out.as_str()), (0, "557.292g\n"), "{}", ran.err);
+    assert_eq!((ran.code, ran.out.as_str()), (0, "557.2924g\n"), "{}", ran.err);
     let ran = sandbox.run(&["-e", "4 * mm"]);
     assert_eq!((ran.code, ran.out.as_str()), (1, ""));
     assert!(ran.err.contains("<-e>:1:5"), "{}", ran.err);

@@ -243,7 +243,7 @@ fn last_length(line: &str) -> f64 {
 fn the_square_comes_back_to_where_it_began() {
     let text = include_str!("../../examples/square.mod");
     let ran = run_text(text, Mode::Run);
-    assert_eq!(ran.host.printed[0], "order 1 modules 1 mass 557.292g");
+    assert_eq!(ran.host.printed[0], "order 1 modules 1 mass 557.2924g");
     let line = &ran.host.printed[1];
     // 45.3 mm of wheel radius at 2 rad/s for 5 s.
     let side = line.split(" once").next().expect("a line has a beginning");

@@ -302,7 +302,12 @@ fn what_is_too_heavy_is_refused_with_joint_torque_limit_and_move() {
     for (call, words) in [
         (
             "tosnake(Arm(n: 5), gravity: on)",
-            vec!["before anything moves", "m[0].alpha", "would have to hold 11.0325N*m", "it holds 10N*m"],
+            vec![
+                "before anything moves",
+                "m[0].alpha",
+                "would have to hold 11.03248125N*m",
+                "it holds 10N*m",
+            ],
         ),
         ("tosnake(Arm(n: 4), gravity: 15m/s^2)", vec!["before anything moves", "m[0].alpha"]),
         ("tosnake(Snake(n: 4), gravity: -1m/s^2)", vec!["downwards"]),

@@ -32,18 +32,18 @@ print(len(p.times()))
 use std.smores.Chain3
 let c = Chain3()
 let p = plan(move(c.m[1].tilt, to: 30deg, in: 1s))
-let s = p.states(step: 250ms)
+let all_states = p.states(step: 250ms)
 let j = c.m[1].tilt
-print([x.angle(j) for x in s] == p.series(angle(j), step: 250ms), [x.speed(j) for x in s] == p.series(speed(j), step: 250ms))
+print([x.angle(j) for x in all_states] == p.series(angle(j), step: 250ms), [x.speed(j) for x in all_states] == p.series(speed(j), step: 250ms))
 //> true true
-print([x.torque(j) for x in s] == p.series(torque(j), step: 250ms), [x.margin for x in s] == p.series(margin(), step: 250ms))
+print([x.torque(j) for x in all_states] == p.series(torque(j), step: 250ms), [x.margin for x in all_states] == p.series(margin(), step: 250ms))
 //> true true
-print([x.ground_force(c.m[0]) for x in s] == p.series(ground_force(c.m[0]), step: 250ms), [x.clearance for x in s] == p.series(clearance(), step: 250ms))
+print([x.ground_force(c.m[0]) for x in all_states] == p.series(ground_force(c.m[0]), step: 250ms), [x.clearance for x in all_states] == p.series(clearance(), step: 250ms))
 //> true true
 let apart = p.series(separation(c.tail, c.head), step: 250ms)
-print(all([abs(norm(position(s[i].pose(c.tail)) - position(s[i].pose(c.head))) - apart[i]) < 1nm for i in 0..5]))
+print(all([abs(norm(position(all_states[i].pose(c.tail)) - position(all_states[i].pose(c.head))) - apart[i]) < 1nm for i in 0..5]))
 //> true
-print([x.angle(j) for x in s] == [p.at(t).angle(j) for t in p.times(step: 250ms)])
+print([x.angle(j) for x in all_states] == [p.at(t).angle(j) for t in p.times(step: 250ms)])
 //> true
 // The slope of the angle, by differences.
 let fine = p.series(angle(j), step: 1ms)
@@ -78,7 +78,7 @@ print([s.margin for s in free.states(step: 1s)], [s.torque(c.m[0].tilt) for s in
 print([s.ground_force(c) for s in free.states(step: 1s)], [s.contacts() for s in free.states(step: 1s)])
 //> [_, _] [_, _]
 print(free.series(torque(c.m[1].tilt), step: 1s))
-//                ^^^^^^^^^^^^^^^^^^^^ E0506 at 0ms the judge knows no load: nothing is weighed without gravity and a ground | states
+//                ^^^^^^^^^^^^^^^^^^^ E0506 at 0ms the judge knows no load: nothing is weighed without gravity and a ground | states
 
 --- a margin without ground
 use std.smores.Chain3

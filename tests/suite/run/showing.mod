@@ -97,7 +97,7 @@ save(none, "a.csv")
 --- a plan is emitted and not saved
 use std.smores.Car
 save(plan(Car().drive(t: 1s)), "a.csv")
-//   ^^^^^^^^^^^^^^^^^^^^^^^^^ E0202
+//   ^^^^^^^^^^^^^^^^^^^^^^^^ E0202
 
 --- outside of the output folder
 record A { a: Int }

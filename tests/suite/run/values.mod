@@ -71,10 +71,13 @@ print(v[3])
 //    ^^^^ E0501 which has 3 elements
 
 --- what takes many values takes one or a list by its name
-print(min(values: 3m), max(values: [1, 3, 2]), Sc(behaviors: wait(1s)))
-//> 3m 3 wait(1s)
+print(min(values: 3m), max(values: [1, 3, 2]))
+//> 3m 3
 print(values: 1)
 //> 1
+let b = Sc(behaviors: wait(1s))
+print(layers(texts: "#") == layers("#"))
+//> true
 
 --- a value is carried along a list, and to where a condition holds
 print(reduce([3, 1, 2], (total, x) => 10 * total + x, from: 0), reduce([], (a, x) => a + x, from: 7))
