@@ -59,7 +59,7 @@ impl Side {
     }
 }
 
-/// The options of a still picture. [`png`] panics for a width or height of 0.
+/// The options of a still picture. [`png()`] panics for a width or height of 0.
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
     /// The time of the picture in seconds; clamped to the part that is played, from 0 to the first failure or the end.

@@ -1,6 +1,6 @@
 //! Plots: curves, scatter plots and histograms of quantities, as SVG, as PNG and as text.
 //!
-//! A plot is laid out once ([`layout`]), as marks in pixels; SVG and PNG write the same marks. Widths of text are those
+//! A plot is laid out once (`layout`), as marks in pixels; SVG and PNG write the same marks. Widths of text are those
 //! of the font that is shipped (Roboto, a subset; Apache-2.0), which PNG draws with, so that a layout is the same
 //! everywhere; SVG names it and leaves the drawing to the viewer.
 
