@@ -217,7 +217,7 @@ fn plan(seed: u64) -> Plan {
     motion.plan(World { ground: Ground::Off, gravity: 0.0, ..World::default() })
 }
 
-/// What the other library found: its least distance, the greatest depth beyond what is allowed, and the distance of the
+/// The other library's findings: its least distance, the greatest depth beyond what is allowed, and the distance of the
 /// pair that the judge names at the time that it names.
 #[derive(serde::Deserialize, Debug)]
 struct Answer {

@@ -239,7 +239,7 @@ fn meaning(plan: &Plan) -> Plan {
     plan
 }
 
-/// What is wrong with a plan that was accepted.
+/// Returns the faults of a plan that was accepted, in words; none for one that means the same as before.
 fn wrongs(family: &Family, plan: &Plan) -> Vec<String> {
     if meaning(plan) == meaning(&family.plan) {
         return Vec::new();

@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Samples over the whole of a motion, beside those at its instants.
 const SAMPLES: usize = 60;
-/// What sampling and rounding explain, as a part of a limit, and in m or rad.
+/// The deviation that sampling and rounding explain, as a part of a limit, and in m or rad.
 const SLACK: f64 = 1e-4;
 
 /// Returns what is wrong with a plan, in words; nothing where all that is recounted is right.
@@ -33,7 +33,7 @@ fn world(plan: &Plan, t: f64) -> World {
     plan.worlds.iter().rfind(|w| w.from <= t).map_or(World::default(), |w| w.world)
 }
 
-/// What no module, cell or strut is.
+/// Returns the facts of a library that no module, cell or strut can have, in words.
 fn declared(library: &Library) -> Vec<String> {
     let mut found = Vec::new();
     for module in &library.modules {
@@ -97,7 +97,7 @@ fn follows_itself(module: &ModuleType, followed: Vec<usize>, depth: usize) -> bo
         })
 }
 
-/// How far support points of drawn parts are from the parts that are judged.
+/// Returns the distance of the support points of drawn parts from the parts that are judged, at most.
 fn sticks_out(drawn: &[modl::geometry::Placed], judged: &[modl::geometry::Placed]) -> f64 {
     if drawn == judged {
         return 0.0;

@@ -2,7 +2,7 @@
 
 use modl::plan::{Body, CellBox, Law, Plan, Ratio};
 
-/// What rounding explains, in cell sizes.
+/// The deviation that rounding explains, in cell sizes.
 const SLACK: f64 = 1e-9;
 
 /// Adds what is wrong with a plan of a lattice.
