@@ -83,14 +83,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
     if validation::check(plan).is_err() {
         return;
     }
-    let rollout = Rollout {
-        tracks,
-        worlds: &plan.worlds,
-        exemptions: &plan.exemptions,
-        settings: &plan.settings,
-        tolerances,
-        held: None,
-    };
+    let rollout = Rollout::of(plan, tracks, tolerances);
     roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
         see(sample);
         true

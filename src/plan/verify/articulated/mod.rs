@@ -75,14 +75,7 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
     limits::judge(tracks, &tolerances, &mut ledger);
     rest::judge(tracks, &tolerances, &mut ledger);
-    let rollout = Rollout {
-        tracks,
-        worlds: &plan.worlds,
-        exemptions: &plan.exemptions,
-        settings: &plan.settings,
-        tolerances: &tolerances,
-        held: None,
-    };
+    let rollout = Rollout::of(plan, tracks, &tolerances);
     let missed = docking::judge(&rollout, &mut ledger);
     let samples = sampling::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
     let features = ground_features_of(plan, tracks, samples);

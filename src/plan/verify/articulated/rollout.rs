@@ -10,7 +10,7 @@ use super::stance::{Placement, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
-use crate::plan::{DockingKind, Exemption, ExemptionKind, Ground, Settings, Tracks, World, WorldFrom};
+use crate::plan::{DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom};
 use crate::units::{Dimension, quantity};
 
 /// A plan to roll out, with settings and tolerances. The plan must be valid.
@@ -28,6 +28,20 @@ pub struct Rollout<'a> {
     pub tolerances: &'a Tolerances,
     /// A joint (by id) that is held from a time on (s), to find the command to blame; `None`: all joints move.
     pub held: Option<(usize, f64)>,
+}
+
+impl<'a> Rollout<'a> {
+    /// Returns the rollout of a whole plan, whose body is `tracks`: all its joints move.
+    pub fn of(plan: &'a Plan, tracks: &'a Tracks, tolerances: &'a Tolerances) -> Rollout<'a> {
+        Rollout {
+            tracks,
+            worlds: &plan.worlds,
+            exemptions: &plan.exemptions,
+            settings: &plan.settings,
+            tolerances,
+            held: None,
+        }
+    }
 }
 
 /// The robot at one sample.

@@ -60,14 +60,7 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
         return vec![];
     }
     let tolerances = Tolerances::default();
-    let rollout = Rollout {
-        tracks,
-        worlds: &plan.worlds,
-        exemptions: &plan.exemptions,
-        settings: &plan.settings,
-        tolerances: &tolerances,
-        held: None,
-    };
+    let rollout = Rollout::of(plan, tracks, &tolerances);
     let mut gauge = Gauge {
         plan,
         detail,
