@@ -22,7 +22,8 @@ impl FileSnapshot {
         FileSnapshot { project, read: Mutex::default() }
     }
 
-    /// Returns a new snapshot of the same project.
+    /// Returns another snapshot of the same project with nothing read yet, so that it reads every file anew; this one
+    /// keeps what it has read.
     pub fn fresh(&self) -> FileSnapshot {
         FileSnapshot::new(self.project.clone())
     }

@@ -49,7 +49,7 @@ const FLAT_BUDGET_SHARE: u64 = 4;
 /// The options of branch and bound for the layout of least energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root of the layout, which must be a face; `None`: the best of all roots.
+    /// The root of the layout, an index in [`Target::faces`]; `None`: the best of all roots. No such face: a panic.
     pub root: Option<usize>,
     /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
@@ -76,20 +76,22 @@ pub enum Proof {
     Open,
 }
 
-/// The result of branch and bound: the best layout, with a lower bound for all.
+/// The result of branch and bound: the best layout found, with a lower bound for all layouts that fit the settings.
+/// [`Proof::Optimal`] alone says that no other is better; after a search that ended early one may be.
 #[derive(Clone, Debug)]
 pub struct Optimum {
     /// The best layout found that fits the settings and was not refused, rooted at its root.
     pub layout: Layout,
-    /// Its energy, N·m for steps of one second.
+    /// Its energy without the perturbations, N·m for steps of one second.
     pub energy: f64,
     /// A lower bound on the energy of all such layouts, N·m for steps of one second; at least 0.
     pub bound: f64,
     /// The strength of the proof.
     pub proof: Proof,
-    /// The roots that reach the energy up to ties, in order, as far as they were found before the search ended.
+    /// The roots (indices in [`Target::faces`], ascending) with which some layout reaches the energy up to
+    /// `TOLERANCES.tie`, those that are equal by symmetry included, as far as they were found before the search ended.
     pub roots: Vec<usize>,
-    /// The number of nodes that were branched.
+    /// The number of nodes of the search tree that were branched into children.
     pub nodes: u64,
 }
 
@@ -113,20 +115,23 @@ pub enum Decision {
     Stop,
 }
 
-/// Returns the layout of least energy that fits the settings, as far as the budget reaches.
+/// Returns the layout of least energy that fits the settings, as far as the budget reaches; [`Optimum::proof`] says if
+/// it is proved. Panics if the settings name a root that is no face.
 ///
 /// # Errors
-/// [`NoLayout`] if no layout lies flat or is low enough, or none was found within the budget.
+/// [`NoLayout::AllOverlap`] if no layout lies flat or is low enough, [`NoLayout::Budget`] if none was found within the
+/// budget.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns the layout of least energy among those that `accepts` accepts, which is asked about layouts that fit the
-/// settings in order of their energy, up to ties. If the budget ends before one is accepted, it is asked about a last
-/// one, which need not be the next.
+/// Returns the layout of least energy among those that `accepts` accepts. Layouts that fit the settings are put to
+/// `accepts` in ascending order of their energy, up to ties. If the budget ends before one is accepted, it is asked
+/// about a last one, which need not be the next in that order.
 ///
 /// # Errors
-/// [`NoLayout`] if every layout was refused, or none was accepted within the budget.
+/// [`NoLayout::AllOverlap`] if no layout fits the settings or every one was refused, [`NoLayout::Budget`] if none was
+/// accepted within the budget.
 pub fn optimum_among(
     target: &Target,
     weights: &Weights,

@@ -25,10 +25,11 @@ pub struct OrderSearch<'t> {
     limits: Option<&'t LoadLimits>,
     free: BTreeMap<FoldStep, bool>,
     forbidden: BTreeSet<FoldStep>,
-    /// The number of steps that [`order`](Self::order) may still sample; steps known from before count nothing.
+    /// The number of steps that [`order`](Self::order) may still sample; a step that was sampled before counts
+    /// nothing.
     pub samples_left: usize,
-    /// The least torque beyond the limit that a sampled step would have taken, N·m, and the face that the overloaded
-    /// hinge carries; `None` while none did.
+    /// The least torque beyond the limit that a sampled step would have taken, N·m, and the face (index in
+    /// [`Target::faces`]) that the overloaded hinge carries; `None` while none did.
     pub overload: Option<(f64, usize)>,
 }
 
@@ -47,9 +48,9 @@ impl<'t> OrderSearch<'t> {
         OrderSearch { layout, target, check, limits, free, forbidden, samples_left: samples, overload: None }
     }
 
-    /// Returns all faces but the root in an order in which each can fold alone, as far as samples show; `None` if
-    /// there is none or `samples_left` is used up. `preferred`: all faces but the root in the order that the result
-    /// follows where it can.
+    /// Returns all faces but the root (indices in [`Target::faces`]) in an order in which each can fold alone after
+    /// those before it, as far as samples show; `None` if there is no such order or `samples_left` is used up.
+    /// `preferred`: all faces but the root in the order that the result follows where it can.
     pub fn order(&mut self, preferred: &[usize]) -> Option<Vec<usize>> {
         let mut folded = vec![true; self.layout.parent.len()];
         folded[self.layout.root] = false;
@@ -82,8 +83,9 @@ impl<'t> OrderSearch<'t> {
         Some(opened)
     }
 
-    /// Lays an order of faces into steps: a hinge folds with those before it if none of them carries another and no
-    /// sample shows a collision or a violated limit. One list of faces for each step.
+    /// Lays an order of faces (indices in [`Target::faces`]) into steps: a hinge folds with those before it if none of
+    /// them carries another and no sample shows a collision or a violated limit. The result has one list of faces for
+    /// each step, in the order of folding. Its samples do not count against [`samples_left`](Self::samples_left).
     pub fn steps(&self, order: &[usize]) -> Vec<Vec<usize>> {
         let mut folded = vec![false; self.layout.parent.len()];
         let mut steps: Vec<Vec<usize>> = Vec::new();
@@ -102,8 +104,9 @@ impl<'t> OrderSearch<'t> {
         steps
     }
 
-    /// Returns true if no sample of these steps, each a list of faces whose hinges fold at the same time, shows a
-    /// collision or a violated limit. It does not count as [`samples_left`](Self::samples_left).
+    /// Returns true if no sample of these steps, each a list of faces (indices in [`Target::faces`]) whose hinges fold
+    /// at the same time, shows a collision or a violated limit. Its samples do not count against
+    /// [`samples_left`](Self::samples_left).
     pub fn is_collision_free(&self, steps: &[Vec<usize>]) -> bool {
         let mut folded = vec![false; self.layout.parent.len()];
         steps.iter().all(|step| {
@@ -113,8 +116,9 @@ impl<'t> OrderSearch<'t> {
         })
     }
 
-    /// Forbids the step at index `step` of `order` (faces): later orders do not fold the hinge of that face when
-    /// exactly the faces before it have folded. Panics if the order is not longer than `step`.
+    /// Forbids the step at index `step` (from 0) of `order`, a list of faces: later calls of [`order`](Self::order) do
+    /// not fold the hinge of that face when exactly the faces before it have folded. Panics if the order is not longer
+    /// than `step`.
     pub fn forbid(&mut self, order: &[usize], step: usize) {
         let mut folded = vec![false; self.layout.parent.len()];
         order[..step].iter().for_each(|face| folded[*face] = true);

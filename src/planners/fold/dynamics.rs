@@ -65,16 +65,16 @@ const AT_REST: Moving = Moving {
 };
 
 impl<'t> Dynamics<'t> {
-    /// Sets up the dynamics; `bodies`: by face, one for each face; `gravity`: the vector in the frame of the target,
-    /// m/s².
+    /// Sets up the dynamics with all hinges at rest; `bodies`: one for each face of the target, in the order of
+    /// [`Target::faces`], in the frame of the target; `gravity`: the vector in that frame, m/s².
     pub fn new(target: &'t Target, layout: &'t Layout, bodies: &'t [Body], gravity: Vec3) -> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm) for the motion
-    /// `hinging(face)` of each face's hinge and writes them to `torques`, N·m, by the face that the hinge carries;
-    /// that of the root is 0. Positive torques turn towards positive angles. Panics if `torques` has fewer entries
-    /// than there are faces.
+    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm, Eq. 3 and 4) and
+    /// writes them to `torques`, N·m: entry k is that of the hinge between face k and its parent, that of the root is
+    /// 0. `hinging(k)`: the motion of that hinge. Positive torques turn towards positive angles. Panics if `torques`
+    /// has fewer entries than there are faces.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
         self.outwards(hinging);
         for &face in self.layout.order[1..].iter().rev() {

@@ -12,7 +12,9 @@ const TRIED_MAX: usize = 256;
 /// The number of sums that take about as long as one exchange that is weighed.
 const SUMS: usize = 64;
 
-/// Returns a greedy tree grown from the root: in each step the face is added whose path costs the least for it.
+/// Returns a greedy tree grown from `root` (an index in [`Target::faces`]): in each step the face is added whose path
+/// from the root costs the least for it, N·m for steps of one second; of equal ones the first. Panics if the hinges do
+/// not connect all faces.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
     // For each face: the hinges between it and the root, once it belongs to the tree.
@@ -43,14 +45,15 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("every face was added by one hinge")
 }
 
-/// Returns a layout of no greater energy with the same root, improved by exchanges of a hinge that folds for one that
-/// does not, as long as that helps (steepest descent). `steps` counts down the exchanges weighed and the sums that each
-/// exchange made takes anew; at 0 the search ends.
+/// Returns a layout of no greater energy with the same root, improved by exchanges of one hinge of the tree for
+/// another on the cycle that it closes, as long as that lowers the energy (steepest descent). `steps` counts down the
+/// exchanges weighed and the sums that are computed anew after each exchange made; at 0 the search ends with what it
+/// has.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
     improved_where(target, weights, layout, steps, &|_| true)
 }
 
-/// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` is true.
+/// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` returns true.
 pub fn improved_where(
     target: &Target,
     weights: &Weights,
@@ -63,8 +66,8 @@ pub fn improved_where(
 
 /// The conditions on exchanges besides a lesser energy.
 pub struct Rules<'r> {
-    /// A filter of every exchange that helps: true if in a layout the first hinge, which folds, may be exchanged for
-    /// the second.
+    /// A filter of every exchange that lowers the energy: called with a layout and two indices in [`Target::hinges`],
+    /// it returns true if the first hinge, which folds, may be exchanged for the second.
     pub fits: &'r dyn Fn(&Layout, [usize; 2]) -> bool,
     /// A filter of the layouts that the 256 best exchanges lead to: true if the layout is allowed.
     pub allowed: &'r dyn Fn(&Layout) -> bool,
@@ -187,8 +190,8 @@ fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mu
     }
 }
 
-/// Returns the hinges of the tree between two faces: those from `a` upwards, then those from `b` upwards; none for the
-/// same face.
+/// Returns the hinges (indices in [`Target::hinges`]) of the tree between two faces: those from `a` upwards, then
+/// those from `b` upwards, both without the part that they share; empty for the same face.
 pub fn path(layout: &Layout, a: usize, b: usize) -> Vec<usize> {
     let up = |mut face: usize| {
         let mut way = Vec::new();

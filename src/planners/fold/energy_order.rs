@@ -16,8 +16,9 @@ use crate::geometry::{Pose, Vec3};
 /// factorial.
 pub const HEIGHT_MAX: usize = 8;
 
-/// Returns an order of all faces but the root of least energy without gravity, counting the moving joint, and that
-/// energy (N·m for steps of one second); `None` for trees that are higher than [`HEIGHT_MAX`]. `masses`: by face, kg.
+/// Returns an order of all faces but the root (indices in [`Target::faces`]) of least energy without gravity, with the
+/// moving joint counted, and that energy (N·m for steps of one second); `None` for trees that are higher than
+/// [`HEIGHT_MAX`]. `masses`: by face, kg. The method is dynamic programming over the orders on each face's path.
 pub fn least_energy(
     target: &Target,
     layout: &Layout,
@@ -41,15 +42,17 @@ pub fn least_energy(
     Some(all)
 }
 
-/// Returns the energy of an order of faces without gravity, counting the moving joint, N·m for steps of one second;
-/// `masses`: by face, kg. Panics if the order names the root.
+/// Returns the energy of an order of faces (indices in [`Target::faces`], one hinge after the other) without gravity,
+/// with the moving joint counted, N·m for steps of one second; `masses`: by face, kg. Panics if the order names the
+/// root.
 pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
     means(target, layout, masses, inertia, order).iter().sum()
 }
 
-/// Returns by face the mean absolute torque of its hinge while it folds in this order of faces without gravity,
-/// computed step by step from the poses of all faces; 0 for the root; N·m for steps of one second. `masses`: by face,
-/// kg. Panics if the order names the root.
+/// Returns the mean absolute torque of the hinge of every face while it folds, N·m for steps of one second, by face; 0
+/// for the root and for faces that `order` leaves out. The hinges fold one after the other in `order` (indices in
+/// [`Target::faces`]), without gravity; poses are computed anew for each. `masses`: by face, kg. Panics if the order
+/// names the root.
 pub fn means(
     target: &Target,
     layout: &Layout,

@@ -26,15 +26,16 @@ pub struct Enumeration {
     pub layouts: u64,
     /// True if these are all layouts of the target; false if the budget ended the enumeration.
     pub complete: bool,
-    /// The first layout found of least energy, rooted at its best root of those asked for.
+    /// The first layout found of least energy, rooted at that of the roots asked for with which it has that energy.
     pub best: Layout,
     /// The least energy, N·m for steps of one second.
     pub least: f64,
     /// The greatest energy, N·m for steps of one second.
     pub greatest: f64,
-    /// The number of pairs of a layout and a root asked for with the least energy, up to ties.
+    /// The number of pairs of a layout and a root asked for whose energy is the least up to `TOLERANCES.tie`.
     pub ties: u64,
-    /// The least energy by root, N·m for steps of one second; infinite for roots that were not asked for.
+    /// The least energy with each root, by face of the target, N·m for steps of one second; infinite for roots that
+    /// were not asked for.
     pub by_root: Vec<f64>,
     /// The energies that occur (N·m for steps of one second); `None` if they were not asked for.
     pub spectrum: Option<Spectrum>,
@@ -43,7 +44,7 @@ pub struct Enumeration {
 /// The options of [`enumerate_energies`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root, a face of the target; `None`: all roots.
+    /// The only root that is considered, an index in [`Target::faces`]; `None`: every face.
     pub root: Option<usize>,
     /// True if the multiplicity of each energy is counted.
     pub spectrum: bool,
@@ -126,10 +127,11 @@ pub struct Traversal {
     pub complete: bool,
 }
 
-/// Hands the hinges of every layout, in ascending order, to `visit`, of at most `budget` layouts and at least one.
+/// Calls `visit` with every layout, given by the indices in [`Target::hinges`] of its hinges in ascending order, until
+/// `budget` layouts were visited (at least one). The order of the visits is the lexicographic one of their hinges.
 ///
 /// # Errors
-/// [`TooManyFaces`] for targets of more than 64 faces.
+/// [`TooManyFaces`] for targets of more than [`FACES_MAX`] faces; nothing is visited then.
 pub fn each(target: &Target, budget: u64, visit: impl FnMut(&[usize])) -> Result<Traversal, TooManyFaces> {
     let n = target.faces.len();
     if n > FACES_MAX {
@@ -285,13 +287,14 @@ impl<'t> Peaks<'t> {
         few.then(|| Peaks { sums: Sums::new(target, weights), tree: Tree::new(target) })
     }
 
-    /// Sets the layout that [`greatest`](Self::greatest) is about, by its hinges, which must be a spanning tree.
+    /// Sets the layout that [`greatest`](Self::greatest) is about, by the indices in [`Target::hinges`] of its hinges,
+    /// which must be a spanning tree.
     pub fn set_layout(&mut self, hinges: &[usize]) {
         self.tree.root_at_first(hinges);
     }
 
-    /// Returns the greatest mean torque of a hinge of the layout that was set last, with this root, N·m for steps of
-    /// one second; 0 before any was set.
+    /// Returns the greatest mean torque of a hinge of the layout that was set last, rooted at the face `root`, N·m for
+    /// steps of one second; 0 before any was set.
     pub fn greatest(&self, root: usize) -> f64 {
         let below = &self.tree.below;
         let carried = |&(face, _, hinge): &(usize, usize, usize)| {

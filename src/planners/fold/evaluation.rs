@@ -35,7 +35,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
-    /// The reason why the first that was refused was; `None` while none was.
+    /// The reason for which the first layout that was refused was refused; `None` while none was.
     pub first: Option<Rejection>,
     /// The number of layouts sampled for collisions.
     sampled: usize,
@@ -45,6 +45,7 @@ pub(super) struct Candidates {
 
 /// An outcome with the bound for all layouts that it was chosen from.
 pub(super) struct Chosen {
+    /// The layout with its steps, its plan and its verdict.
     pub outcome: Outcome,
     /// The lower bound for all that lies flat and passes the judge: on the peak torque where that is minimised,
     /// else on the energy; N·m.
@@ -54,8 +55,8 @@ pub(super) struct Chosen {
 }
 
 impl Task<'_> {
-    /// Returns the best layout that the judge lets through in the order asked for, with the bound for all layouts
-    /// in that order.
+    /// Returns the best layout that the judge lets through in the order asked for, with the bound for all layouts in
+    /// that order; `None` if it lets none through of those proposed and searched.
     ///
     /// # Errors
     /// A reason that holds for every layout, as [`Task::judged`] says.
@@ -154,7 +155,8 @@ impl Task<'_> {
         })
     }
 
-    /// Returns a layout of strips that is made so that it folds with the leaves first without collisions.
+    /// Returns a layout of strips ([`StripSearch`]) that folds with the leaves first without collisions and that the
+    /// judge lets through; `None` if the problem gives the layout, the observer has ended the call, or none was found.
     ///
     /// # Errors
     /// A reason that holds for every layout, as [`Task::judged`] says.
@@ -180,7 +182,7 @@ impl Task<'_> {
         Ok(None)
     }
 
-    /// Returns the outcome with the lesser value of two; `None` if there is neither.
+    /// Returns the outcome with the lesser minimised value of two, `a` if they are equal; `None` if there is neither.
     pub(super) fn lesser(&self, a: Option<Outcome>, b: Option<Outcome>) -> Option<Outcome> {
         let value = |outcome: &Outcome| self.value(&outcome.layout, &outcome.steps);
         a.into_iter().chain(b).min_by(|a, b| value(a).total_cmp(&value(b)))

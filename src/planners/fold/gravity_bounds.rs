@@ -49,7 +49,8 @@ struct Arc {
 }
 
 impl GravityBounds {
-    /// Computes the torques of a target; `masses`: by face, kg; `gravity`: m/s².
+    /// Computes the torques of gravity of a target; `masses`: by face, kg; `gravity`: its acceleration, m/s², at least
+    /// 0.
     pub(super) fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
         let mut arcs = Vec::with_capacity(2 * target.hinges.len());
         for hinge in &target.hinges {
@@ -75,8 +76,8 @@ impl GravityBounds {
         GravityBounds { faces: masses.len(), arcs }
     }
 
-    /// Returns by root the lower bound on the sum of mean torques, N·m. The torque of each hinge may be
-    /// counted with either sign: as it turns, or about its axis.
+    /// Returns the lower bound on the sum of mean torques for each root, by face, N·m. It is the greater of two, in
+    /// which the torques of the hinges are counted in the direction in which they turn, or about their axes.
     pub(super) fn energies(&self) -> Vec<f64> {
         let both = [self.sums(|arc| arc.sense), self.sums(|_| 1.0)];
         let greater = |root: usize| both.iter().map(|sums| sums[root]).fold(0.0, f64::max);
@@ -106,8 +107,9 @@ impl GravityBounds {
         sums
     }
 
-    /// Returns the lower bound on the peak torque of layouts with this root, N·m: its hinges carry all other faces
-    /// among them.
+    /// Returns the lower bound on the peak torque of layouts with the root `root` (an index in [`Target::faces`]),
+    /// N·m: the hinges of the root carry all other faces among them, so the greatest of their torques is at least the
+    /// mean.
     pub(super) fn peak(&self, root: usize) -> f64 {
         let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
         let mut greatest: f64 = 0.0;

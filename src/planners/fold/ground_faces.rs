@@ -6,14 +6,14 @@ use super::target::Target;
 /// A face that reaches below the plane of the root, which is the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protrusion {
-    /// The index of the face.
+    /// The index of the face in [`Target::faces`].
     pub face: usize,
     /// The depth of its lowest corner below that plane, m.
     pub depth: f64,
 }
 
-/// Returns the face that reaches the deepest below the plane of `root`; `None` where none reaches deeper than
-/// `depth`, m.
+/// Returns the face that reaches the deepest below the plane of the face `root`, on the side of its outward normal;
+/// `None` if none reaches deeper than `depth`, m.
 pub(super) fn deepest_protrusion(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
     let (down, ground) = (target.normal(root), target.centroid(root));
     let of = |face: usize| {

@@ -18,7 +18,7 @@ pub struct Measure {
     pub mass: f64,
     /// λ4: the distance from hinge to hinge, m; of [`Measure::of_panels`] the side.
     pub span: f64,
-    /// κ1, κ2, κ3: the constants of the design, without unit.
+    /// κ1, κ2, κ3: the constants of the design, without unit; 3, 1 and 2 in the paper.
     pub design: [f64; 3],
 }
 
@@ -77,11 +77,11 @@ pub struct Preferred {
     pub walked: Traversal,
 }
 
-/// Searches the layout of least measure among all with the given root, or any if `None`, by enumeration of at most
-/// `budget` layouts, and at least one.
+/// Searches the layout of least measure among all with the root `root` (an index in [`Target::faces`]; `None`: with
+/// any root), by enumeration of at most `budget` layouts, and at least one.
 ///
 /// # Errors
-/// [`TooManyFaces`] for targets of more than 64 faces.
+/// [`TooManyFaces`] for targets of more than [`enumerate::FACES_MAX`] faces.
 pub fn preferred(
     target: &Target,
     measure: &Measure,

@@ -34,7 +34,8 @@ impl Body {
         Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
     }
 
-    /// Computes the rigid bodies of all panels of a target, by face; `masses`: by face, kg, one for each face.
+    /// Computes the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`];
+    /// `masses`: one for each face in that order, kg.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()

@@ -39,10 +39,11 @@ pub(crate) enum Fault {
     Refused(Box<Failure>),
 }
 
-/// Schedules a motion and puts its plan before the judge.
+/// Schedules a motion and puts its plan before the judge; returns the plan's body and program with the verdict.
 ///
 /// # Errors
-/// The first [`Fault`] that is found.
+/// [`Fault::Schedule`] if it can't be scheduled, [`Fault::TooFast`] if a stated duration is too short,
+/// [`Fault::Refused`] with the earliest failure of the verdict.
 pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
     let Motion { robot, start, program, world, judge } = motion;
     let (name, bonds) = (robot.name.clone(), robot.bonds.len());

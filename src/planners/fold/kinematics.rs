@@ -5,8 +5,9 @@ use super::target::Target;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
 
-/// Returns the displacement of every face from its pose in the target, by face, with the root in its pose there, when
-/// the hinges of the faces for which `folded(face)` is true have folded and the others are level.
+/// Returns the displacement of every face from its pose in the target, in the frame of the target, in the order of
+/// [`Target::faces`], when the hinges of the faces for which `folded(face)` is true have folded and the others are
+/// level. That of the root is the identity; a face at its pose in the target has it, too.
 ///
 /// A child's displacement is its parent's after a rotation about the line of the hinge in the target by the difference
 /// between the hinge's angle and its fold angle.
@@ -17,8 +18,9 @@ pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -
     })
 }
 
-/// Returns the displacement of every face from its pose in the target, by face, with the root in its pose there, when
-/// the hinge of each face but the root is at `angle(face)`, rad: 0 is level, the angle of the hinge folded.
+/// Returns the displacement of every face from its pose in the target, in the frame of the target, in the order of
+/// [`Target::faces`], when the hinge between each face but the root and its parent is at `angle(face)`, rad: 0 is
+/// level, [`Hinge::angle`](super::target::Hinge::angle) is folded. That of the root is the identity.
 pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Pose> {
     let mut poses = vec![Pose::identity(); target.faces.len()];
     for &face in &layout.order[1..] {
@@ -31,7 +33,8 @@ pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) 
     poses
 }
 
-/// Returns the rotation about the line through a point (m) along a unit axis, by an angle (rad).
+/// Returns the rotation about the line through a point (m) along a unit axis by an angle (rad, right-handed), as a
+/// displacement in the frame of point and axis.
 pub fn about(point: &Vec3, axis: Vec3, angle: f64) -> Pose {
     shifted(*point) * turned(axis, angle) * shifted(-point)
 }

@@ -31,8 +31,8 @@ const SHORTER: f64 = 0.7;
 /// The number of sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// The multipliers that are not zero, each with its index in the table by goal j and arc a, `3 * faces * j + a`; N·m
-/// for steps of one second.
+/// The multipliers λ that are not zero, each with its index in the table by goal face j and arc a ([`Arc`]: 3 · face +
+/// side), `3 * faces * j + a`; N·m for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
 /// The result of a subgradient ascent ([`Lagrangian::ascend`]).
@@ -42,9 +42,11 @@ pub struct Ascent {
     pub bound: f64,
     /// The multipliers of that bound, as [`Multipliers`]; those given if no layout is left.
     pub multipliers: Vec<(u32, f64)>,
-    /// For each face and side, the number of paths of the last round that enter there; all 0 if no layout is left.
+    /// For each face and each of its sides 0 to 2, the number of paths of the last round that enter there; all 0 if no
+    /// layout is left.
     pub uses: Vec<[u32; 3]>,
-    /// The length of the last step, as a part of the gap between bound and estimated optimum.
+    /// The length of the last step, without unit: the factor of Polyak's step, which is made of the gap between bound
+    /// and estimated optimum.
     pub length: f64,
 }
 
@@ -56,9 +58,10 @@ pub struct AscentLimits {
     pub cutoff: f64,
     /// An estimate of the optimum for Polyak's step, N·m for steps of one second.
     pub optimum_estimate: f64,
-    /// The greatest number of rounds; without any the bound is minus infinity.
+    /// The greatest number of rounds; with 0 the bound is minus infinity.
     pub rounds: usize,
-    /// The length of the first step, as a part of the gap between bound and estimated optimum.
+    /// The length of the first step, without unit: the factor of Polyak's step, which is made of the gap between bound
+    /// and estimated optimum.
     pub length: f64,
 }
 
@@ -119,12 +122,14 @@ impl<'t> Lagrangian<'t> {
         }
     }
 
-    /// Raises the bound of the layouts with this root over the arcs allowed by subgradient ascent, from given
-    /// multipliers. Arcs that no layout below the cutoff uses are removed from `allowed` (fixing by reduced
-    /// costs). `steps` counts down the faces settled on paths and the sums over multipliers; at zero the
-    /// ascent ends. In the first and in every 20th round `layouts` gets the arc chosen into each face (that of the root
-    /// has no meaning), which are nearly a layout, and `steps`; if it returns less than the cutoff, that is the cutoff
-    /// from then on.
+    /// Raises the bound of the layouts with this root (an index in [`Target::faces`]) over the arcs allowed by
+    /// subgradient ascent, from given multipliers. Arcs that no layout below the cutoff uses are removed from
+    /// `allowed` (fixing by reduced costs). `steps` counts down the faces settled on paths and the sums over
+    /// multipliers; at zero the ascent ends.
+    ///
+    /// In the first and in every 20th round `layouts` is called with the arc (3 · face + side) chosen into each face,
+    /// by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no meaning. If it returns
+    /// an energy below the cutoff, that is the cutoff from then on.
     pub fn ascend(
         &mut self,
         root: usize,
@@ -351,9 +356,13 @@ impl<'t> Lagrangian<'t> {
 /// The number of rounds between two calls of the Lagrangian heuristic.
 const LAYOUTS_EVERY: usize = 20;
 
-/// Returns the hinges of a layout made of one arc into each face (Lagrangian heuristic); `chosen`: by face, of which
-/// that of the root is not read. Faces connected to the root keep their arcs; cycles are joined to it across the
-/// first hinge that leads there. Panics if a chosen side has no hinge.
+/// Returns the hinges (indices in [`Target::hinges`], in no certain order) of a layout made of one arc into each face
+/// (Lagrangian heuristic). `root`: an index in [`Target::faces`]. `chosen`: for each face in their order, the arc by
+/// which it is entered, 3 · face + side with the side 0 to 2 of that face; the root's entry is not read.
+///
+/// Faces whose arcs lead back to the root keep them. Arcs that form a cycle do not: the faces of the cycle and those
+/// that follow it are joined to the rest across the hinge of least index that leads there, and the arc back into the
+/// cycle's first face is given up. Panics if a chosen side has no hinge or the target is not connected.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
     let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");

@@ -6,13 +6,14 @@ use super::weights::Weights;
 /// A layout: a spanning tree of the faces of a target, rooted at a face. Its edges are the hinges that fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The face that keeps its pose.
+    /// The face that keeps its pose, as an index in [`Target::faces`], like all faces here.
     pub root: usize,
-    /// For each face, the index in [`Target::hinges`] of the hinge to its parent; `None` for the root.
+    /// For each face, in the order of [`Target::faces`], the index in [`Target::hinges`] of the hinge to its parent;
+    /// `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// For each face, its parent; the root's is itself.
+    /// For each face, in the order of [`Target::faces`], its parent; the root's is itself.
     pub parent: Vec<usize>,
-    /// All faces, parents before children, the root first.
+    /// All faces in breadth-first order: the root first, parents before their children.
     pub order: Vec<usize>,
 }
 
@@ -28,8 +29,9 @@ pub struct Across {
 }
 
 impl Layout {
-    /// Builds a layout from the indices of the hinges that fold, in any order; `None` if they are no spanning tree of
-    /// the faces. Panics if an index or the root is none of the target.
+    /// Builds a layout from the indices in [`Target::hinges`] of the hinges that fold, in any order, and its root, an
+    /// index in [`Target::faces`]; `None` if they are no spanning tree of the faces. Panics if an index is none of the
+    /// target.
     pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
         let n = target.faces.len();
         if hinges.len() + 1 != n {
@@ -55,8 +57,9 @@ impl Layout {
         (layout.order.len() == n).then_some(layout)
     }
 
-    /// Builds a layout from the pairs of faces whose hinges fold, in any order; `None` if a pair shares no hinge or the
-    /// hinges are no spanning tree of the faces. Panics if a face or the root is none of the target.
+    /// Builds a layout from the pairs of faces (indices in [`Target::faces`]) whose hinges fold, in any order; `None`
+    /// if a pair shares no hinge or the hinges are no spanning tree of the faces. Panics if a face or the root is none
+    /// of the target.
     pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
         let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
         Layout::of_hinges(target, &hinges?, root)
@@ -69,32 +72,33 @@ impl Layout {
         Across { parent, parent_side: hinge.side_of(parent), side: hinge.side_of(face) }
     }
 
-    /// Returns the fold angle of the hinge to a face's parent, rad; 0 for the root.
+    /// Returns the fold angle of the hinge to a face's parent, rad, positive where the edge is convex; 0 for the root.
     pub fn angle(&self, target: &Target, face: usize) -> f64 {
         self.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle)
     }
 
-    /// Returns the indices of the hinges that fold, in ascending order.
+    /// Returns the indices in [`Target::hinges`] of the hinges that fold, in ascending order.
     pub fn hinges(&self) -> Vec<usize> {
         let mut hinges: Vec<usize> = self.hinge.iter().copied().flatten().collect();
         hinges.sort_unstable();
         hinges
     }
 
-    /// Returns the layout with the hinge `added` instead of `dropped`, with the same root. Panics if `added` does not
-    /// join the two parts into which the layout falls without `dropped`, which must be one of its hinges.
+    /// Returns the layout with the hinge `added` instead of `dropped` (indices in [`Target::hinges`]), with the same
+    /// root. Panics if `added` does not join the two parts into which the layout falls without `dropped`.
     pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
         let hinges: Vec<usize> =
             self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();
         Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
     }
 
-    /// Returns the same tree rooted at another face. Panics if the target has no such face.
+    /// Returns the same tree rooted at the face `root`. Panics if the target has no such face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
 
-    /// Returns the paper's energy (Eq. 5) with the leaves folded first, N·m for steps of one second.
+    /// Returns the paper's energy (Eq. 5) with the leaves folded first, N·m for steps of one second: the sum over all
+    /// faces of what the hinges between them and the root cost for them.
     pub fn energy(&self, weights: &Weights) -> f64 {
         let mut sum = 0.0;
         for &face in &self.order {
@@ -107,7 +111,8 @@ impl Layout {
         sum
     }
 
-    /// Returns the depth of every face, by face: the number of hinges between it and the root.
+    /// Returns the depth of every face, in the order of [`Target::faces`]: the number of hinges between it and the
+    /// root.
     pub fn depths(&self) -> Vec<usize> {
         let mut depths = vec![0; self.parent.len()];
         for &face in &self.order[1..] {
@@ -116,8 +121,8 @@ impl Layout {
         depths
     }
 
-    /// Returns the height of every face, by face: the number of hinges between it and the farthest leaf below it; 0 for
-    /// a leaf. That of the root is the height of the tree.
+    /// Returns the height of every face, in the order of [`Target::faces`]: the number of hinges between it and the
+    /// farthest leaf below it; 0 for a leaf. That of the root is the height of the tree.
     pub fn heights(&self) -> Vec<usize> {
         let mut heights = vec![0; self.parent.len()];
         for &face in self.order[1..].iter().rev() {
@@ -146,7 +151,8 @@ impl Layout {
         }
     }
 
-    /// Returns the children of every face, by face, in ascending order; none for a leaf.
+    /// Returns the children of every face, in the order of [`Target::faces`], each list in ascending order; empty for
+    /// a leaf.
     pub fn children(&self) -> Vec<Vec<usize>> {
         let mut children = vec![Vec::new(); self.parent.len()];
         for (face, &parent) in self.parent.iter().enumerate() {

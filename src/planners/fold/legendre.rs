@@ -14,7 +14,7 @@ const SECTIONS: usize = 50;
 
 /// The points and weights of Gauss-Legendre quadrature, with the polynomials there.
 pub(super) struct Rule {
-    /// The points in -1..1.
+    /// The points in -1..1, the roots of the Legendre polynomial of degree [`TERMS`].
     pub points: [f64; TERMS],
     /// The contribution of a value at a point to a term, by term, then by point.
     terms: [[f64; TERMS]; TERMS],
@@ -48,7 +48,7 @@ impl Default for Rule {
 pub(super) struct Series([f64; TERMS]);
 
 impl Rule {
-    /// Returns the series of the function with these values at the points.
+    /// Returns the Legendre series of the function with these values at [`Rule::points`].
     pub(super) fn series(&self, values: &[f64; TERMS]) -> Series {
         Series(self.terms.map(|term| term.iter().zip(values).map(|(t, v)| t * v).sum()))
     }
@@ -69,7 +69,8 @@ impl Series {
         self.0[0] * (x + 1.0) + higher.sum::<f64>()
     }
 
-    /// Returns mean and peak of the absolute value over -1..1, by the integrals between the roots.
+    /// Returns mean and peak of the absolute value over -1..1, by the integrals between the roots. A pair of roots
+    /// nearer than 2/`SIGN_SAMPLES` may be missed.
     pub(super) fn size(&self) -> Size {
         let place = |i: usize| 2.0 * i as f64 / SIGN_SAMPLES as f64 - 1.0;
         let values: [f64; SIGN_SAMPLES + 1] = std::array::from_fn(|i| self.at(place(i)));

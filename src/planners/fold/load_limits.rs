@@ -15,7 +15,7 @@ const SAMPLES: usize = 12;
 /// The weights of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
-    /// The weight of each face, by face, N.
+    /// The weight of each face, in the order of [`Target::faces`], N.
     pub weights: Vec<f64>,
     /// The torque that a hinge holds, N·m; infinite where no limit is stated.
     pub torque: f64,
@@ -37,7 +37,7 @@ pub enum Violation {
     },
     /// The hinge of a face is overloaded.
     Overload {
-        /// The face that the hinge carries.
+        /// The index of the face in [`Target::faces`].
         face: usize,
         /// The absolute torque that the hinge would have to hold, N·m.
         torque: f64,
@@ -46,7 +46,8 @@ pub enum Violation {
 
 impl LoadLimits {
     /// Returns the first violation of a limit in the samples of a step; `None` if they show none. `folded`: for each
-    /// face, true if its hinge has folded before; `moving`: the faces whose hinges fold in the step.
+    /// face, in the order of [`Target::faces`], true if its hinge has folded before; `moving`: the faces whose hinges
+    /// fold from level in the step.
     pub fn violation(
         &self,
         target: &Target,

@@ -28,7 +28,7 @@ const EXCHANGES: u64 = 1_000_000;
 /// The options of [`search`].
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The faces that may be the root; at least one.
+    /// The faces that may be the root, indices in [`Target::faces`]; at least one.
     pub roots: Vec<usize>,
     /// True leaves out layouts whose patterns overlap in the plane.
     pub flat: bool,
@@ -45,7 +45,7 @@ pub struct Settings {
 /// over sets of faces give it, so that layouts that can't be among the best need not be made.
 #[derive(Clone, Copy, Debug)]
 pub struct BoundPrefilter {
-    /// The ratio of the first value to the greatest mean torque for steps of one second.
+    /// The ratio of the first value to the greatest mean torque for steps of one second, without unit.
     pub scale: f64,
     /// The greatest number of pairs of a layout and a root up to which all are enumerated.
     pub budget: u64,
@@ -54,7 +54,7 @@ pub struct BoundPrefilter {
 /// The result of [`search`]: the best layouts.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The best layouts with their values, the best first; empty if none was found that may be kept.
+    /// The best layouts with their two values, the best first; empty if none was found that may be kept.
     pub best: Vec<(Layout, [f64; 2])>,
     /// The number of pairs of a layout and a root whose first value is that of the best, up to ties. A local search
     /// counts a pair each time that it meets it.
@@ -68,8 +68,9 @@ pub struct Measured {
 }
 
 /// Searches the layouts of least value; `value` returns the two values of a layout, which are compared by the first,
-/// then by the second. Enumerates all pairs of a layout and a root where the budget reaches, in targets of at most
-/// [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange.
+/// then by the second. Enumerates all pairs of a layout and a root if there are no more than the budget, in targets of
+/// at most [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange. `weights`: the costs that
+/// symmetry, greedy trees and the prefilter are computed from.
 pub fn search(
     target: &Target,
     weights: &Weights,

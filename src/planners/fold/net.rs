@@ -16,7 +16,8 @@ pub struct Net {
     pub vertices: Vec<Point>,
     /// A face with which each vertex moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
-    /// The corners of each face of the target as indices in `vertices`, in the target's order.
+    /// For each face of the target, in its order, its corners as indices in `vertices`, in the order of
+    /// [`Target::faces`].
     pub faces: Vec<[usize; 3]>,
     /// The edges: first the hinges that fold, in the order of the layout's faces without the root, then the outline,
     /// face by face.
@@ -28,7 +29,8 @@ pub struct Net {
 pub struct Edge {
     /// The indices of its ends in [`Net::vertices`], in the direction in which its first face runs along it.
     pub vertices: [usize; 2],
-    /// The face on its left; for a hinge that is the parent, and the child on its right follows.
+    /// The faces of the target at the edge: the one on its left, which for a hinge is the parent, and for a hinge the
+    /// child on its right as the second.
     pub faces: Vec<usize>,
     /// The fold angle of a hinge of the layout in the target, rad; `None` for outline.
     pub angle: Option<f64>,
@@ -38,7 +40,7 @@ pub struct Edge {
 }
 
 impl Net {
-    /// Cuts the net of a layout; faces of it may overlap.
+    /// Cuts the net of a layout; faces of it may overlap in the plane.
     pub fn of(target: &Target, layout: &Layout) -> Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();
@@ -89,9 +91,9 @@ impl Net {
         }
     }
 
-    /// Returns the positions (m) of all vertices with the hinge of each face but the root at `angle(face)` (rad, 0 is
-    /// level), in the frame of the flat net: the root stays in the plane z = 0. `target` and `layout`: those that the
-    /// net was cut from.
+    /// Returns the positions (m) of all vertices, in the order of [`Net::vertices`], with the hinge of each face but
+    /// the root at `angle(face)` (rad, 0 is level), in the frame of the flat net: the root stays in the plane z = 0,
+    /// its outside up. `target` and `layout`: those that the net was cut from.
     pub fn vertices_at(&self, target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Vec3> {
         let X_TF = poses_at(target, layout, angle);
         let [a, b, _] = target.corners(layout.root);

@@ -95,7 +95,7 @@ pub struct Objective<'t> {
     /// The quantity that is minimised.
     pub minimise: Minimise,
     bodies: Vec<Body>,
-    /// The weights of the closed form, for steps of one second.
+    /// The weights of the closed form, N·m for steps of one second.
     pub weights: Weights,
 }
 
@@ -124,15 +124,15 @@ impl<'t> Objective<'t> {
         self.conventions.is_separable() && self.minimise == Minimise::PeakTorque
     }
 
-    /// Returns the prefilter by bounds for an objective that is a greatest sum, with a budget of at most `budget`
-    /// pairs of a layout and a root; `None` for other objectives.
+    /// Returns the prefilter by bounds for an objective that is a greatest sum ([`Objective::is_greatest_sum`]), with
+    /// a budget of at most `budget` pairs of a layout and a root; `None` for other objectives.
     pub fn prefilter(&self, budget: u64) -> Option<BoundPrefilter> {
         let most = budget.min(SUMMED_MAX / self.masses.len() as u64);
         self.is_greatest_sum().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
     }
 
-    /// Returns the energy and peak torque of a layout that folds in these steps: for each the faces whose hinges fold
-    /// at the same time, no two of them on one path from the root.
+    /// Returns the energy and peak torque of a layout that folds in these steps: each a list of the faces (indices in
+    /// [`Target::faces`]) whose hinges fold at the same time, no two of them on one path from the root.
     pub fn effort(&self, layout: &Layout, steps: &[Vec<usize>]) -> Effort {
         let Conventions { inertia, count, gravity, step } = self.conventions;
         if self.conventions.is_separable() {
@@ -166,14 +166,14 @@ impl<'t> Objective<'t> {
     }
 
     /// Returns the greatest number of pairs of a layout and a root whose energy and peak torque are computed: 1e7
-    /// divided by the number of faces, and 4e4 by it where each takes a simulation.
+    /// divided by the number of faces in closed form, 4e4 divided by it where each takes a simulation.
     pub fn measures_max(&self) -> u64 {
         let faces = self.masses.len() as u64;
         if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// Returns a lower bound for all layouts with these roots in the orders given: on the peak torque where that is
-    /// minimised, else on the energy; N·m; infinite without roots.
+    /// Returns a lower bound for all layouts with these roots (indices in [`Target::faces`]) in the orders given: on
+    /// the peak torque where that is minimised, else on the energy; N·m; infinite without roots.
     pub fn lower_bound(&self, roots: &[usize], orders: Orders) -> f64 {
         let bounds = match orders {
             Orders::LeavesFirst => self.leaves_first_bounds(roots),
@@ -215,7 +215,7 @@ impl<'t> Objective<'t> {
     }
 
     /// Returns the ratio of a hinge's peak torque for steps of the conventions' time to its mean torque for steps of
-    /// one second, which is the same for all hinges in the closed form.
+    /// one second, without unit, which is the same for all hinges in the closed form.
     pub fn peak_by_mean(&self) -> f64 {
         QUINTIC_ACCELERATION / QUINTIC / (self.conventions.step * self.conventions.step)
     }
@@ -248,8 +248,9 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// Returns the least number of steps of any layout with this root, or with any if `None`: the distance of the root
-    /// from the farthest face in hinges. Layouts that overlap or collide count, too.
+    /// Returns the least number of steps of any layout with this root (an index in [`Target::faces`]), or with any
+    /// root if `None`: the number of hinges between the root and the farthest face. Layouts that overlap or collide
+    /// count, too.
     pub fn fewest_steps(&self, root: Option<usize>) -> usize {
         let roots = root.map_or(0..self.masses.len(), |root| root..root + 1);
         roots.map(|root| self.radius(root)).min().unwrap_or(0)

@@ -10,6 +10,7 @@ const FACE_BYTES: usize = 48;
 
 /// A node of the search: the layouts of one root with some arcs left out.
 pub(super) struct Node {
+    /// The root of its layouts, an index in [`Target::faces`](super::target::Target::faces).
     pub(super) root: usize,
     /// The lower bound on the energy of its layouts, N·m for steps of one second.
     pub(super) bound: f64,
@@ -23,17 +24,18 @@ pub(super) struct Node {
 pub(super) struct NodePaths {
     /// The arcs that are not left out.
     pub(super) allowed: Allowed,
-    /// The shortest path to each face, from the face back to the root.
+    /// The shortest path to each face, by face: its arcs from the face back to the root.
     pub(super) paths: Vec<Rc<[Arc]>>,
-    /// The cost of each path, N·m for steps of one second.
+    /// The cost of each path, by face, N·m for steps of one second.
     pub(super) costs: Vec<f64>,
     /// The multipliers from which the next ascent begins.
     pub(super) multipliers: Rc<Multipliers>,
-    /// The length of the next step of an ascent, as a part of the gap.
+    /// The length of the next step of an ascent, without unit: the factor of Polyak's step.
     pub(super) length: f64,
     /// True while another ascent may raise the bound further.
     pub(super) rising: bool,
-    /// The number of paths that entered by each face and side at the end of the last ascent.
+    /// For each face and each of its sides 0 to 2, the number of paths that entered there at the end of the last
+    /// ascent.
     pub(super) uses: Vec<[u32; 3]>,
 }
 

@@ -51,8 +51,8 @@ impl Orders {
     }
 }
 
-/// Returns by root the lower bound on the energy of all layouts in these orders, N·m for steps of one second;
-/// `masses`: by face, kg.
+/// Returns for each root, by face, the lower bound on the energy of all layouts in these orders, N·m for steps of one
+/// second; `masses`: by face, kg.
 pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders: Orders) -> Vec<f64> {
     let faces = masses.len();
     let angles = least_angles(target);

@@ -21,7 +21,7 @@ const STEP_UNLIMITED: f64 = 1.0;
 pub struct Panel {
     /// The mass, kg.
     pub mass: f64,
-    /// The lengths of the sides in the order of the ports, counterclockwise seen from the front, m.
+    /// The lengths of the sides in the order of the module's ports, counterclockwise seen from the front, m.
     pub sides: [f64; 3],
     /// The thickness of a uniform plate of the same mass with the same second moment along its normal, m.
     pub thickness: f64,
@@ -100,8 +100,8 @@ impl Panel {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
 
-    /// Returns the panel with the lesser limits of its hinges and the greater thickness and `touch` of the two. Mass,
-    /// sides, `contact` and parts stay its own.
+    /// Returns the panel with the lesser limits of its hinges and the greater thickness and `touch` of the two; a
+    /// limit that only one states is kept. Mass, sides, `contact` and parts stay its own.
     pub fn weaker(self, other: &Panel) -> Panel {
         let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
         let able = law::MotionLimits {
@@ -178,7 +178,7 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 pub struct Panels {
     /// The module types and connectors that the panels are made of.
     pub library: Arc<Library>,
-    /// For each face, the index of its module type in the library.
+    /// For each face, in the order of the target's, the index of its module type in the modules of the library.
     pub kinds: Vec<usize>,
     /// The mass of each face, kg.
     pub masses: Vec<f64>,
@@ -191,11 +191,11 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// Reads the panels of all faces; `kinds`: by face, the index of its module type in the library. Panics if `kinds`
-    /// is empty, or an index is none of the library.
+    /// Reads the panels of all faces; `kinds`: for each face, in the order of the target's, the index of its module
+    /// type in the modules of the library. Panics if `kinds` is empty, or an index is none of the library.
     ///
     /// # Errors
-    /// The reason why the first module type that is no panel is none.
+    /// The reason for which the first module type that is no panel is none.
     pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
         let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
         for &kind in &kinds {

@@ -12,10 +12,10 @@ pub type Point = [f64; 2];
 /// and its first side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// The corners of each face, by face, m.
+    /// For each face of the target, in its order, the corners in the order of [`Target::faces`], m.
     pub corners: Vec<[Point; 3]>,
-    /// For each face, its cell on the triangular lattice, written as the sum of its corners ([`lattice_corners`]);
-    /// `None` if the sides are not all equal.
+    /// For each face, its cell on the triangular lattice, as the sum of its three [`lattice_corners`], which no two
+    /// cells share; `None` if the sides are not all equal.
     pub cells: Option<Vec<[i64; 2]>>,
 }
 
@@ -32,7 +32,8 @@ impl Pattern {
         if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }
 
-    /// Returns the pairs of faces whose interiors overlap, each with the lesser face first, in order.
+    /// Returns the pairs of faces (indices in [`Target::faces`]) whose interiors overlap, each with the lesser face
+    /// first, in ascending order.
     pub fn overlaps(&self) -> Vec<[usize; 2]> {
         match &self.cells {
             Some(cells) => same_cells(cells),
@@ -82,9 +83,9 @@ fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Returns the corners of all faces, by face, of a target whose sides are all equal, in whole numbers of the triangular
-/// lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1). They are exact: a face's free
-/// corner is the mirror image of its parent's, `a + b - c`.
+/// Returns the corners of all faces of a target whose sides are all equal, in the order of [`Target::faces`], as whole
+/// numbers of the triangular lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1). They
+/// are exact: a face's free corner is the mirror image of its parent's, `a + b - c`.
 pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
     corners[layout.root] = [[0, 0], [1, 0], [0, 1]];

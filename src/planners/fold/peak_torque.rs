@@ -23,7 +23,7 @@ use crate::interrupt;
 /// Rounds of the multiplicative-weights ascent over shares.
 const ROUNDS: usize = 400;
 
-/// The result for one root.
+/// The result of [`least`] for one root.
 pub(super) struct Least {
     /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second; `None` if none
     /// better than the known one was found.
@@ -32,7 +32,8 @@ pub(super) struct Least {
     pub bound: f64,
 }
 
-/// Searches the least greatest mean torque below `known`; `steps` counts down the faces that are assigned.
+/// Searches the layout with the root `root` (an index in [`Target::faces`]) of least greatest mean torque below
+/// `known`, N·m for steps of one second; `steps` counts down the faces that are assigned, and at 0 the search ends.
 pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
@@ -65,8 +66,8 @@ pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64,
     Least { layout: deal.best, bound }
 }
 
-/// Returns the lower bound on the greatest mean torque of layouts with this root that shares alone give, N·m for
-/// steps of one second.
+/// Returns the lower bound on the greatest mean torque of layouts with the root `root` (an index in [`Target::faces`])
+/// that the Lagrangian relaxation gives without a search, N·m for steps of one second.
 pub(super) fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
@@ -244,7 +245,8 @@ impl PartitionSearch<'_> {
     }
 }
 
-/// Returns by face the mean torque of its hinge with the leaves first, N·m for steps of one second.
+/// Returns the mean torque of the hinge of every face with the leaves first, by face, N·m for steps of one second; 0
+/// for the root.
 pub(super) fn carried(layout: &Layout, weights: &Weights) -> Vec<f64> {
     let mut sums = vec![0.0; layout.parent.len()];
     for &face in &layout.order {

@@ -22,7 +22,7 @@ const NEXT_BEST: u64 = 4;
 
 /// Layouts that may be the answer, with their values and bounds.
 pub(super) struct Proposals {
-    /// The best first; none that was passed over is better than those that follow.
+    /// The layouts proposed, the best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
     /// The settings of a search for the next best; `None` where there is no such search.
     pub next: Option<branch_and_bound::Settings>,
@@ -30,12 +30,12 @@ pub(super) struct Proposals {
     /// minimised, else on the energy; N·m. If branch and bound minimises the steps, it holds for the layouts that
     /// are no higher than the first.
     pub bound: f64,
-    /// The least value of any layout, also of those whose patterns overlap.
+    /// The least value of any layout, also of those whose patterns overlap; N·m, or steps if these are minimised.
     pub least: f64,
-    /// For each layout of the list: its value, and the one that decides ties; `None` unless the list is complete,
-    /// so that no layout that lies flat is left out before its last.
+    /// For each layout of `layouts`, its value and the one that decides ties; `None` unless the list is complete, so
+    /// that no layout that lies flat is left out before its last.
     pub values: Option<Vec<[f64; 2]>>,
-    /// The roots that are equally good.
+    /// The roots that are equally good, indices in the target's faces, ascending.
     pub ties: Vec<usize>,
     /// The number of pairs of a layout and a root that are known to be equally good.
     pub tied: u64,
@@ -48,8 +48,8 @@ impl Proposals {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
 
-    /// Returns the lower bound for all layouts that lie flat but those before `index` in the list: the least value from
-    /// there on, if the list is complete.
+    /// Returns the lower bound for all layouts that lie flat but those before `index` (from 0) in the list: the least
+    /// value from there on, if the list is complete, else [`Proposals::bound`]; N·m.
     pub(super) fn bound_from(&self, index: usize, minimise: Minimise) -> f64 {
         self.values.as_ref().map_or(self.bound, |values| least_from(values, index, minimise))
     }
@@ -95,7 +95,7 @@ impl Task<'_> {
         }
     }
 
-    /// Returns a value for steps of the call's time from one for steps of one second.
+    /// Returns a torque or an energy (N·m) for steps of the call's time from one for steps of one second.
     pub(super) fn scaled(&self, energy: f64) -> f64 {
         energy / (self.conventions.step * self.conventions.step)
     }

@@ -22,8 +22,9 @@ pub struct Sample {
     pub greatest: f64,
 }
 
-/// Compares the costs of `orders` random orders of a layout's faces with a reference cost; `takes` returns the cost of
-/// an order that was laid into steps by [`steps::of_order`]. The same `seed` gives the same orders.
+/// Compares the costs of `orders` random orders of a layout's faces with a reference cost. `takes` returns the cost of
+/// an order that was laid into steps by [`steps::of_order`], in the unit of `reference`. The same `seed` gives the
+/// same orders.
 pub fn sample(
     layout: &Layout,
     orders: u64,

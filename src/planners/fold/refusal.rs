@@ -109,7 +109,7 @@ pub enum Rejection {
     Meet {
         /// The two panels.
         faces: [usize; 2],
-        /// The step, from 0.
+        /// The index of the step, from 0.
         step: usize,
     },
     /// The judge's first failure.
@@ -134,7 +134,7 @@ pub struct BestPattern {
 pub struct TorqueNeed {
     /// The torque that the hinge has to hold, N·m.
     pub torque: f64,
-    /// The panel that the hinge carries, and its parent.
+    /// The face that the hinge carries, and its parent, as indices in [`Target::faces`](super::Target::faces).
     pub faces: [usize; 2],
 }
 

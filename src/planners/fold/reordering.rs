@@ -57,6 +57,7 @@ enum Evaluated {
 type Ended = Option<Option<Outcome>>;
 
 impl<'t> Reordering<'t> {
+    /// Sets up the search with its whole budget of samples; ground and hinges limit it if the call has gravity.
     pub(super) fn new(task: &'t Task<'t>) -> Reordering<'t> {
         let panel = &task.panels.weakest;
         let limits = (task.conventions.gravity != 0.0).then(|| LoadLimits {
@@ -69,7 +70,8 @@ impl<'t> Reordering<'t> {
         Reordering { task, limits, judged: 0, samples_left: PAIRS_MAX / (faces * faces) }
     }
 
-    /// Returns the best layout among those that are known or can be searched that folds in some order.
+    /// Returns the best layout among those that are known or can be searched that folds in some order and that the
+    /// judge lets through; `None` if none does within the budget.
     ///
     /// # Errors
     /// A reason that holds for every layout, as [`Task::judged`] says.
@@ -180,8 +182,8 @@ impl<'t> Reordering<'t> {
         Ok(evaluated)
     }
 
-    /// Returns the torque that hinges would have to hold under gravity for one of the layouts to fold, where an
-    /// order is found for stronger hinges only.
+    /// Returns the least torque that hinges would have to hold under gravity for one of the layouts to fold; `None`
+    /// without gravity, and if no order was found for stronger hinges either.
     ///
     /// # Errors
     /// [`Refusal::SequenceTooHigh`], as [`Task::steps`] says.

@@ -19,7 +19,8 @@ pub struct Report {
     pub layout: Layout,
     /// The number of layouts of the target, without regard to roots (Kirchhoff's theorem).
     pub layouts: BigInt,
-    /// The order of folding: the faces whose hinges fold at the same time, step by step.
+    /// The order of folding: for each step, in their order, the faces (indices in [`Target::faces`]) whose hinges fold
+    /// at the same time.
     pub steps: Vec<Vec<usize>>,
     /// The energy and the peak torque of the folding, N·m.
     pub effort: Effort,
@@ -37,7 +38,8 @@ pub struct Report {
     /// The minimised quantity divided by the least value found for any layout with the leaves first: 1 if nothing was
     /// given up, less if another order is better.
     pub price: f64,
-    /// The roots with which the best layouts proposed to the judge reach the least value, in order.
+    /// The roots with which the best layouts proposed to the judge reach the least value, as indices in
+    /// [`Target::faces`], ascending.
     pub ties: Vec<usize>,
     /// The number of pairs of a layout and a root that are known to reach that value; after a local search, a pair
     /// counts each time that it was met.
@@ -47,9 +49,10 @@ pub struct Report {
     pub lifting: f64,
     /// The lower bound on that work for all orders of the layout, at most `lifting`, J.
     pub lifting_bound: f64,
-    /// The faces whose hinges to their parents do not close (Eq. 1), in order; empty if no hinge radius was given.
+    /// The faces whose hinges to their parents do not close (Eq. 1), as indices in [`Target::faces`], ascending; empty
+    /// if no hinge radius was given.
     pub too_thick: Vec<usize>,
-    /// The mass of each face, kg.
+    /// The mass of each face, in the order of [`Target::faces`], kg.
     pub masses: Vec<f64>,
     /// The conventions under which the folding was measured.
     pub conventions: Conventions,
@@ -71,7 +74,8 @@ impl Report {
     }
 
     /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under
-    /// the same conventions (Sec. 5.3.2 of the paper).
+    /// the same conventions (Sec. 5.3.2 of the paper). The same `seed` gives the same orders; `progress` is told, but
+    /// can't end it.
     pub fn random_orders(&self, orders: u64, seed: u64, progress: &mut dyn Progress) -> Sample {
         let objective = Objective::new(&self.target, self.masses.clone(), self.conventions, self.minimise);
         let energy = |steps: &[Vec<usize>]| objective.effort(&self.layout, steps).energy;

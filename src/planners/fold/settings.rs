@@ -12,20 +12,21 @@ use crate::plan;
 pub struct Problem {
     /// The surface that is folded, m.
     pub target: Target,
-    /// The panel of each face.
+    /// The panels, one for each face of `target` in its order.
     pub panels: Panels,
-    /// The face that keeps its pose, the root; `None` lets the planner choose.
+    /// The face that keeps its pose, the root, as an index in [`Target::faces`]; `None` lets the planner choose.
     pub root: Option<usize>,
     /// Gravity towards the ground on which the root lies with its outside down, m/s²; 0 without gravity and
     /// ground.
     pub gravity: f64,
-    /// The layout as pairs of faces that share a hinge, a spanning tree in any order; `None` lets the planner choose.
+    /// The layout as pairs of faces (indices in [`Target::faces`]) that share a hinge, a spanning tree in any order;
+    /// `None` lets the planner choose.
     pub hinges: Option<Vec<[usize; 2]>>,
 }
 
 impl Problem {
-    /// Returns a problem without gravity whose root and layout the planner chooses. `panels` must be those of the faces
-    /// of `target`.
+    /// Returns a problem without gravity whose root and layout the planner chooses. `panels`: one for each face of
+    /// `target`, in its order.
     pub fn new(target: Target, panels: Panels) -> Problem {
         Problem { target, panels, root: None, gravity: 0.0, hinges: None }
     }

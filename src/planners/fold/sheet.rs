@@ -13,9 +13,9 @@ use std::sync::Arc;
 pub struct Sheet {
     /// The assembly: module k is the panel of face k; bond i joins face `layout.order[i + 1]` to its parent.
     pub assembly: Assembly,
-    /// For each bond, the joint of its hinge.
+    /// For each bond of the assembly, in their order, the joint of its hinge.
     pub joints: Vec<JointId>,
-    /// The state with all panels level and the root's panel at the origin.
+    /// The state with all panels level, all bonds closed, and the root's panel at the origin.
     pub flat: State,
 }
 
@@ -54,7 +54,8 @@ impl Sheet {
         Ok(Sheet { assembly, joints, flat })
     }
 
-    /// Returns the state in which every hinge is at its fold angle in the target and the root's panel at the origin.
+    /// Returns the state in which every hinge is at its fold angle in the target, all bonds are closed, and the root's
+    /// panel is at the origin. `target` and `layout`: those that the sheet was made from.
     pub fn folded(&self, target: &Target, layout: &Layout) -> State {
         let mut state = self.flat.clone();
         for (joint, face) in self.joints.iter().zip(&layout.order[1..]) {
@@ -63,15 +64,16 @@ impl Sheet {
         state
     }
 
-    /// Returns the joint of the hinge between a face and its parent. Panics for the root, which has none.
+    /// Returns the joint of the hinge between a face (an index in [`Target::faces`]) and its parent. Panics for the
+    /// root, which has none.
     pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
         let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
         self.joints[place - 1]
     }
 
-    /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces whose
-    /// hinges fold at the same time. Hinges that stay level get no action, steps without motion are left out, and all
-    /// actions have cause 0.
+    /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces (indices
+    /// in [`Target::faces`]) whose hinges fold at the same time. Hinges that stay level get no action, steps without
+    /// motion are left out, and all actions have cause 0. Panics if `order` names the root.
     pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
         let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
             let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));
@@ -83,7 +85,7 @@ impl Sheet {
     }
 }
 
-/// Returns the action that moves a joint to a position (rad) in a time (s) by the quintic law.
+/// Returns the action of cause 0 that moves a joint to a position (rad) in a time (s) by the quintic law.
 pub(crate) fn turn(joint: JointId, to: f64, time: f64) -> Node {
     let target = MoveTarget::To(to);
     action(Command::Move { joint, target, duration: Some(time), profile: Profile::Smooth })

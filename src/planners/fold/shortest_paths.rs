@@ -16,20 +16,20 @@ pub type Arc = u32;
 /// The sides across which each face may be entered, by face: bit k stands for side k.
 pub type Allowed = Vec<u8>;
 
-/// Returns the arc into a face across a side (0 to 2).
+/// Returns the arc into a face (an index in [`Target::faces`]) across a side (0 to 2).
 #[inline]
 pub fn arc(face: usize, side: usize) -> Arc {
     (3 * face + side) as Arc
 }
 
-/// Returns the face that an arc enters, and the side (0 to 2) of that face.
+/// Returns the face (an index in [`Target::faces`]) that an arc enters, and the side (0 to 2) of that face.
 #[inline]
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
 }
 
-/// Restricts `allowed` to layouts with an arc: its face is entered by it alone, and the arc back is removed. Panics if
-/// the side has no hinge.
+/// Restricts `allowed` to layouts with an arc: its face is entered by it alone, and the opposite arc is removed.
+/// Panics if the side has no hinge.
 pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     let (face, side) = head(an_arc);
     allowed[face] = 1 << side;
@@ -37,7 +37,7 @@ pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     allowed[back] &= !(1 << side);
 }
 
-/// Returns by face and side the number of paths, each a list of arcs, that enter there.
+/// Returns for each face and each of its sides 0 to 2 the number of paths that enter there; a path is a list of arcs.
 pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     let mut uses = vec![[0u32; 3]; target.faces.len()];
     for &an_arc in paths.iter().flat_map(|path| path.iter()) {
@@ -47,8 +47,8 @@ pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     uses
 }
 
-/// Returns the face other than the root with the most paths that enter by another arc than the commonest, on which a
-/// node is branched; of equal ones the first; `None` if all paths into each face agree. `uses`: as [`uses`] returns
+/// Returns the face to branch on: the one other than the root with the most paths that enter by another arc than the
+/// commonest, of equal ones that of least index; `None` if all paths into each face agree. `uses`: as [`uses`] returns
 /// them.
 pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     let dissent = |face: &usize| {
@@ -60,8 +60,8 @@ pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
     faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
 }
 
-/// Returns the layout that agreeing paths form. `paths`: by face, the arcs from the face back to the root. Panics if
-/// they form no tree.
+/// Returns the layout that agreeing paths form. `paths`: for each face in their order, its arcs from the face back to
+/// the root; the root's is empty. Panics if they form no tree.
 pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     let arcs = paths.iter().filter_map(|path| path.first());
     let hinge = |a: &Arc| {
@@ -138,8 +138,9 @@ impl<'t> ShortestPaths<'t> {
         routes
     }
 
-    /// Returns the lower bound on the energy of layouts with this root: the sum of the costs of the shortest paths to
-    /// all faces over all arcs, of any number of hinges; N·m for steps of one second.
+    /// Returns the lower bound on the energy of layouts with the root `root` (an index in [`Target::faces`]): the sum
+    /// of the costs of the shortest paths to all faces over all arcs, of any number of hinges; N·m for steps of one
+    /// second.
     pub fn bound(&self, root: usize) -> f64 {
         self.toward.iter().map(|toward| toward[root]).sum()
     }
@@ -166,10 +167,10 @@ impl<'t> ShortestPaths<'t> {
         }
     }
 
-    /// Returns the cheapest path from the root to `goal` over allowed arcs with at most `longest` hinges, with its
-    /// cost (N·m for steps of one second); `None` if there is none. The path is the list of its arcs from the goal
-    /// back to the root. The method is A*, whose heuristic is the cost over all arcs, or the Bellman-Ford algorithm
-    /// where `longest` is less than the number of faces.
+    /// Returns the cheapest path from the root to `goal` (both indices in [`Target::faces`]) over allowed arcs with at
+    /// most `longest` hinges, with its cost (N·m for steps of one second); `None` if there is none. The path is the
+    /// list of its arcs from the goal back to the root. The method is A*, whose heuristic is the cost over all arcs,
+    /// or the Bellman-Ford algorithm where `longest` is less than the number of faces.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);
@@ -254,7 +255,7 @@ impl<'t> ShortestPaths<'t> {
     }
 }
 
-/// Returns the face from which an arc comes. Panics if its side has no hinge.
+/// Returns the face (an index in [`Target::faces`]) from which an arc comes. Panics if its side has no hinge.
 #[inline]
 pub fn tail(target: &Target, arc: Arc) -> usize {
     let (face, side) = head(arc);

@@ -20,8 +20,8 @@ pub struct Circumstances {
 /// The torques of all hinges in a folding, as [`simulate`] computes them.
 #[derive(Clone, Debug)]
 pub struct Torques {
-    /// The mean and peak of the absolute torque of each hinge, N·m, by step, then by the face that the hinge carries;
-    /// those of the root are 0.
+    /// The mean and the peak of the absolute torque of each hinge, N·m: an entry for each step, in their order, with
+    /// an entry for each face, which is that of the hinge to its parent; those of the root are 0.
     pub steps: Vec<Vec<Size>>,
 }
 
@@ -39,8 +39,9 @@ pub enum Count {
 /// sign.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Simulates a folding in steps by inverse dynamics: in each step the hinges of its faces go from level to folded by
-/// the quintic law, and all others are locked. `bodies`: by face, one for each face.
+/// Simulates a folding in steps by inverse dynamics (Alg. 1): in each step the hinges of its faces go from level to
+/// folded by the quintic law, and all others are locked. `bodies`: one for each face, in the order of
+/// [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold.
 pub fn simulate(
     target: &Target,
     layout: &Layout,
@@ -103,8 +104,8 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Returns the energy (Eq. 5), N·m: the sum of the mean torques of the joints that count. `steps`: those that were
-    /// simulated.
+    /// Returns the energy (Eq. 5), N·m: the sum over all steps of the mean torques of the joints that count. `steps`:
+    /// those that were simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }

@@ -16,8 +16,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Makes an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted, of
-    /// which a bin is the part `TOLERANCES.energy_grain` wide.
+    /// Makes an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted, in
+    /// their unit; a bin is `TOLERANCES.energy_grain` of it wide.
     pub fn new(unit: f64) -> Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
@@ -34,8 +34,8 @@ impl Spectrum {
         }
     }
 
-    /// Returns the energies with their multiplicities, in ascending order. Energies nearer to the one before than
-    /// `TOLERANCES.tie` of the unit are one, with the least of them.
+    /// Returns the energies with their multiplicities, ascending by energy, in the unit of measurement of `unit`.
+    /// Energies nearer to the one before than `TOLERANCES.tie` of the unit are one, with the least of them.
     pub fn levels(&self) -> Vec<(f64, u64)> {
         let apart = (TOLERANCES.tie / TOLERANCES.energy_grain) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();

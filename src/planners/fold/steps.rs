@@ -3,15 +3,16 @@
 use super::layout::Layout;
 
 /// Returns the leaves-first order (Alg. 2): the hinges of the leaves fold first, then those of the faces that are
-/// leaves without them. One list of faces for each step, in ascending order; there are as many steps as the tree is
-/// high.
+/// leaves without them. The result has one list of faces (indices in the target) for each step, each ascending; there
+/// are as many steps as the tree is high.
 pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
     let heights = layout.heights();
     layered(layout, |face| heights[face])
 }
 
-/// Returns the root-first order: the hinges of the root's children fold first, then those of their children. One list
-/// of faces for each step, in ascending order; there are as many steps as the tree is high.
+/// Returns the root-first order: the hinges of the root's children fold first, then those of their children. The
+/// result has one list of faces (indices in the target) for each step, each ascending; there are as many steps as the
+/// tree is high.
 pub fn root_first(layout: &Layout) -> Vec<Vec<usize>> {
     let depths = layout.depths();
     layered(layout, |face| depths[face] - 1)
@@ -31,7 +32,7 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
 }
 
 /// Lays an order of faces into as few steps as keep its cost: a face folds one step after the last of the faces that
-/// precede it in the order and are above or below it in the tree. One list of faces for each step, in ascending order.
+/// precede it in the order and are above or below it in the tree. `order`: indices of faces in the target. The result
 ///
 /// This is the purpose of the paper's Alg. 3, which as printed puts all faces into one step, loses the last, and may
 /// let a face overtake another on its path.

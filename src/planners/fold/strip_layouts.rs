@@ -73,17 +73,18 @@ const IMPROVEMENT_SHARE: usize = 4;
 pub struct StripSearch<'t> {
     /// The surface that is folded.
     pub target: &'t Target,
-    /// The costs of its hinges, which the energy of a layout is the sum of.
+    /// The costs of its hinges for the faces that they carry; the energy of a layout is a sum of them.
     pub weights: &'t Weights,
     /// The panels with their thickness.
     pub solids: &'t Solids,
-    /// The faces that may be the root; at least one.
+    /// The faces that may be the root, indices in [`Target::faces`]; at least one.
     pub roots: &'t [usize],
     /// Layouts of little energy as further starts, the best first; two of them are used.
     pub cheap: &'t [Layout],
     /// The seed of random exchanges.
     pub seed: u64,
     /// The number of states of pairs of panels that may still be sampled; one of panels with thickness counts as four.
+    /// It goes down as [`StripSearch::layouts`] works.
     pub states_left: usize,
 }
 

@@ -21,13 +21,14 @@ type Triangle = [Vec3; 3];
 pub struct Collision {
     /// The index of the first step in which they collide, from 0.
     pub step: usize,
-    /// The two faces, the lesser first.
+    /// The two faces, as indices in [`Target::faces`], the lesser first.
     pub faces: [usize; 2],
 }
 
-/// Returns the first collision of panels without thickness in the samples of a layout that folds in steps; `shrunk`:
-/// the part by which triangles are shrunk towards their centroids, so that neighbours do not collide; `None` if no
-/// sample shows one.
+/// Returns the first collision of panels without thickness in the samples of a layout that folds in steps, each a list
+/// of faces (indices in [`Target::faces`]) whose hinges fold at the same time; `None` if no sample shows one.
+/// `shrunk`: the part, 0 to 1, by which triangles are shrunk towards their centroids, so that neighbours do not
+/// collide.
 pub fn first_collision(
     target: &Target,
     layout: &Layout,
@@ -53,8 +54,8 @@ pub struct Solids {
     pub touch: f64,
 }
 
-/// Returns the pairs of panels, the lesser face first, that penetrate each other by more than `touch` in the target
-/// itself, neighbours included.
+/// Returns the pairs of panels (indices in [`Target::faces`], the lesser first) that penetrate each other by more than
+/// `touch` in the target itself, neighbours included; ordered by the greater face, then by the lesser.
 pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     let parts = placed(target, solids);
     let reach = reach(target, &parts);
@@ -123,9 +124,9 @@ impl<'t> SweepCheck<'t> {
         SweepCheck { target, layout, form: Form::Solids(Solids { parts, touch: solids.touch }), reach }
     }
 
-    /// Returns two faces, the lesser first, that collide in a sample of a step in which the hinges of the faces
-    /// `moving` fold at the same time; `None` if no sample shows any. No face of `moving` may be above another;
-    /// `folded`: for each face, true if its hinge has folded before.
+    /// Returns two faces (indices in [`Target::faces`], the lesser first) that collide in a sample of a step in which
+    /// the hinges of the faces `moving` fold at the same time; `None` if no sample shows any. No face of `moving` may
+    /// be above another; `folded`: for each face, true if its hinge has folded before.
     pub fn pair_during(&self, folded: &[bool], moving: &[usize]) -> Option<[usize; 2]> {
         let against = moving_against(self.layout, moving);
         (1..=SAMPLES).find_map(|sample| {
@@ -134,9 +135,9 @@ impl<'t> SweepCheck<'t> {
         })
     }
 
-    /// Returns the pairs of faces, the lesser first, that collide in the samples of a layout that folds in steps, in
-    /// order; once more than `most` were met, no others are searched. `samples`: the number of states of each step, at
-    /// least 1.
+    /// Returns the pairs of faces (indices in [`Target::faces`], the lesser first) that collide in the samples of a
+    /// layout that folds in steps, ascending and each once; after more than `most` were met no others are searched.
+    /// `samples`: the number of states sampled of each step, at least 1.
     pub fn collisions(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
         let mut folded = vec![false; self.reach.len()];
         let mut met: Vec<[usize; 2]> = Vec::new();
@@ -202,8 +203,8 @@ struct State {
 }
 
 impl Solids {
-    /// Returns true if the panels of two faces penetrate each other by more than `touch`; `X_AB`: the pose of the frame
-    /// of the second's parts in that of the first's.
+    /// Returns true if the panels of two faces (indices in `parts`) penetrate each other by more than `touch`; `X_AB`:
+    /// the pose of the frame of the second's parts in that of the first's.
     pub fn meet(&self, [a, b]: [usize; 2], X_AB: &Pose) -> bool {
         let meet =
             |p: &Part, q: &Part| signed_distance_within(p, q, X_AB, None, -self.touch).distance < -self.touch;

@@ -25,7 +25,9 @@ const PAIRS: usize = 64;
 /// Exchanges per face after which the search ends.
 const MOVES: usize = 24;
 
-/// Searches a layout that lies flat; `steps` counts down the steps of the search. `None` where none was found.
+/// Searches a layout that lies flat, from one that need not, by exchanges of hinges, and lowers its energy; `steps`
+/// counts down the steps of the search. `None` if they are used up, or none was found in a number of rounds
+/// proportional to the faces.
 pub(super) fn without_overlaps(
     target: &Target,
     weights: &Weights,
@@ -75,13 +77,14 @@ impl<'t> TabuExchange<'t> {
         TabuExchange { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
-    /// Returns a random pair; `None` where there is none.
+    /// Returns one of the pairs at random; `None` if there are none.
     pub(super) fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
         pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
-    /// Returns a layout without one of the hinges `between`, chosen at random, and that hinge: another one that is not
-    /// tabu in this round joins the two parts. `None` if no such hinge does.
+    /// Returns a layout without one of the hinges `between` (indices in [`Target::hinges`], at least one), chosen at
+    /// random, and that hinge: another one that is not tabu in this round joins the two parts. `None` if no such hinge
+    /// does.
     pub(super) fn exchange(
         &mut self,
         now: &Layout,
@@ -98,7 +101,7 @@ impl<'t> TabuExchange<'t> {
         Some((now.exchanged(self.target, dropped, added), dropped))
     }
 
-    /// Makes a hinge tabu from a round on, for [`TABU`] rounds.
+    /// Makes a hinge (an index in [`Target::hinges`]) tabu up to and including round `round +` [`TABU`].
     pub(super) fn give_up(&mut self, hinge: usize, round: usize) {
         self.out_until[hinge] = round + TABU;
     }

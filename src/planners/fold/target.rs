@@ -13,11 +13,13 @@ pub const FACES_MAX: usize = 400;
 /// boundary.
 #[derive(Clone, Debug)]
 pub struct Target {
-    /// The corners of all faces in the frame of the target, m.
+    /// The positions of the corners of all faces in the frame of the target, m.
     pub vertices: Vec<Vec3>,
-    /// The corners of each face as indices in `vertices`, counterclockwise seen from outside.
+    /// The corners of each face as indices in `vertices`, counterclockwise seen from outside. The index of a face
+    /// here, from 0, names it in the whole planner.
     pub faces: Vec<[usize; 3]>,
-    /// The hinges, which are the edges of the dual graph, in order of the first face's index, then of its side.
+    /// The hinges, which are the edges of the dual graph, ascending by their first face's index, then by its side. The
+    /// index of a hinge here, from 0, names it in the whole planner.
     pub hinges: Vec<Hinge>,
     /// The index in `hinges` of the hinge at each side of each face; side `k` (0 to 2) runs from corner `k` to the
     /// next. `None` at the boundary of the mesh, and between faces of which neither has motors.
@@ -27,7 +29,7 @@ pub struct Target {
 /// A common edge of two faces, at which they can fold.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
-    /// The indices of the two faces.
+    /// The indices of the two faces in [`Target::faces`].
     pub faces: [usize; 2],
     /// The side (0 to 2) of each of the two faces at which the hinge lies.
     pub sides: [usize; 2],
@@ -43,7 +45,8 @@ pub struct Hinge {
 }
 
 impl Hinge {
-    /// Returns the face across the hinge from `face`, which must be one of its two faces.
+    /// Returns the face across the hinge from `face`, which must be one of its two faces; of any other index, the
+    /// first.
     #[inline]
     pub fn other(&self, face: usize) -> usize {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
@@ -114,14 +117,14 @@ impl Target {
         }
     }
 
-    /// Returns the lengths of a face's sides in their order, m.
+    /// Returns the lengths of a face's sides, m; entry k is that of side k, from corner k to the next.
     pub fn side_lengths(&self, face: usize) -> [f64; 3] {
         let corners = self.corners(face);
         [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
     }
 
     /// Returns the target without the hinges between two faces of which neither has motors. `driven`: for each face,
-    /// true if it has motors.
+    /// in the order of [`Target::faces`], true if it has motors. Panics if it has fewer entries than there are faces.
     ///
     /// # Errors
     /// [`Unfoldable::Undriven`] if the other hinges do not connect all faces.
@@ -135,7 +138,7 @@ impl Target {
         Ok(self)
     }
 
-    /// Returns the corners of a face in the frame of the target, m.
+    /// Returns the corners of a face in the frame of the target, m, counterclockwise seen from outside.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v])
     }
@@ -152,14 +155,15 @@ impl Target {
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// Returns the index of each hinge of a face with the face across it, in order of the sides.
+    /// Returns the hinges of a face in order of its sides, each as its index in [`Target::hinges`] with the index of
+    /// the face across it; sides without a hinge are left out.
     #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))
     }
 
-    /// Returns the index of the hinge between two faces; of several that at the first side of `a`; `None` if there is
-    /// none.
+    /// Returns the index in [`Target::hinges`] of the hinge between two faces, given by index; of several that at the
+    /// first side of `a`; `None` if there is none.
     pub fn hinge_between(&self, a: usize, b: usize) -> Option<usize> {
         self.around(a).find(|(_, other)| *other == b).map(|(hinge, _)| hinge)
     }

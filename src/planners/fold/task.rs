@@ -39,7 +39,7 @@ pub(super) struct Task<'p> {
     pub panels: &'p Panels,
     /// The conventions of torques and energy.
     pub conventions: Conventions,
-    /// The faces that may be the root.
+    /// The faces that may be the root, indices in [`Target::faces`], ascending.
     pub roots: Vec<usize>,
     /// The quantity that is minimised.
     pub objective: Objective<'p>,
@@ -51,7 +51,7 @@ pub(super) struct Outcome {
     pub solution: Solution<Judged>,
     /// The layout that folds.
     pub layout: Layout,
-    /// The faces that fold in each step.
+    /// For each step, in their order, the faces (indices in [`Target::faces`]) whose hinges fold in it.
     pub steps: Vec<Vec<usize>>,
 }
 
@@ -74,12 +74,13 @@ impl<'p> Task<'p> {
         Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective })
     }
 
-    /// Returns the weight of each face under standard gravity, N.
+    /// Returns the weight of each face under standard gravity, by face, N.
     pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
     }
 
-    /// Returns the order of a layout that the settings ask for, in steps.
+    /// Returns the order of a layout that the settings ask for: for each step the faces (indices in [`Target::faces`])
+    /// whose hinges fold in it.
     ///
     /// # Errors
     /// [`Refusal::SequenceTooHigh`] for the order of least energy in a high tree.
@@ -100,7 +101,8 @@ impl<'p> Task<'p> {
         })
     }
 
-    /// Returns the minimised quantity of a layout that folds in these steps.
+    /// Returns the minimised quantity of a layout that folds in these steps: energy or peak torque, N·m, or the number
+    /// of steps.
     pub(super) fn value(&self, layout: &Layout, steps: &[Vec<usize>]) -> f64 {
         let effort = self.objective.effort(layout, steps);
         match self.settings.minimise {

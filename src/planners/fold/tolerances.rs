@@ -66,7 +66,8 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// Returns true if a lower bound proves that nothing is better than a value by more than the part `proof` of it.
+    /// Returns true if a lower bound proves that nothing is better than `value` by more than the part `proof` of it;
+    /// both in one unit.
     pub fn prove(&self, value: f64, bound: f64) -> bool {
         bound >= value * (1.0 - self.proof)
     }

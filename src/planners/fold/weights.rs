@@ -13,7 +13,9 @@ use super::target::Target;
 /// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
 pub(super) const QUINTIC: f64 = 3.75;
 
-/// The cost of every hinge for carrying every face, its mean torque, N·m for steps of one second.
+/// The cost of every hinge for carrying every face: the mean absolute torque that the face adds while the hinge folds,
+/// N·m for steps of one second. Hinges and faces are given by their indices in [`Target::hinges`] and
+/// [`Target::faces`].
 #[derive(Clone, Debug)]
 pub struct Weights {
     faces: usize,
@@ -22,7 +24,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Computes the weights of a target; `masses`: by face, kg, one for each face.
+    /// Computes the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());
@@ -41,13 +43,16 @@ impl Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }
 
-    /// Returns the cost of `hinge` for carrying `face`, N·m for steps of one second.
+    /// Returns the cost of `hinge` for carrying `face`, N·m for steps of one second; indices in [`Target::hinges`] and
+    /// [`Target::faces`]. Panics if the target has no such hinge.
     #[inline]
     pub fn at(&self, hinge: usize, face: usize) -> f64 {
         self.table[hinge * self.faces + face]
     }
 
-    /// Returns the costs of a hinge for carrying each face, by face, N·m for steps of one second.
+    /// Returns the costs of the hinge of this index in [`Target::hinges`], N·m for steps of one second: entry k is
+    /// that for carrying face k of [`Target::faces`]. The hinge costs the same in both directions. Panics if the
+    /// target has no such hinge.
     pub fn of_hinge(&self, hinge: usize) -> &[f64] {
         &self.table[hinge * self.faces..][..self.faces]
     }
@@ -57,7 +62,8 @@ impl Weights {
         self.table.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Returns the weights with `extra[hinge]` added for every face.
+    /// Returns the weights with `extra[hinge]`, N·m for steps of one second, added to those of each hinge for every
+    /// face.
     pub(crate) fn perturbed(&self, extra: &[f64]) -> Weights {
         let table = self.table.iter().enumerate().map(|(i, w)| w + extra[i / self.faces]).collect();
         Weights { faces: self.faces, table }

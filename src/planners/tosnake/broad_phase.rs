@@ -13,8 +13,10 @@ pub fn pairs(poses: &[RigidTransform], reach: f64, found: &mut dyn FnMut(usize, 
     near_points(poses.len(), |index| poses[index].translation, reach, found);
 }
 
-/// Returns true if two shoes, given by index, are of one module or docked to each other, so that their balls touch at
-/// all times. `docked`: as by [`docked`].
+/// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are the two shoes of one
+/// module, or shoes docked to each other, so that they touch at all times; true also for one ball and itself.
+/// `docked`: the pairs as [`docked`] returns them, ascending with the smaller index first. Panics if an index is none
+/// of the tree.
 pub fn always_touch(tree: &Tree, a: usize, b: usize, docked: &[(usize, usize)]) -> bool {
     tree.shoe[a] / 2 == tree.shoe[b] / 2 || docked.binary_search(&(a.min(b), a.max(b))).is_ok()
 }

@@ -64,9 +64,12 @@ pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> 
     distance
 }
 
-/// Returns the moves from `start` (m) as node paths: each move in the least time that the struts allow, but no less
-/// than the law's shortest, with the margins of its end. `stands` as for [`margins`]. The strut has index 0 in the
-/// plan's library, and all causes are 0.
+/// Returns the moves from `start` as node paths: a keyframe for the start at time 0 s, then one for the end of each
+/// move, in the order of `moves`. Each move takes the least time that the struts' speed allows, but no less than the
+/// law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`].
+///
+/// `start`: the position of each node in the order of the problem's, m, in the world's frame. The strut's kind is
+/// taken to be at index 0 of the plan's library, and the cause of all keyframes is 0.
 pub fn node_paths(
     problem: &TrussProblem,
     truss: &Structure,

@@ -27,7 +27,7 @@ const CONSTRAINTS_REPORTED_MAX: usize = 4;
 pub struct TrussProblem {
     /// The kind of all struts: range of length, speed, clearance.
     pub strut: Strut,
-    /// A name for each node, for messages and the plan; as many as `nodes`.
+    /// A name for each node, for messages and the plan, in the order of `nodes` and as many.
     pub node_names: Vec<String>,
     /// The position of each node at the start, m.
     pub nodes: Vec<Vec3>,
@@ -135,7 +135,8 @@ impl fmt::Display for InvalidTruss {
 impl std::error::Error for InvalidTruss {}
 
 impl TrussProblem {
-    /// Returns the name of a strut, given by its index, from the names of its nodes: `a -- b`.
+    /// Returns the name of a strut, given by its index in [`TrussProblem::struts`], from the names of its nodes: `a --
+    /// b`. Panics if there is no such strut.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.node_names[a], self.node_names[b])
@@ -222,8 +223,11 @@ impl TrussProblem {
         Ok(())
     }
 
-    /// Returns the reason why there was no step in words: up to four constraints that blocked it, those of obstacles
-    /// and uneven ground first, for of a truss's own struts many are at some limit.
+    /// Returns the reason why there was no step in words for a message, such as `no step keeps all limits: a -- b is
+    /// near c -- d and 2 more`. It names up to four constraints that blocked the step, each once, in the order of the
+    /// error, those of obstacles and uneven ground first: a truss's own struts are often at some limit. Struts go by
+    /// the names of their nodes, obstacles and loops by numbers from 1. `truss`: the structure that the error came
+    /// from, made of this problem; a panic if it was made of another.
     pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
         let (why, constraints) = match error {
             StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),
@@ -246,7 +250,9 @@ impl TrussProblem {
         if reasons.is_empty() { why.to_string() } else { format!("{why}: {}{more}", reasons.join(", ")) }
     }
 
-    /// Returns an active constraint in words, such as `a -- b is at its least length`.
+    /// Returns an active constraint of `truss` in words for a message, such as `a -- b is at its least length`.
+    /// Obstacles and loops are numbered from 1. Panics if the constraint names a strut or node that this problem has
+    /// not.
     pub fn explain_constraint(&self, truss: &Structure, constraint: Constraint) -> String {
         let strut = |k: usize| self.strut_name(k);
         match constraint {
