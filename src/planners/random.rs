@@ -38,8 +38,8 @@ impl SplitMix64 {
         (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Permutes a list in place, every permutation equally likely up to the bias of [`below`](Self::below) (Fisher
-    /// and Yates).
+    /// Permutes a list in place (Fisher and Yates): every permutation is equally likely up to the bias of
+    /// [`below`](Self::below), as far as 64 bits of state can tell permutations apart.
     pub fn shuffle<T>(&mut self, list: &mut [T]) {
         for last in (1..list.len()).rev() {
             list.swap(last, self.below(last + 1));

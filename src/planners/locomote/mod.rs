@@ -63,17 +63,17 @@ pub struct Report {
     pub end: End,
     /// The reason why the motion ends in words, for a message.
     pub ended: String,
-    /// The number of points of the path that were reached.
+    /// The number of points of the path that were reached, of which it went to one after another.
     pub reached: usize,
     /// The length of the path of the centre of mass over the ground, m.
     pub distance: f64,
     /// The number of steps made, those included that were taken back because a roll after them was blocked.
     pub steps: usize,
-    /// The number of rolls made, likewise.
+    /// The number of rolls made, those included that were taken back.
     pub rolls: usize,
     /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,
-    /// The number of steps that were relaxed because no ordinary step was found, likewise.
+    /// The number of steps that were relaxed because no ordinary step was found, those included that were taken back.
     pub relaxed_steps: usize,
     /// The distance that nodes in contact slid over the ground in steps, summed over nodes, m.
     pub slip: f64,

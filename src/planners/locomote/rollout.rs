@@ -115,7 +115,7 @@ pub enum End {
 /// The motion that [`follow_path`] found, with the figures of the search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travel {
-    /// The moves, one after another.
+    /// The moves in order of time, from the positions given as the start.
     pub moves: Vec<Move>,
     /// The reason why there are no more moves.
     pub end: End,
@@ -123,7 +123,7 @@ pub struct Travel {
     pub reached: usize,
     /// The number of steps made, those included that were taken back because a roll after them was blocked.
     pub steps: usize,
-    /// The number of rolls made, likewise.
+    /// The number of rolls made, those included that were taken back.
     pub rolls: usize,
     /// The number of steps among them that were relaxed.
     pub relaxed_steps: usize,
@@ -272,6 +272,7 @@ pub(super) struct Rollout<'a> {
 
 impl Rollout<'_> {
     /// Continues for at most `steps` steps; returns the reason why the rollout ended, `None` if it may go on then.
+    /// Points of the path that are near enough are reached without a step.
     pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
         while let Some(place) = self.path.get(self.travel.reached) {

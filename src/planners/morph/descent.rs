@@ -37,10 +37,12 @@ pub struct Settings {
     pub sample_spacing: f64,
     /// The greatest displacement of a node in a step, units. 0.05: longer steps gain nothing.
     pub displacement_max: f64,
-    /// The weight of the mean squared strut length, relative to that of the mean squared distances, at the start and
-    /// from four fifths of the steps on; it falls geometrically in between. 3e-2 to 1e-6; both positive.
+    /// The weight of the mean squared strut length, relative to that of the mean squared distances, without unit: at
+    /// the start, and from four fifths of the steps on; it falls geometrically in between. 3e-2 to 1e-6; both
+    /// positive.
     pub springs: (f64, f64),
-    /// The weight of the mean squared displacement, likewise (Levenberg's damping). 1e-3.
+    /// The weight of the mean squared displacement, relative to that of the mean squared distances, without unit
+    /// (Levenberg's damping). 1e-3.
     pub damping: f64,
     /// The fraction of a squared distance that counts only across the surface (point to plane), so that
     /// points may slide along it. 0.9.
@@ -86,8 +88,8 @@ pub enum End {
 /// The motion that [`descend`] found.
 #[derive(Clone, Debug)]
 pub struct Descent {
-    /// The positions of all nodes after every step, m, up to the step that fits best by [`Distance::both`]; empty if
-    /// none fits better than the start.
+    /// The positions of all nodes after every step, m: one list for each step, in order, each by node, up to the step
+    /// that fits best by [`Distance::both`]; empty if none fits better than the start.
     pub steps: Vec<Vec<Vec3>>,
     /// The distances at the start, with the target in its final orientation.
     pub start: Distance,
@@ -97,9 +99,9 @@ pub struct Descent {
     pub end: End,
 }
 
-/// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the
-/// mean of the nodes. With orientations, each is screened for some steps, and the truss descends to the best. The truss
-/// must have nodes and struts.
+/// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the mean of the
+/// nodes. With [`Settings::orientations`], each is screened for some steps, and the truss descends to the best. The
+/// truss must have nodes and struts.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///

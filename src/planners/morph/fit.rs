@@ -71,8 +71,9 @@ pub(super) struct Fit {
     backward: Vec<Residual>,
 }
 
-/// Measures the fit of the outer triangles `faces` of nodes at `x`, m. `guesses` holds for each sample point
-/// the triangle that was closest last, and is updated.
+/// Measures the fit of the outer triangles `faces` (indices of nodes) with the nodes at `x`, m. `guesses` holds for
+/// each sample point of the target the index in `faces` of the triangle that was closest last, and is updated; it may
+/// be empty at first.
 pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
     let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
     let normals: Vec<Vec3> =

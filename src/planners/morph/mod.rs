@@ -100,7 +100,8 @@ pub enum Refusal {
     },
     /// The truss has no outer surface of triangles of struts.
     NoSurface {
-        /// The edges of its hull that do not lie between two triangles, as pairs of nodes.
+        /// The edges of its hull that do not lie between two triangles, as pairs of indices of nodes, the lesser
+        /// first.
         edges: Vec<(usize, usize)>,
     },
 }

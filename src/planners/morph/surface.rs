@@ -12,9 +12,9 @@ pub struct Open {
     pub edges: Vec<(usize, usize)>,
 }
 
-/// Returns the outer triangles of struts with the nodes at `x`, m, as indices of nodes, counter-clockwise as seen from
-/// outside: the boundary of the convex hull if struts triangulate it, else that of the union of the tetrahedra of
-/// struts.
+/// Returns the outer triangles of struts with the nodes at `x`, m, each as three indices of nodes, counter-clockwise
+/// as seen from outside: the boundary of the convex hull if struts triangulate it, else that of the union of the
+/// tetrahedra of struts.
 ///
 /// # Errors
 /// [`Open`] if neither boundary is closed.
@@ -100,9 +100,9 @@ fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
 /// The point of a surface that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoint {
-    /// The index of the triangle that it lies on.
+    /// The index in [`Surface::triangles`] of the triangle that it lies on.
     pub triangle: usize,
-    /// Its barycentric coordinates over the triangle's corners, which sum to 1.
+    /// Its barycentric coordinates over the triangle's corners in their order, which sum to 1.
     pub weights: [f64; 3],
     /// Its position, m.
     pub at: Vec3,
@@ -172,14 +172,15 @@ impl Surface {
         self.balls[at].after = self.balls.len();
     }
 
-    /// Returns the corners of all triangles in the order given, m.
+    /// Returns the corners of all triangles in the order given to [`Surface::new`], m.
     pub fn triangles(&self) -> &[[Vec3; 3]] {
         &self.corners
     }
 
-    /// Returns the point of the surface closest to `p`, m; of triangles equally near the first. The index of a
-    /// triangle that is known to be near may be given as a `guess` to prune the search. Panics if the surface has no
-    /// triangle, or none of that index.
+    /// Returns the point of the surface closest to `p`, m; of triangles equally near that of least index. The index in
+    /// [`Surface::triangles`] of a triangle that is known to be near may be given as a `guess` to prune the search,
+    /// `None` otherwise; the result does not depend on it. Panics if the surface has no triangle, or none of that
+    /// index.
     pub fn closest(&self, p: Vec3, guess: Option<usize>) -> ClosestPoint {
         let closest = |triangle: usize| {
             let weights = closest_weights(p, &self.corners[triangle]);

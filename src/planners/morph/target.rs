@@ -10,7 +10,7 @@ const POINTS_MAX: usize = 20_000;
 pub struct Target {
     /// The sample points, m.
     pub points: Vec<Vec3>,
-    /// The fraction of the surface that each point stands for; they add up to 1.
+    /// The fraction of the surface that each point stands for, in the order of `points`; they add up to 1.
     pub fractions: Vec<f64>,
     /// The surface; `None` for a cloud of points.
     pub surface: Option<Surface>,

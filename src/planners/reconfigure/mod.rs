@@ -1,7 +1,7 @@
 //! `reconfigure`: from one configuration of RoFI modules to another of as many, through the snake. Both are
 //! unwound by [`tosnake`], and the second plan is run backwards.
 //!
-//! With gravity one module is held fast all the time. Then the second robot has to be held by a shoe that
+//! With gravity one module is held fixed all the time. Then the second robot has to be held by a shoe that
 //! ends at the same position in the snake as the shoe by which the first is held.
 
 use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};

@@ -2,8 +2,8 @@
 
 use crate::planners::fold::Target;
 
-/// Returns the number of connected groups of the faces that are neither gone nor connected with any of the
-/// first.
+/// Returns the number of connected groups of the faces (indices in [`Target::faces`]) for which `gone` is false and
+/// which are not connected with any of the faces `first`.
 pub(super) fn groups(
     target: &Target,
     gone: impl Fn(usize) -> bool,

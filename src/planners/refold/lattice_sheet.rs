@@ -19,7 +19,7 @@ pub type Point = [i64; 2];
 /// The corners of a panel, counterclockwise: its side k runs from corner k to the next.
 pub type Corners = [Point; 3];
 
-/// A side of a panel: the index of the panel and the number of the side, 0 to 2.
+/// A side of a panel: the index of the panel, from 0, and the number of the side, 0 to 2.
 pub type Side = (usize, usize);
 
 /// The number of states of a stroke that are sampled in each direction.
@@ -40,11 +40,12 @@ pub struct Stroke {
     pub make: [Side; 2],
     /// The connection that is undone.
     pub cut: [Side; 2],
-    /// The panels that lie elsewhere after it, with their corners there.
+    /// The panels (indices) that lie elsewhere after it, with their corners there.
     pub moved: Vec<(usize, Corners)>,
 }
 
-/// Returns the name of a cell of the lattice, the sum of its corners: different cells have different names.
+/// Returns the name of a cell of the lattice by the corners of a panel on it: the sum of the corners, which no two
+/// cells share.
 pub fn cell(corners: &Corners) -> Point {
     [0, 1].map(|k| corners.iter().map(|c| c[k]).sum())
 }
@@ -70,7 +71,7 @@ pub fn bond(a: Side, b: Side) -> [Side; 2] {
 /// A sheet of panels on the triangular lattice, joined as a tree.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
-    /// The corners of each panel.
+    /// The corners of each panel, by its index.
     pub corners: Vec<Corners>,
     /// The panel on each cell that is covered, by the cell's name ([`cell`]).
     pub cells: BTreeMap<Point, usize>,
@@ -79,8 +80,8 @@ pub struct LatticeSheet {
 }
 
 impl LatticeSheet {
-    /// Makes a sheet of panels with these corners, which must be on different cells, joined by `bonds`, which must be a
-    /// tree of neighbours.
+    /// Makes a sheet of panels with these corners, by their index, which must be on different cells, joined by `bonds`
+    /// (as by [`bond`]), which must be a tree of neighbours.
     pub fn new(corners: Vec<Corners>, bonds: BTreeSet<[Side; 2]>) -> LatticeSheet {
         let cells = corners.iter().enumerate().map(|(panel, corners)| (cell(corners), panel)).collect();
         LatticeSheet { corners, cells, bonds }
@@ -95,7 +96,8 @@ impl LatticeSheet {
         Some((other, side))
     }
 
-    /// Returns the sides of a panel that are joined, in order, each with the side that it is joined to.
+    /// Returns the sides of a panel that are joined, ascending by the number of the side, each with the side that it
+    /// is joined to.
     pub fn joined(&self, panel: usize) -> impl Iterator<Item = (Side, Side)> + '_ {
         (0..3).filter_map(move |side| {
             let other = self.beside((panel, side))?;
@@ -103,7 +105,8 @@ impl LatticeSheet {
         })
     }
 
-    /// Returns the connections on the path between two panels, that at `to` first; none for the same panel.
+    /// Returns the connections on the path between two panels, given by index, that at `to` first; empty for the same
+    /// panel.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
         let mut queue = std::collections::VecDeque::from([from]);
@@ -200,7 +203,7 @@ impl LatticeSheet {
         }
     }
 
-    /// Returns the pairs of sides that lie at each other and are not joined, as by [`bond`], in order.
+    /// Returns the pairs of sides that lie at each other and are not joined, as by [`bond`], in ascending order.
     pub fn open(&self) -> Vec<[Side; 2]> {
         let sides = (0..self.corners.len()).flat_map(|panel| (0..3).map(move |side| (panel, side)));
         let pairs = sides.filter_map(|own| Some([own, self.beside(own)?]));
@@ -208,7 +211,8 @@ impl LatticeSheet {
     }
 
     /// Returns the stroke without folding that joins two sides that lie at each other and undoes one of the
-    /// connections of the ring that this closes: that of least `worth`. Panics for two sides of one panel.
+    /// connections of the ring that this closes: that of least `worth`; of equal ones that nearest to `make[1]`.
+    /// Panics for two sides of one panel.
     pub fn change(&self, make: [Side; 2], worth: impl Fn(&[Side; 2]) -> usize) -> Stroke {
         let ring = self.path(make[0].0, make[1].0);
         let cut = ring.into_iter().min_by_key(|bond| worth(bond)).expect("a tree joins any two");
@@ -228,8 +232,9 @@ impl LatticeSheet {
         }
     }
 
-    /// Returns true if no sample of a stroke shows a collision, while the fan closes and opens again; `solids`: by
-    /// panel; `side`: the length of the panels' sides, m. The panels that touch where the fan is closed may.
+    /// Returns true if no sample of a stroke of this sheet shows a collision, while the fan closes and opens again.
+    /// `solids`: by panel; `side`: the length of the panels' sides, m. The panels that touch where the fan is closed
+    /// may do so.
     pub fn is_free(&self, stroke: &Stroke, solids: &Solids, side: f64) -> bool {
         if stroke.fold.is_empty() {
             return true;

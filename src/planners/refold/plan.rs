@@ -32,7 +32,7 @@ pub struct Problem {
     pub from: Target,
     /// The shape at the end, m; its sides have the length of the first shape's.
     pub to: Target,
-    /// The panels, all of one type and equilateral.
+    /// The panels, one for each face, all of one type and equilateral.
     pub panels: Panels,
 }
 
@@ -63,7 +63,8 @@ pub struct Report {
     pub changes: usize,
     /// The lower bound on that number for all motions between the shapes.
     pub bound: usize,
-    /// For each panel, the face of the second shape that it becomes.
+    /// For each panel, in the order of the first shape's faces, the index of the face of the second shape that it
+    /// becomes.
     pub becomes: Vec<usize>,
     /// The energy of unfolding and folding with the leaves first, whatever the orders taken, without the changes in the
     /// plane, N·m.

@@ -18,14 +18,14 @@ const DISTANCE_WEIGHT: i64 = 2;
 pub struct Goal {
     /// The cells that it covers, each written as the sum of its corners ([`cell`]).
     pub cells: BTreeSet<Point>,
-    /// The pairs of such cells whose panels are joined, the lesser first: a tree.
+    /// The pairs of such cells whose panels are joined, as by [`pair`]: a tree.
     pub bonds: BTreeSet<[Point; 2]>,
 }
 
 /// The panels as solids, for collision samples.
 #[derive(Clone, Copy)]
 pub struct PanelSolids<'p> {
-    /// The collision parts of each panel.
+    /// The collision parts of each panel, by its index.
     pub solids: &'p Solids,
     /// The length of their sides, m.
     pub side: f64,
@@ -44,9 +44,9 @@ struct Node {
     strokes: i64,
 }
 
-/// Searches fewer than `most` strokes, free of collisions in their samples, that change one sheet into the other,
-/// over at most `steps` states taken from the queue. Returns the strokes and the sheet after them; `None` if none
-/// were found. No strokes are needed from a sheet that is the goal.
+/// Searches fewer than `most` strokes, free of collisions in their samples, that change one sheet into the other, by
+/// best-first search over at most `steps` states taken from the queue. Returns the strokes in order and the sheet
+/// after them; `None` if none were found. No strokes are needed from a sheet that is the goal.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,

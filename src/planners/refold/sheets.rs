@@ -38,16 +38,18 @@ pub struct Refolding {
     pub from: Layout,
     /// The layout of the second shape, numbered as its own faces.
     pub to: Layout,
-    /// For each panel, the face of the second shape that it becomes.
+    /// For each panel, in the order of the first shape's faces, the index of the face of the second shape that it
+    /// becomes.
     pub becomes: Vec<usize>,
-    /// For each panel, its turn (0 to 2): its side k becomes side (k + turn) mod 3 of that face.
+    /// For each panel, in the same order, its turn (0 to 2): its side k becomes side (k + turn) mod 3 of that face.
     pub turns: Vec<usize>,
     /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
-    /// Returns the same sheets and strokes with both layouts rooted at another panel; `from` and `to`: the two shapes.
+    /// Returns the same sheets and strokes with both layouts rooted at another panel, given by its index; `from` and
+    /// `to`: the two shapes. Panics if there is no such panel.
     pub fn rerooted(&self, from: &Target, to: &Target, panel: usize) -> Refolding {
         Refolding {
             from: self.from.rerooted(from, panel),
@@ -98,11 +100,12 @@ pub enum NoRefolding {
     },
 }
 
-/// Searches sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those
-/// with equally many changes; `solids`: by panel. All sides of both shapes must have one length.
+/// Searches sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those with
+/// equally many changes, least first; `solids`: by panel. All sides of both shapes must have one length.
 ///
 /// # Errors
-/// [`NoRefolding`] if the shapes differ in their number of faces, or no sheet was found.
+/// [`NoRefolding::Counts`] if the shapes differ in their number of faces, [`NoRefolding::Budget`] if no sheet was
+/// found.
 pub fn sheets(
     from: &Target,
     to: &Target,

@@ -5,17 +5,17 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` at site `i`, to a column along
-/// y.
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i, 0,
+/// 0), to a column of them along y; all cells keep their size.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn accordion(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     of_height(limits, count, rounded_root(count).max(1))
 }
 
-/// Returns the same motion through an array whose sides are both even, the squarest: mirror symmetry keeps its
-/// angular momentum at zero. `None` if the count has no such factors.
+/// Returns the same motion through an array whose sides are both even, the squarest: mirror symmetry keeps its angular
+/// momentum at zero. `None` if the count has no such factors; [`Refusal::TooLarge`] inside if a number does not fit.
 pub(super) fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Result<Motion, Refusal>> {
     let root = rounded_root(count);
     let even = |height: u64| count.is_multiple_of(height) && (count / height).is_multiple_of(2);
@@ -40,7 +40,8 @@ fn of_height(limits: PlanLimits, count: u64, height: u64) -> Result<Motion, Refu
     Ok(builder.motion())
 }
 
-/// Returns the index in the column of each cell at the end of [`accordion`].
+/// Returns for each of `count` cells, in their order, its index in the column (from 0, upwards) at the end of
+/// [`accordion`].
 pub(super) fn places_in_column(count: u64) -> Vec<u64> {
     let array = Array::new(count, rounded_root(count).max(1));
     (0..count).map(|i| array.index(i) as u64).collect()

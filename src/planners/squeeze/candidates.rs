@@ -22,7 +22,11 @@ pub(super) struct Candidate {
     pub motion: Motion,
 }
 
-/// Returns every motion that the constructions give, of one method or of all.
+/// Returns every motion from one shape to the other that the constructions give, of the method `wanted` or of all if
+/// that is [`Method::Auto`]; empty if none applies.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if a construction fails.
 pub(super) fn candidates(
     limits: PlanLimits,
     from: &Shape,

@@ -14,7 +14,8 @@ pub struct CellState {
 pub(super) const WHOLE: i64 = 4;
 
 impl CellState {
-    /// Returns the state of a cell of full size at a lattice site, in cell sizes: its lowest corner is there.
+    /// Returns the state of a cell of full size at the lattice site `place`: its lowest corner is at `place` times the
+    /// full size.
     pub fn whole(place: [i64; 3]) -> CellState {
         CellState { center: place.map(|x| WHOLE * x + WHOLE / 2), size: [WHOLE; 3] }
     }
@@ -25,7 +26,7 @@ impl CellState {
 pub struct Domain {
     /// The number of the first cell.
     pub first: u64,
-    /// The count and the stride of each counter, outermost first.
+    /// The count and the stride of each counter, outermost first; cells are numbered from 0.
     pub counters: Vec<(u64, i64)>,
 }
 
@@ -43,8 +44,8 @@ impl Domain {
     }
 }
 
-/// Returns the cells `lo..hi` in blocks whose numbers share all but their low bits, split by parity: on each
-/// block every function is affine that is a sum of functions of single bits and of the lowest.
+/// Returns the cells `lo..hi` in blocks whose numbers share all but their low bits, split by parity: on each block
+/// every function is affine that is a sum of functions of single bits and of the lowest.
 pub(super) fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     let mut domains = Vec::new();
     let mut at = lo;

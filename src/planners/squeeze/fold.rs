@@ -18,11 +18,11 @@ use super::ranks;
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` at site `i`, to a column along
-/// y. Cells must shrink to half their size.
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i, 0,
+/// 0), to a column along y, by the paper's folds (Lemmas 2 to 5). Cells must be able to shrink to half their size.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn fold(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     let folds = u64::BITS - (count - 1).leading_zeros();
     let mut builder = Builder::new(limits, count, &parts(count, 0), |i| whole(i, 0))?;
@@ -44,7 +44,7 @@ pub fn fold(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     Ok(builder.motion())
 }
 
-/// Returns the row of a cell before fold `k`.
+/// Returns the index, from 0, of the row in which cell `i` is before fold `k` (from 0).
 pub(super) fn row(i: u64, k: u32) -> u64 {
     let differing = if i & 1 == 1 { !i } else { i };
     // Bit 1 is the first, and the highest.

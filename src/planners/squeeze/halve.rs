@@ -9,12 +9,12 @@ use super::motion::{Motion, PlanLimits};
 const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
-/// Returns the motion from a box with the sides `from` along x, y, z, in cells, to one with the sides `to`; `None`
-/// unless they have as many cells and each pair of sides differs by a power of two. Cells are numbered along x first,
-/// then y.
+/// Returns the motion from a box with the sides `from` along x, y, z, in cells, to one with the sides `to`, by folds
+/// of boxes (Lemma 4 of the paper); `None` unless they have as many cells and each pair of sides differs by a power of
+/// two. Cells are numbered from 0, along x first, then y, then z.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn halve(limits: PlanLimits, from: [u64; 3], to: [u64; 3]) -> Option<Result<Motion, Refusal>> {
     let folds = folds(from, to)?;
     let mut positions: Vec<[i64; 3]> = Vec::new();

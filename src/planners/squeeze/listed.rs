@@ -13,17 +13,18 @@ pub(super) struct Listed {
 }
 
 impl Listed {
-    /// Begins at a configuration.
+    /// Begins at a configuration: the state of each cell, by number.
     pub(super) fn new(start: Vec<CellState>) -> Listed {
         Listed { start, stages: vec![] }
     }
 
-    /// Returns the last configuration.
+    /// Returns the last configuration: the state of each cell, by number.
     pub(super) fn last(&self) -> &[CellState] {
         self.stages.last().map_or(&self.start, |(_, states)| states)
     }
 
-    /// Appends a stage that takes each cell to the state that `change` makes of its last one.
+    /// Appends a stage that takes each cell to the state that `change`, called with its number and its last state,
+    /// makes of that.
     pub(super) fn stage(&mut self, name: &'static str, mut change: impl FnMut(usize, &mut CellState)) {
         crate::interrupt::checkpoint();
         let mut states = self.last().to_vec();
@@ -31,10 +32,11 @@ impl Listed {
         self.stages.push((name, states));
     }
 
-    /// Returns the motion between the configurations, cell `i` renumbered to `number[i]`.
+    /// Returns the motion between the configurations, in which cell `i` has the number `number[i]`, which must be a
+    /// permutation.
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub(super) fn into_motion(self, limits: PlanLimits, number: &[u64]) -> Result<Motion, Refusal> {
         let renumbered = |states: Vec<CellState>| {
             let mut new = states.clone();

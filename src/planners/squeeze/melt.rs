@@ -21,11 +21,12 @@ const X: usize = 0;
 const CONTRACT: [&str; 3] = ["swap x-contract", "swap y-contract", "swap z-contract"];
 const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 
-/// Returns the motion from a connected set of cells at these lattice sites, at least one, to a row along x, in which
-/// the cell at site `i` has the number `name(i)`, which must be a permutation. Cells must shrink to half their size.
+/// Returns the motion from a connected set of cells at these lattice sites, all different and at least one, to a row
+/// along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells must
+/// be able to shrink to half their size. After the planner of Rus and Vona for Crystalline robots, for single cells.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if cells do not melt.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if cells do not melt.
 pub fn melt(
     limits: PlanLimits,
     positions: &[[i64; 3]],

@@ -109,9 +109,11 @@ pub enum Norm {
 pub struct Problem {
     /// The kind of all cells; index 0 in the plan's library.
     pub cell: Cell,
-    /// The lattice sites of the cells at the start, in cell sizes: all different, and connected over faces.
+    /// The lattice sites of the cells at the start, in cell sizes, in any order: all different, and connected over
+    /// faces.
     pub start: Vec<[i64; 3]>,
-    /// The lattice sites of the cells at the end, likewise, as many, up to a translation.
+    /// The lattice sites of the cells at the end, in cell sizes, in any order: all different, connected over faces, as
+    /// many as at the start, and up to a translation.
     pub goal: Vec<[i64; 3]>,
 }
 
@@ -141,7 +143,7 @@ pub struct Report {
     pub balanced: bool,
     /// The reason for the method in words, for a message.
     pub why: String,
-    /// The name and duration (s) of each stage, in order.
+    /// The name and duration (s) of each stage, in the order of time.
     pub stages: Vec<(String, f64)>,
 }
 
@@ -157,7 +159,7 @@ pub enum Refusal {
     },
     /// The cells do not shrink to half their size, as every method but the accordion needs.
     Stiff {
-        /// The least size of a cell, as a part of its full size.
+        /// The least size of a cell, as a part of its full size, without unit.
         smallest: Ratio,
     },
     /// A shape is neither flat nor a box, and has too many cells to melt.

@@ -10,10 +10,10 @@ use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, S
 pub struct Motion {
     /// The number of cells.
     pub count: u64,
-    /// The configurations as arithmetic runs, in cell sizes relative to the centre of mass, which rests; one more than
-    /// there are transitions.
+    /// The configurations in order of time as arithmetic runs, in cell sizes relative to the centre of mass, which
+    /// rests; one more than there are transitions.
     pub configurations: Vec<Vec<Run>>,
-    /// The transitions from each configuration to the next.
+    /// The transitions, of which number `k` leads from configuration `k` to `k + 1`.
     pub transitions: Vec<Transition>,
 }
 
@@ -83,8 +83,11 @@ struct Displacements {
 }
 
 impl<'a> Builder<'a> {
-    /// Begins at a configuration: `place` must be affine on each of the domains, which together hold each of
-    /// `count` cells once.
+    /// Begins at a configuration: `place` returns the state of a cell by its number, from 0, and must be affine on
+    /// each of the domains, which together hold each of `count` cells once.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub(super) fn new(
         limits: PlanLimits,
         count: u64,
@@ -96,12 +99,13 @@ impl<'a> Builder<'a> {
         Ok(Builder { limits, motion, last: Box::new(place) })
     }
 
-    /// Appends a stage that takes each cell to `place`. On the domains both the last state and the next must be
-    /// affine; `relative_displacement` is the greatest distance (in quarters, along an axis) by which two cells move
-    /// against each other that stay in contact. A stage in which nothing moves is left out.
+    /// Appends a stage that takes each cell to the state that `place` returns for its number. On the domains both the
+    /// last state and the next must be affine; `relative_displacement` is the greatest distance (in quarters of a
+    /// cell, along an axis) by which two cells move against each other that stay in contact. A stage in which nothing
+    /// moves is left out.
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub(super) fn stage(
         &mut self,
         name: &'static str,
@@ -365,14 +369,16 @@ impl Motion {
         self
     }
 
-    /// Returns this motion, then another of as many cells, whose first configuration must be this one's last.
+    /// Returns this motion, then another of as many cells, whose first configuration must be this one's last, cell for
+    /// cell; that is not checked.
     pub fn then(mut self, next: Motion) -> Motion {
         self.configurations.extend(next.configurations.into_iter().skip(1));
         self.transitions.extend(next.transitions);
         self
     }
 
-    /// Returns the motion with its axes permuted: axis `k` (0 to 2) becomes axis `to[k]`.
+    /// Returns the motion with its axes permuted: what was along axis `k` (0 to 2 for x, y, z) is along axis `to[k]`.
+    /// `to` must be a permutation.
     pub fn turned(mut self, to: [usize; 3]) -> Motion {
         let turn = |ratios: [Ratio; 3]| {
             let mut turned = ratios;
@@ -409,7 +415,7 @@ impl Motion {
         }
     }
 
-    /// Returns the duration of all transitions together, in units of time.
+    /// Returns the duration of all transitions together, in units of time ([`Motion`]).
     pub fn duration(&self) -> f64 {
         self.transitions
             .iter()

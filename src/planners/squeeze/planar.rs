@@ -17,12 +17,12 @@ const X: usize = 0;
 const Y: usize = 1;
 const Z: usize = 2;
 
-/// Returns the motion from a connected set of cells at these lattice sites (x, y), at least one, to a row along x, in
-/// which the cell at site `i` has the number `name(i)`, which must be a permutation. Cells must shrink to half their
-/// size.
+/// Returns the motion from a connected set of cells at these lattice sites (x, y), all different and at least one, to
+/// a row along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells
+/// must be able to shrink to half their size; they move along z, too.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn to_row(
     limits: PlanLimits,
     positions: &[[i64; 2]],

@@ -6,8 +6,8 @@
 use super::domain::{Domain, by_bits};
 use std::collections::{BTreeMap, HashMap};
 
-/// Returns domains on which the indices in the column (and all that is affine in bits) are affine, and the
-/// index of each cell.
+/// Returns domains on which the indices in the column (and all that is affine in bits) are affine, and the index (from
+/// 0) in the column of each cell, by its number.
 pub(super) fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     let mut places = vec![0_i64; count as usize];
     let rows = (0..1 << folds).map(|row| cell_of(row, folds)).filter(|&cell| cell < count);

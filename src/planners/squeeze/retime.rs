@@ -5,9 +5,9 @@ use super::Refusal;
 use crate::plan::lattice::peak_forces;
 use crate::plan::{Law, Ratio, Stages};
 
-/// Slows stages down to a limit on contact forces, in units: forces fall with the square of time, so a stage
-/// whose greatest force is `f` takes `√(f / κ)` times as long under the limit `κ`. Two phases that pass their
-/// speed on are slowed down alike.
+/// Slows stages down so that contact forces stay below the limit `force`, in units of force (those in which a cell's
+/// limit is 1): forces fall with the square of time, so a stage whose greatest force is `f` takes `√(f / κ)` times as
+/// long under the limit `κ`. Two phases that pass their speed on are slowed down alike.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if forces can't be found.

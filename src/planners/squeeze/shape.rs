@@ -2,9 +2,9 @@
 
 /// The positions of cells, translated so that the lowest along each axis is 0, in order.
 pub(super) struct Shape {
-    /// The lattice sites, in cell sizes.
+    /// The lattice sites, in cell sizes, in ascending order of x, then y, then z.
     pub positions: Vec<[i64; 3]>,
-    /// The sides of the bounding box, in cells.
+    /// The sides of the bounding box along x, y, z, in cells.
     pub sides: [u64; 3],
 }
 
@@ -30,12 +30,12 @@ impl Shape {
         volume == Some(self.count())
     }
 
-    /// Returns true if the cells are a straight row along an axis; a lone cell is so along every axis.
+    /// Returns true if the cells are a straight row along an axis (0 to 2); a lone cell is so along every axis.
     pub(super) fn is_row_along(&self, axis: usize) -> bool {
         self.sides[axis] == self.count()
     }
 
-    /// Returns true if all cells are in one plane across an axis.
+    /// Returns true if all cells are in one plane across an axis (0 to 2).
     pub(super) fn is_flat_across(&self, axis: usize) -> bool {
         self.sides[axis] == 1
     }

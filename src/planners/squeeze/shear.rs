@@ -6,11 +6,12 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row of `count` cells along x, with cell `i` at site `i`, to a column along y, likewise.
-/// Cells must shrink to half their size.
+/// Returns the motion from a row of `count` cells along x, with cell `i` (from 0) at lattice site (i, 0, 0), to a
+/// column along y with cell `i` at (0, i, 0). It meets the lower bound on time and has angular momentum. Cells must be
+/// able to shrink to half their size.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn shear(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     let all: Vec<Domain> = Domain::new(0, &[(count, 1)]).into_iter().collect();
     let mut builder = Builder::new(limits, count, &all, |i| CellState::whole([i as i64, 0, 0]))?;

@@ -5,11 +5,12 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which
-/// cell `i` is at site `i`.
+/// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which cell
+/// `i` (from 0) is at site `i`. In the box the cells are numbered to and fro: along x, then along z, then along y.
+/// They keep their size.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub fn unroll(limits: PlanLimits, sides: [u64; 3]) -> Result<Motion, Refusal> {
     let [a, b, c] = sides;
     let (count, domains) = (a * b * c, domains(sides));

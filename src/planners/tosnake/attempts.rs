@@ -16,25 +16,28 @@ use std::thread;
 
 /// An attempt with its random numbers.
 pub(super) struct Job<'a> {
+    /// The attempt at one pair.
     pub(super) attempt: Attempt<'a>,
+    /// The generator at the state that it would have if all jobs before had been done in turn.
     pub(super) rng: SplitMix64,
 }
 
 /// The result of a job.
 pub(super) struct Done {
-    /// The index of the job.
+    /// The index of the job in the list given, from 0.
     pub(super) job: usize,
     /// The path found, or `None`; see [`Attempt::path`].
     pub(super) path: Option<Vec<Joints>>,
-    /// Forward kinematics evaluated.
+    /// The number of forward kinematics of the whole robot that were evaluated.
     pub(super) work: u64,
 }
 
 /// The number of jobs done before threads start: the first often succeeds.
 const SEQUENTIAL_JOBS: usize = 1;
 
-/// Does jobs and calls `take` with their results, in the order of the jobs, until it returns true. With more
-/// than one thread the robot must float, for loads are noted in the state.
+/// Does jobs and calls `take` with their results, in the order of `jobs`, until it returns true or all are done.
+/// `threads`: the greatest number of threads that work at once. With more than one thread the robot must float, for
+/// loads are noted in the state.
 pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Done) -> bool) {
     let (tree, docked, here) = (&state.tree, &state.docked, &state.robot.joints);
     let done = |job: usize, scene: &Scene| {

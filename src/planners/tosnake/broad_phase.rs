@@ -6,9 +6,9 @@ use super::tree::Tree;
 use crate::geometry::RigidTransform;
 use crate::geometry::broad_phase::near_points;
 
-/// Calls `found` with every pair of indices of balls whose centres are nearer than `reach`, the smaller index first,
-/// and with the squared distance of the centres, in the order of [`near_points`]. `poses`: by index of the tree;
-/// lengths in pitches.
+/// Calls `found` with every pair of balls whose centres are nearer than `reach`: their indices in `poses`, the smaller
+/// first, and the squared distance of the centres. The order of the pairs is that of [`near_points`]. `poses`: of the
+/// shoes, in the tree's order ([`Tree::shoe`]); lengths in pitches.
 pub fn pairs(poses: &[RigidTransform], reach: f64, found: &mut dyn FnMut(usize, usize, f64)) {
     near_points(poses.len(), |index| poses[index].translation, reach, found);
 }
@@ -21,8 +21,8 @@ pub fn always_touch(tree: &Tree, a: usize, b: usize, docked: &[(usize, usize)]) 
     tree.shoe[a] / 2 == tree.shoe[b] / 2 || docked.binary_search(&(a.min(b), a.max(b))).is_ok()
 }
 
-/// Returns the pairs of indices of the tree whose shoes are docked to each other by closed bonds, the smaller first, in
-/// ascending order.
+/// Returns the pairs of shoes docked to each other by closed bonds, as indices in the tree's order ([`Tree::shoe`]),
+/// the smaller first, in ascending order.
 pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
     let mut all: Vec<(usize, usize)> = robot
         .held()
@@ -35,8 +35,9 @@ pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
     all
 }
 
-/// Returns the least distance of the centres of two balls that do not touch by design; infinite if none are nearer than
-/// `reach`. `docked`: as by [`docked`]; `poses`: by index of the tree; lengths in pitches.
+/// Returns the least distance of the centres of two balls that do not touch by design; infinite if none are nearer
+/// than `reach`. `docked`: as by [`docked`]; `poses`: of the shoes, in the tree's order ([`Tree::shoe`]); lengths in
+/// pitches.
 pub fn least_distance(tree: &Tree, docked: &[(usize, usize)], poses: &[RigidTransform], reach: f64) -> f64 {
     let mut least = f64::INFINITY;
     pairs(poses, reach, &mut |a, b, squared| {

@@ -10,7 +10,9 @@ use crate::planners::random::SplitMix64;
 
 /// Pairs that come together in one step, and the joint positions at its end.
 pub(super) struct ConcurrentMerges {
+    /// The pairs that come together, in the order in which they were added.
     pub(super) pairs: Vec<Pair>,
+    /// The positions of all joints at the end of the step, by module, rad.
     pub(super) joints: Joints,
 }
 
@@ -22,8 +24,9 @@ const FAILURES_MAX: usize = 4;
 const START_SPREAD: f64 = 0.02;
 
 impl ConcurrentMerges {
-    /// Adds further pairs, in their order, until there are [`Settings::concurrent_merges_max`]. `tried` counts
-    /// attempts and `work` forward kinematics.
+    /// Adds further pairs that are independent of those there, in their order, until there are
+    /// [`Settings::concurrent_merges_max`] or several in turn failed. `tried` counts attempts and `work` forward
+    /// kinematics.
     pub(super) fn extended(
         mut self,
         state: &State,

@@ -9,8 +9,8 @@ use crate::robot::{Assembly, Kinematics, PortRef, State};
 /// The names of alpha, beta and gamma in the library's module, in the order of [`Robot::joints`].
 pub const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
-/// Returns the configuration of a RoFI file, with joints in radians and all bonds closed. Docks of edges must name
-/// modules by their indices in the file.
+/// Returns the configuration of a RoFI file, with joints in radians and all bonds closed; modules and bonds keep their
+/// order. Docks of edges must name modules by their indices in the file, from 0.
 pub fn from_world(world: &rofi::World) -> Robot {
     let dock = |dock: &rofi::Dock| {
         let index = (0..DOCKS).find(|&index| port_name(dock.module, index) == dock.port());
@@ -24,7 +24,7 @@ pub fn from_world(world: &rofi::World) -> Robot {
 }
 
 /// Returns the configuration as a RoFI file states it, with joints in degrees, rounded to a billionth of one, and
-/// without open bonds.
+/// without open bonds. The identifier of a module is its index, from 0, and all line numbers are 0.
 pub fn to_world(robot: &Robot) -> rofi::World {
     let joints = |q: &[f64; 3]| q.map(|angle| libm::round(angle.to_degrees() * DEGREE_PARTS) / DEGREE_PARTS);
     let module = |(id, q): (usize, &[f64; 3])| rofi::Module { id: id as u64, joints: joints(q), line: 0 };
@@ -45,8 +45,9 @@ const DEGREE_PARTS: f64 = 1e9;
 
 /// An assembly of RoFI modules beside the planner's robot.
 pub(super) struct Translated<'a> {
+    /// The assembly that was translated.
     pub(super) assembly: &'a Assembly,
-    /// The assembly's indices of alpha, beta and gamma of each module.
+    /// The indices in the assembly's joints of alpha, beta and gamma of each module, by module.
     pub(super) joints: Vec<[usize; 3]>,
     /// The planner's robot; its bonds are those of the assembly, in order.
     pub(super) robot: Robot,
@@ -93,8 +94,8 @@ fn dock_of(assembly: &Assembly, port: PortRef) -> Option<Dock> {
         .map(|dock| Dock { module: port.module, dock })
 }
 
-/// Returns the name of a dock's port in the library's module, such as `a_plus_x`; `dock`: 0 to 5 as in [`Dock::dock`],
-/// others panic. The name is the same for every `module`.
+/// Returns the name of a dock's port in the library's module, such as `a_plus_x`. `dock`: 0 to 5 as in [`Dock::dock`];
+/// any other is a panic. The name does not depend on `module`.
 pub fn port_name(module: usize, dock: usize) -> &'static str {
     let sides = [rofi::Side::A, rofi::Side::B];
     let faces = [rofi::Face::PlusX, rofi::Face::MinusX, rofi::Face::MinusZ];

@@ -22,8 +22,8 @@ pub struct Problem<'a> {
     pub robot: &'a Assembly,
     /// Its start: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub start: &'a State,
-    /// The world. With gravity the base module is held fast, and no joint exceeds its torque limit;
-    /// without gravity the robot floats.
+    /// The world. With gravity the base module is held fixed, and no joint may exceed its torque limit; without
+    /// gravity the robot floats.
     pub world: World,
 }
 
@@ -36,9 +36,11 @@ pub struct Report {
     pub undocks: usize,
     /// Joint travel: the sum of the absolute angles of all turns of all joints, rad.
     pub joint_travel: f64,
-    /// The number of attempts to bring a pair of ends together; that of the search that the cache kept, if it was used.
+    /// The number of attempts to bring a pair of ends together; if the steps come from the cache, those of the search
+    /// that found them.
     pub tried: u64,
-    /// The number of forward kinematics of the whole robot that were evaluated; likewise.
+    /// The number of forward kinematics of the whole robot that were evaluated; if the steps come from the cache,
+    /// those of the search that found them.
     pub work: u64,
     /// The number of actions of the program.
     pub actions: u64,
@@ -135,7 +137,10 @@ impl<'a> Task<'a> {
         &self.translated.robot
     }
 
-    /// Searches for the steps to the snake, unless the cache has them.
+    /// Searches for the steps to the snake, unless the cache has them; stores what it finds there.
+    ///
+    /// # Errors
+    /// As [`search::unwind`](super::search::unwind); nothing is stored then.
     pub(crate) fn search(
         &self,
         settings: &Settings,
@@ -153,7 +158,10 @@ impl<'a> Task<'a> {
         Ok(found)
     }
 
-    /// Schedules a step sequence as a motion.
+    /// Schedules a step sequence as a motion; all its causes are 0.
+    ///
+    /// # Errors
+    /// [`Refusal::Schedule`] if the steps can't be scheduled.
     pub(crate) fn solution(&self, found: &StepSequence) -> Result<Solution<Report>, Refusal> {
         let Problem { robot, start, .. } = self.problem;
         let scheduled = behavior::schedule(behavior::Problem {

@@ -7,15 +7,15 @@ use crate::geometry::{RigidTransform, Vec3};
 /// A gravity model: the shoe by which the robot is held, its weights, and the torque limits of its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GravityModel {
-    /// The shoe that is held fast: twice the module, plus one for shoe B.
+    /// The shoe that is held fixed: twice the index of its module, plus one for shoe B.
     pub held: usize,
-    /// The module near which loops stay closed: they are opened far from it.
+    /// The index of the module near which loops stay closed: they are opened far from it.
     pub root: usize,
     /// Unit vector of gravity in the frame of the shoe that is held.
     pub down: Vec3,
-    /// The weight of each shoe at its centre, N.
+    /// The weight of each shoe at its centre, N; at index `2 * module`, plus one for shoe B.
     pub shoes: Vec<f64>,
-    /// The torque limits of alpha, beta and gamma of each module, N times the pitch; infinite if none is
+    /// The torque limits of alpha, beta and gamma of each module, by module, N times the pitch; infinite if none is
     /// stated.
     pub limits: Vec<[f64; 3]>,
 }
@@ -25,7 +25,8 @@ pub struct GravityModel {
 pub struct JointLoad {
     /// The index of the module.
     pub module: usize,
-    /// The joint: [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or [`GAMMA`](super::robot::GAMMA).
+    /// The joint of the module, 0 to 2: [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or
+    /// [`GAMMA`](super::robot::GAMMA).
     pub joint: usize,
     /// The absolute torque divided by the torque limit; 0 without a limit. Above 1 the joint is overloaded.
     pub ratio: f64,
@@ -41,15 +42,17 @@ impl JointLoad {
 }
 
 impl GravityModel {
-    /// Returns the greatest load of a joint, that of joint 0 of module 0 with ratio 0 if no joint bears anything;
-    /// `poses`: in pitches, by index of the tree. Bonds that close loops are taken to carry nothing.
+    /// Returns the greatest load of a joint, that of joint 0 of module 0 with ratio 0 if no joint bears anything.
+    /// `poses`: of the shoes, in the tree's order ([`Tree::shoe`]), in pitches. Bonds that close loops are taken to
+    /// carry nothing.
     pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> JointLoad {
         self.loads(tree, poses).into_iter().fold(JointLoad::NONE, JointLoad::greater)
     }
 
-    /// Returns the loads of all joints, in the order of [`Tree::all_joints`]; `poses`: in pitches, by index of the
-    /// tree. The torque of a joint is `axis · ((m - w · point) × down)`, with the weight w and its first moment m of
-    /// all shoes that the joint carries. Both are differences of prefix sums, for subtrees are ranges of indices.
+    /// Returns the loads of all joints, in the order of [`Tree::all_joints`]. `poses`: of the shoes, in the tree's
+    /// order ([`Tree::shoe`]), in pitches. The torque of a joint is `axis · ((m - w · point) × down)`, with the weight
+    /// w and its first moment m of all shoes that the joint carries. Both are differences of prefix sums, for subtrees
+    /// are ranges of indices.
     pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<JointLoad> {
         let held = tree.index[self.held];
         let down = poses[held].rotation * self.down;

@@ -86,12 +86,12 @@ impl Default for Settings {
 
 /// A kinematic loop that is to be closed, seen from its first dock.
 pub struct Loop {
-    /// Index in the tree of the shoe of the first dock.
+    /// Index in the tree's order ([`Tree::shoe`]) of the shoe of the first dock.
     pub from: usize,
-    /// Index in the tree of the shoe of the second dock.
+    /// Index in the tree's order ([`Tree::shoe`]) of the shoe of the second dock.
     pub to: usize,
-    /// The joints between them, each with the sign (1 or -1) with which its turn moves the second dock relative to the
-    /// first.
+    /// The joints between them, from the first dock to the second, each with the sign (1 or -1) with which its turn
+    /// moves the second dock relative to the first.
     pub joints: Vec<(JointRef, f64)>,
 }
 
@@ -135,10 +135,10 @@ pub struct LoopClosure<'a> {
 }
 
 impl LoopClosure<'_> {
-    /// Closes the loop from the joint positions `start` (rad, by module). Returns all postures of the descent, `start`
-    /// first, the last of which is closed and without overlap; `None` if it does not converge. `initial_bias` holds a
-    /// step of each joint (rad, indexed by three times the module plus the joint) that the first iterations prefer; it
-    /// may be empty. `work` counts forward kinematics.
+    /// Closes the loop from the joint positions `start` (rad, by module). Returns all postures of the descent, each by
+    /// module in rad, `start` first, the last of which is closed and without overlap; `None` if it does not converge.
+    /// `initial_bias` holds a step of each joint (rad, at index three times the module plus the joint) that the first
+    /// iterations prefer; it may be empty. `work` counts forward kinematics.
     pub fn solve(&self, start: &[[f64; 3]], initial_bias: &[f64], work: &mut u64) -> Option<Vec<Joints>> {
         let LoopClosure { scene, lp, mode, settings } = *self;
         let tree = scene.tree;
@@ -193,7 +193,8 @@ fn range(joint: usize) -> (f64, f64) {
     if joint == GAMMA { (f64::NEG_INFINITY, f64::INFINITY) } else { (-FRAC_PI_2, FRAC_PI_2) }
 }
 
-/// Returns the position nearest to `q` (rad) in the range of a joint: ±π/2 for tilts, any for gamma.
+/// Returns the position nearest to `q` (rad) in the range of a joint: ±π/2 for tilts, any for gamma. `joint`: 0 to 2
+/// as in [`Robot::joints`](super::robot::Robot::joints).
 pub fn clamped(joint: usize, q: f64) -> f64 {
     let (low, high) = range(joint);
     q.clamp(low, high)

@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Two free docks -Z at the ends of different chains.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
-    /// The dock -Z of the shoe with the smaller number.
+    /// The dock -Z of the shoe with the smaller number ([`Dock::shoe`]).
     pub a: Dock,
-    /// The dock -Z of the shoe with the greater number.
+    /// The dock -Z of the shoe with the greater number ([`Dock::shoe`]).
     pub b: Dock,
     /// Number of modules between them whose joints can bend the loop.
     pub length: usize,
@@ -25,7 +25,8 @@ pub struct Pair {
     pub cost: f64,
 }
 
-/// Returns all pairs of free ends of different chains, the most promising first.
+/// Returns all pairs of free docks -Z at the ends of different chains with their estimated costs, the most promising
+/// first; of equal costs in order of their docks.
 pub fn pairs(state: &State) -> Vec<Pair> {
     let densities = local_density(state);
     let pair = |[a, b]: [Dock; 2]| {
@@ -44,7 +45,8 @@ pub fn pairs(state: &State) -> Vec<Pair> {
     pairs
 }
 
-/// Returns all pairs of free ends of different chains, in order of their shoes.
+/// Returns all pairs of free docks -Z at the ends of different chains, ascending by the numbers of their shoes
+/// ([`Dock::shoe`]), of which the first in a pair is the smaller.
 pub fn free_ends(state: &State) -> Vec<[Dock; 2]> {
     let at = state.robot.bond_at();
     let chains = state.chains();
@@ -134,7 +136,7 @@ pub struct Attempt<'a> {
     /// True if, in the endpoint mode, RRT-Connect looks for a detour where the straight motion is not free.
     pub detour: bool,
     /// Spread of the random start (endpoint mode) as a fraction, 0 to 1, of half the joints' ranges, or of the random
-    /// initial bias (collision-free mode) as a fraction of the greatest.
+    /// initial bias (collision-free mode) as a fraction, 0 to 1, of the greatest.
     pub spread: f64,
     /// The side whose joints move.
     pub side: MovingSide,
@@ -154,8 +156,9 @@ pub enum MovingSide {
 }
 
 impl Attempt<'_> {
-    /// Returns a path in joint space whose last posture has the docks together and whose straight segments
-    /// are free, without the first posture `here`; `None` if this attempt finds none. `work` counts forward kinematics.
+    /// Returns a path in joint space whose last posture has the docks together and whose straight segments are free;
+    /// the postures come in order, without the first, `here` (rad, by module). `None` if this attempt finds none.
+    /// `work` counts forward kinematics.
     pub fn path(
         &self,
         scene: &Scene,
@@ -213,8 +216,9 @@ impl Attempt<'_> {
         connect(scene, &descent, 0, descent.len() - 1, work, &mut path).then_some(path)
     }
 
-    /// Returns a posture with the docks together and without overlap, found by inverse kinematics from a random start
-    /// near the positions `from`; the motion there is not checked; `None` if the descent does not close the loop.
+    /// Returns a posture (rad, by module) with the docks together and without overlap, found by inverse kinematics
+    /// from a random start near the positions `from`; the motion there is not checked. `None` if the descent does not
+    /// close the loop. `work` counts forward kinematics.
     pub fn closed_posture(
         &self,
         scene: &Scene,
@@ -255,7 +259,7 @@ impl Attempt<'_> {
 }
 
 /// Docks the ends of pairs that were brought together, and undocks for each of them one of the bonds that it can
-/// replace, of which one that frees the most docks -Z. Panics if a pair is of one chain.
+/// replace, of which that which frees the most docks -Z; rebuilds the tree. Panics if a pair is of one chain.
 pub fn merge(state: &mut State, pairs: &[Pair]) {
     let replaced: Vec<usize> = pairs.iter().map(|pair| replaceable_bonds(state, pair)[0]).collect();
     for (pair, bond) in pairs.iter().zip(replaced) {

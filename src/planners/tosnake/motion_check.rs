@@ -27,7 +27,7 @@ const PRECHECK_INSTANTS: [f64; 3] = [0.5, 0.25, 0.75];
 pub struct Scene<'a> {
     /// The kinematic tree.
     pub tree: &'a Tree,
-    /// Pairs of indices of the tree whose shoes are docked to each other; see [`broad_phase::docked`].
+    /// Pairs of shoes docked to each other, as indices in the tree's order, ascending; see [`broad_phase::docked`].
     pub docked: Vec<(usize, usize)>,
     /// The limit on loads of joints; `None` if the robot floats.
     pub load_limit: Option<LoadLimit<'a>>,
@@ -70,8 +70,8 @@ impl<'a> Scene<'a> {
         Scene { tree, docked: broad_phase::docked(robot, tree), load_limit: None }
     }
 
-    /// Returns true if two balls, given by index, are of different rigid parts (`parts` as by [`Tree::parts`]) and do
-    /// not touch by design.
+    /// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are of different rigid
+    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`].
     pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
         parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
     }

@@ -8,13 +8,13 @@ use crate::geometry::{RigidTransform, Vec3};
 
 /// A pair of balls whose centres are near each other.
 pub struct Neighbours {
-    /// Index in the tree of the one ball's shoe, the smaller.
+    /// Index in the tree's order of the one ball's shoe, the smaller.
     pub a: usize,
-    /// Index in the tree of the other ball's shoe.
+    /// Index in the tree's order of the other ball's shoe.
     pub b: usize,
     /// Distance of their centres, in pitches.
     pub distance: f64,
-    /// Unit vector from the centre of a to that of b, in the frame of the root; x if the centres coincide.
+    /// Unit vector from the centre of a to that of b, in the frame of the poses given; x if the centres coincide.
     pub normal: Vec3,
 }
 
@@ -41,16 +41,16 @@ pub struct NeighbourList<'a> {
 }
 
 impl<'a> NeighbourList<'a> {
-    /// Returns an empty list. `docking_pair` are the indices of two shoes whose docks are to meet; `parts` are the
-    /// rigid parts, see [`Tree::parts`](super::tree::Tree::parts).
+    /// Returns an empty list. `docking_pair`: the indices in the tree's order, the smaller first, of two shoes whose
+    /// docks are to meet; `parts`: the rigid part of each shoe, see [`Tree::parts`](super::tree::Tree::parts).
     pub fn new(scene: &'a Scene<'a>, docking_pair: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
         let (list, listed, before) = (Vec::new(), Vec::new(), Vec::new());
         NeighbourList { scene, docking_pair, parts, list, reach: 0.0, listed, before }
     }
 
-    /// Returns the pairs of balls whose centres are nearer than `reach` (pitches) at `poses` (by index of the
-    /// tree). Left out: pairs of one rigid part, pairs that touch by design, and the pair whose docks are to
-    /// meet.
+    /// Returns the pairs of balls whose centres are nearer than `reach` (pitches). `poses`: of the shoes, in the
+    /// tree's order, in pitches. Left out: pairs of one rigid part, pairs that touch by design, and the pair whose
+    /// docks are to meet.
     pub fn within(&mut self, reach: f64, poses: &[RigidTransform]) -> Vec<Neighbours> {
         let displacement = |from: &[Vec3]| {
             let squared = |(pose, from): (&RigidTransform, &Vec3)| (pose.translation - from).norm_squared();

@@ -40,16 +40,16 @@ pub enum Refusal {
 /// The reason why an assembly is no robot of RoFI modules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRofi {
-    /// The module of this index has other joints or ports than RoFI's.
+    /// The module of this index, from 0, has other joints or ports than RoFI's.
     Kind(usize),
-    /// The module of this index has another pitch than the first.
+    /// The module of this index, from 0, has another pitch than the first.
     Pitch(usize),
 }
 
 /// The reason why a configuration is no valid start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InvalidStart {
-    /// The module of this index is not connected to the first by closed bonds.
+    /// The module of this index, from 0, is not connected to the first by closed bonds.
     Disconnected(usize),
     /// Two modules overlap.
     Overlap {

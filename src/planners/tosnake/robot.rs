@@ -6,24 +6,24 @@ use crate::geometry::{RigidTransform, Vec3};
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Index in [`Robot::joints`] of the tilt of shoe A against its body, within ±π/2.
+/// Index in a module's entry of [`Robot::joints`] of the tilt of shoe A against its body, within ±π/2.
 pub const ALPHA: usize = 0;
-/// Index in [`Robot::joints`] of the tilt of shoe B against its body, within ±π/2.
+/// Index in a module's entry of [`Robot::joints`] of the tilt of shoe B against its body, within ±π/2.
 pub const BETA: usize = 1;
-/// Index in [`Robot::joints`] of the twist of the two bodies against each other, without limits.
+/// Index in a module's entry of [`Robot::joints`] of the twist of the two bodies against each other, without limits.
 pub const GAMMA: usize = 2;
 
-/// Number of docks of a module: those of shoe A, then those of shoe B.
+/// Number of docks of a module: those of shoe A at indices 0 to 2, then those of shoe B.
 pub const DOCKS: usize = 6;
-/// Number of docks of a shoe: +X, -X and -Z.
+/// Number of docks of a shoe: +X, -X and -Z, in that order.
 pub const FACES: usize = 3;
-/// The dock -Z at the end of a shoe: the paper's red connector.
+/// Index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the paper's red connector.
 pub const RED: usize = 2;
 
 /// A dock of a module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dock {
-    /// Index of the module.
+    /// Index of the module in [`Robot::joints`], from 0.
     pub module: usize,
     /// 0 to 5: [`FACES`] times 0 for shoe A or 1 for shoe B, plus 0 for +X, 1 for -X, [`RED`] for -Z.
     pub dock: usize,
@@ -43,11 +43,12 @@ pub struct Bond {
 /// A configuration of RoFI modules: joint positions and bonds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
-    /// Positions of alpha, beta and gamma of each module, rad.
+    /// Positions of alpha, beta and gamma of each module, rad; the index of a module here, from 0, names it in the
+    /// whole planner.
     pub joints: Vec<[f64; 3]>,
     /// All bonds, closed and open ones.
     pub bonds: Vec<Bond>,
-    /// For each bond, true if it is closed.
+    /// For each of `bonds`, true if it is closed.
     pub holds: Vec<bool>,
 }
 
@@ -86,12 +87,13 @@ impl Robot {
         self.joints.len()
     }
 
-    /// Returns the closed bonds with their indices in [`Robot::bonds`], in order.
+    /// Returns the closed bonds with their indices in [`Robot::bonds`], ascending.
     pub fn held(&self) -> impl Iterator<Item = (usize, &Bond)> {
         self.bonds.iter().enumerate().filter(|(index, _)| self.holds[*index])
     }
 
-    /// Returns by module and dock the index of the closed bond there; `None` for a free dock.
+    /// Returns for each module and each of its docks, 0 to 5 as in [`Dock::dock`], the index in [`Robot::bonds`] of
+    /// the closed bond there; `None` for a free dock.
     pub fn bond_at(&self) -> Vec<[Option<usize>; DOCKS]> {
         let mut at = vec![[None; DOCKS]; self.modules()];
         for (index, bond) in self.held() {
@@ -101,8 +103,9 @@ impl Robot {
         at
     }
 
-    /// Returns the number of balls of the chain that is docked to the dock -Z of a shoe, two for each module; it goes
-    /// on from the dock -Z of each module's other shoe. Of a ring it is a number greater than that of all balls.
+    /// Returns the number of balls of the chain that is docked to the dock -Z of a shoe, given by its number
+    /// ([`Dock::shoe`]): two for each module. The chain goes on from the dock -Z of each module's other shoe. For a
+    /// ring the number is greater than that of all balls of the robot.
     pub fn beyond(&self, shoe: usize) -> usize {
         let at = self.bond_at();
         let (mut shoe, mut count) = (shoe, 0);
@@ -117,13 +120,13 @@ impl Robot {
         count
     }
 
-    /// Opens the bond of an index. Panics if there is none.
+    /// Opens the bond of an index in [`Robot::bonds`]. Panics if there is none.
     pub fn undock(&mut self, bond: usize) {
         self.holds[bond] = false;
     }
 
-    /// Closes a bond and returns its index: that of the same bond in the list, with its docks in either order, or a
-    /// new one at the end of the list. Other bonds of its docks are not checked.
+    /// Closes a bond and returns its index in [`Robot::bonds`]: that of the same bond in the list, with its docks in
+    /// either order, or a new one at the end of the list. Other bonds of its docks are not checked.
     pub fn dock(&mut self, bond: Bond) -> usize {
         let same =
             |known: &Bond| *known == bond || (known.a, known.b, known.turn) == (bond.b, bond.a, bond.turn);

@@ -28,8 +28,8 @@ pub struct RrtConnect<'a> {
 }
 
 impl RrtConnect<'_> {
-    /// Returns a path of postures from `from`, left out, to `to`, between which straight motions in joint space are
-    /// free; `None` if 40 samples find none. `to` must differ from `from` in `joints` only. `work`
+    /// Returns a path of postures (rad, by module) from `from`, left out, to `to`, between which straight motions in
+    /// joint space are free; `None` if 40 samples find none. `to` must differ from `from` in `joints` only. `work`
     /// counts forward kinematics.
     pub fn path(
         &self,

@@ -74,7 +74,7 @@ pub struct StepSequence {
     /// The configuration in the end: alpha and beta are 0, gamma is a multiple of a whole turn. Its list
     /// of bonds begins with those of the start, and holds all that the steps dock.
     pub robot: Robot,
-    /// The steps in order, from the start; bonds are indices in the list of `robot`.
+    /// The steps in order, from the start; bonds are indices in [`Robot::bonds`] of `robot`.
     pub steps: Vec<Step>,
     /// The figures of the search at its end.
     pub status: SearchStatus,

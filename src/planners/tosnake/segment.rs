@@ -13,16 +13,16 @@ pub(super) enum Segment {
     Module {
         /// The index of the module.
         module: usize,
-        /// The tilt of the shoe that comes first on the chain.
+        /// The joint of the tilt of the shoe that comes first on the chain, ALPHA or BETA.
         near: usize,
-        /// The tilt of the other shoe.
+        /// The joint of the tilt of the other shoe, ALPHA or BETA.
         far: usize,
     },
 }
 
 impl Segment {
-    /// Returns the segments between successive shoes, given by their indices in the tree: one less than there are
-    /// shoes.
+    /// Returns the segments between successive shoes, given by their indices in the tree's order: one less than there
+    /// are shoes. `poses`: of the shoes, in the tree's order, in pitches.
     pub(super) fn along(tree: &Tree, poses: &[RigidTransform], indices: &[usize]) -> Vec<Segment> {
         let segment = |step: &[usize]| {
             let (from, to) = (tree.shoe[step[0]], tree.shoe[step[1]]);
@@ -36,7 +36,7 @@ impl Segment {
         indices.windows(2).map(segment).collect()
     }
 
-    /// Returns the pose of the segment's last shoe in the frame of its first.
+    /// Returns the pose of the segment's last shoe in the frame of its first, in pitches; `joints`: rad, by module.
     pub(super) fn pose(&self, joints: &[[f64; 3]]) -> RigidTransform {
         match *self {
             Segment::Mate(pose) => pose,

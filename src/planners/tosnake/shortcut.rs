@@ -8,7 +8,8 @@ use super::state::{Joints, State, Step};
 use std::sync::Arc;
 
 /// Returns steps with the same docks and undocks, and as few motions between them as bisection finds. `robot` is the
-/// start, with all bonds in its list that the steps name. `work` counts forward kinematics.
+/// start, with all bonds in its list that the steps name; `gravity`: the gravity model, `None` for a robot that
+/// floats. `work` counts forward kinematics.
 pub(super) fn shortened(
     robot: Robot,
     gravity: Option<Arc<GravityModel>>,

@@ -9,7 +9,7 @@ use crate::geometry::{RigidTransform, Vec3};
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// The positions of all joints: alpha, beta and gamma of each module, rad.
+/// The positions of all joints: alpha, beta and gamma of each module, by module, rad.
 pub type Joints = Vec<[f64; 3]>;
 
 /// One step of a plan to the snake.
@@ -31,11 +31,11 @@ pub struct State {
     pub robot: Robot,
     /// The kinematic tree over the closed bonds.
     pub tree: Tree,
-    /// Poses of the shoes by index of the tree, in pitches, in the frame of its root.
+    /// Poses of the shoes in the tree's order ([`Tree::shoe`]), in pitches, in the frame of its root.
     pub poses: Vec<RigidTransform>,
-    /// Pairs of indices of the tree that are docked to each other, the smaller first, in order.
+    /// Pairs of shoes docked to each other, as indices in the tree's order, the smaller first, ascending.
     pub docked: Vec<(usize, usize)>,
-    /// The steps so far.
+    /// The steps so far, in order.
     pub steps: Vec<Step>,
     /// The number of forward-kinematics evaluations of the whole robot so far.
     pub work: u64,
@@ -128,14 +128,14 @@ impl State {
         self.update_poses();
     }
 
-    /// Moves one joint of a module to a new position (rad), and adds a step.
+    /// Moves one joint of a module to a new position (rad), and adds a step. `joint`: 0 to 2 as in [`Robot::joints`].
     pub fn turn(&mut self, module: usize, joint: usize, to: f64) {
         self.steps.push(Step::Turn(vec![(module, joint, to)]));
         self.robot.joints[module][joint] = to;
         self.update_poses();
     }
 
-    /// Undocks the bond of an index, and adds a step; the tree is to be rebuilt afterwards.
+    /// Undocks the bond of an index in [`Robot::bonds`], and adds a step; the tree is to be rebuilt afterwards.
     pub fn undock(&mut self, bond: usize) {
         self.robot.undock(bond);
         self.steps.push(Step::Undock(bond));
@@ -147,13 +147,13 @@ impl State {
         self.steps.push(Step::Dock(index));
     }
 
-    /// Returns the spread of the robot, in squared pitches; see [`spread`].
+    /// Returns the spread of the robot's balls about their centroid, in squared pitches; see [`spread`].
     pub fn spread(&self) -> f64 {
         spread(&self.poses)
     }
 
-    /// Returns by module its chain, named by the least index of the modules that a series of snake bonds joins to it
-    /// (disjoint-set forest).
+    /// Returns for each module, by index, the chain that it belongs to, named by the least index of its modules: those
+    /// that a series of snake bonds joins (disjoint-set forest).
     pub fn chains(&self) -> Vec<usize> {
         let mut chain: Vec<usize> = (0..self.robot.modules()).collect();
         fn root(chain: &mut [usize], mut m: usize) -> usize {
@@ -176,8 +176,8 @@ impl State {
     }
 }
 
-/// Returns the spread of balls: the sum of their squared distances from their centroid, in squared pitches. Poses in
-/// pitches; NaN without any.
+/// Returns the spread of balls: the sum of the squared distances of their centres from their centroid, in squared
+/// pitches. `poses`: of the balls, in pitches; NaN without any.
 pub fn spread(poses: &[RigidTransform]) -> f64 {
     let count = poses.len() as f64;
     let sum = poses.iter().fold(Vec3::zeros(), |sum, pose| sum + pose.translation);

@@ -40,6 +40,7 @@ pub(super) struct Reporter<'a> {
 }
 
 impl<'a> Reporter<'a> {
+    /// Returns a reporter that has not told of any merge.
     pub(super) fn new(progress: &'a mut dyn Progress) -> Reporter<'a> {
         Reporter { progress, made: None }
     }

@@ -86,9 +86,9 @@ fn holds_loads(state: &mut State, joint: JointRef, to: f64) -> bool {
     holds
 }
 
-/// Perturbs the robot by random turns of single joints: tilts to multiples of 45°, gamma by multiples of 45°. A turn is
-/// made if it is free of collisions, takes no joint beyond [`State::load_share`], and reduces the spread by at most a
-/// random fraction of it between 0 and `slack`. Returns the number of turns made of the `turns` tried.
+/// Perturbs the robot by random turns of single joints: tilts to multiples of 45°, gamma by multiples of 45°. `turns`:
+/// the number of turns tried. A turn is made if it is free of collisions, takes no joint beyond [`State::load_share`],
+/// and reduces the spread by at most a random fraction of it between 0 and `slack`. Returns the number of turns made.
 pub fn perturb(state: &mut State, rng: &mut SplitMix64, turns: usize, slack: f64) -> usize {
     let joints = state.tree.all_joints();
     let mut made = 0;

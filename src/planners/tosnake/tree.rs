@@ -10,16 +10,18 @@ use crate::geometry::{RigidTransform, Vec3};
 /// A kinematic tree over the shoes of a robot.
 #[derive(Clone, Debug)]
 pub struct Tree {
-    /// The shoe of each index, counted as by [`Dock::shoe`](super::robot::Dock::shoe).
+    /// The shoe at each index of the tree's order, which is depth-first from the root at 0; a shoe is named by its
+    /// number as by [`Dock::shoe`](super::robot::Dock::shoe), twice the module plus one for shoe B.
     pub shoe: Vec<usize>,
-    /// The index of each shoe.
+    /// The index in the tree's order of each shoe, by its number: the inverse of `shoe`.
     pub index: Vec<usize>,
-    /// For each index, the index of the shoe's parent; 0 for the root, whose index is 0.
+    /// For each index of the tree's order, the index of the shoe's parent; 0 for the root, whose index is 0.
     pub parent: Vec<usize>,
-    /// For each index, one past the last index of the shoe's subtree.
+    /// For each index of the tree's order, one past the last index of the shoe's subtree.
     pub end: Vec<usize>,
     link: Vec<Link>,
-    /// The indices of the closed bonds that are not of the tree, in order: each closes a kinematic loop.
+    /// The indices in [`Robot::bonds`] of the closed bonds that are not of the tree, ascending: each closes a
+    /// kinematic loop.
     pub closing: Vec<usize>,
 }
 
@@ -41,17 +43,18 @@ enum Link {
 /// A joint of a module, with its position in the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointRef {
-    /// The index of that shoe of the module whose parent is the other.
+    /// The index in the tree's order of that shoe of the module whose parent is the module's other shoe.
     pub child: usize,
-    /// The index of the module.
+    /// The index of the module in [`Robot::joints`].
     pub module: usize,
-    /// The index of the joint: [`ALPHA`], [`BETA`] or [`GAMMA`].
+    /// The joint of the module, 0 to 2: [`ALPHA`], [`BETA`] or [`GAMMA`].
     pub joint: usize,
 }
 
 impl Tree {
-    /// Grows the tree of a robot from shoe A of the module `root`; returns `None` if closed bonds do not connect all
-    /// modules. Panics if there is no such module.
+    /// Grows the tree of a robot from shoe A of the module `root`, over bonds chosen by breadth-first search, so that
+    /// branches are short. Returns `None` if closed bonds do not connect all modules. Panics if there is no such
+    /// module.
     pub fn grow(robot: &Robot, root: usize) -> Option<Tree> {
         let at = robot.bond_at();
         // Breadth-first search chooses the bonds of the tree, so that branches are short.
@@ -103,8 +106,8 @@ impl Tree {
         self.shoe.len()
     }
 
-    /// Computes the poses of all shoes by index, in pitches, in the frame of the root, and replaces `poses` by them
-    /// (forward kinematics); `joints`: rad, by module.
+    /// Replaces `poses` by the poses of all shoes, in the tree's order, in pitches, in the frame of the root (forward
+    /// kinematics); `joints`: rad, by module.
     pub fn poses(&self, joints: &[[f64; 3]], poses: &mut Vec<RigidTransform>) {
         poses.clear();
         for index in 0..self.shoes() {
@@ -112,8 +115,8 @@ impl Tree {
         }
     }
 
-    /// Recomputes the poses of some shoes, given by their indices in ascending order; the others stay. `joints`: rad,
-    /// by module; poses in pitches.
+    /// Recomputes the poses of some shoes, given by their indices in the tree's order, ascending; the others stay, and
+    /// those of their parents must be right. `joints`: rad, by module; poses in pitches, in the frame of the root.
     pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for &index in moved {
             poses[index] = self.pose(index, joints, poses);
@@ -134,8 +137,8 @@ impl Tree {
         }
     }
 
-    /// Returns in ascending order the indices of the shoes that move against the root when the joints of the modules
-    /// move for which `turns` is true.
+    /// Returns in ascending order the indices in the tree's order of the shoes that move against the root when the
+    /// joints of those modules move for whose index `turns` returns true.
     pub fn carried(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut carried = vec![false; self.shoes()];
         for index in 1..self.shoes() {
@@ -145,8 +148,9 @@ impl Tree {
         (0..self.shoes()).filter(|&index| carried[index]).collect()
     }
 
-    /// Returns by index the rigid part that a shoe belongs to when the joints of the modules move for which `turns` is
-    /// true, named by the least index in it: shoes of one part do not move against each other.
+    /// Returns for each shoe, in the tree's order, the rigid part that it belongs to when the joints of those modules
+    /// move for whose index `turns` returns true. A part is named by the least index in it: shoes of one part do not
+    /// move against each other.
     pub fn parts(&self, turns: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut part = vec![0; self.shoes()];
         for index in 1..part.len() {
@@ -156,8 +160,8 @@ impl Tree {
         part
     }
 
-    /// Returns the index of the bond by which a shoe is docked to its parent; `None` for the root, and where the parent
-    /// is the other shoe of the module.
+    /// Returns the index in [`Robot::bonds`] of the bond by which the shoe at `index` of the tree's order is docked to
+    /// its parent; `None` for the root, and where the parent is the other shoe of the module.
     pub fn bond(&self, index: usize) -> Option<usize> {
         match self.link[index] {
             Link::Mate { bond, .. } => Some(bond),
@@ -165,9 +169,9 @@ impl Tree {
         }
     }
 
-    /// Returns the closure residual of a bond: the greatest absolute deviation of an entry of its second shoe's pose
-    /// from the pose that the bond asks for, in pitches for positions and without unit for rotation matrices.
-    /// `poses`: by index, in pitches.
+    /// Returns the closure residual of a bond, given by its index in [`Robot::bonds`]: the greatest absolute deviation
+    /// of an entry of its second shoe's pose from the pose that the bond asks for, in pitches for positions and
+    /// without unit for rotation matrices. `poses`: of the shoes, in the tree's order, in pitches.
     pub fn residual(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
         let wanted = poses[self.index[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
@@ -176,21 +180,23 @@ impl Tree {
         turn.max((wanted.translation - found.translation).amax())
     }
 
-    /// Returns the joints between the shoe at `index` and its parent: three if both are of one module, else none.
+    /// Returns the joints between the shoe at `index` of the tree's order and its parent: alpha, beta and gamma if
+    /// both are of one module, else none.
     pub fn joints_at(&self, index: usize) -> impl Iterator<Item = JointRef> {
         let module = self.shoe[index] / 2;
         let count = if matches!(self.link[index], Link::Module) { 3 } else { 0 };
         (0..count).map(move |joint| JointRef { child: index, module, joint })
     }
 
-    /// Returns all joints of the robot, in order of their child's index, then of joint.
+    /// Returns all joints of the robot, ascending by their child's index in the tree's order, then by joint.
     pub fn all_joints(&self) -> Vec<JointRef> {
         (0..self.shoes()).flat_map(|index| self.joints_at(index)).collect()
     }
 
-    /// Returns the unit axis about which a joint turns the subtree of its child, and a point on it, in pitches, in
-    /// the frame of the root. The joint's column of the Jacobian of a point p of the subtree is `axis × (p - point)`,
-    /// and of its angular velocity `axis`. `poses`: by index, in pitches.
+    /// Returns the unit axis about which a joint turns the subtree of its child, and a point on it, in pitches, both
+    /// in the frame of the root. The joint's column of the Jacobian of a point p of the subtree is `axis × (p -
+    /// point)`, and of its angular velocity `axis`. `poses`: of the shoes, in the tree's order, in pitches, in the
+    /// frame of the root.
     pub fn axis(&self, joint: JointRef, poses: &[RigidTransform]) -> (Vec3, Vec3) {
         let (child, parent) = (&poses[joint.child], &poses[self.parent[joint.child]]);
         let child_is_b = self.shoe[joint.child] % 2 == 1;
@@ -204,12 +210,13 @@ impl Tree {
         }
     }
 
-    /// Returns true if the shoe at `index` is in the subtree of the one at `root`, itself included.
+    /// Returns true if the shoe at `index` is in the subtree of the one at `root`, itself included; both are indices
+    /// in the tree's order.
     pub fn is_in_subtree(&self, index: usize, root: usize) -> bool {
         (root..self.end[root]).contains(&index)
     }
 
-    /// Returns the path from one shoe to another, both given by index, along the tree.
+    /// Returns the path along the tree from one shoe to another, both given by their indices in the tree's order.
     pub fn path(&self, from: usize, to: usize) -> Path {
         let mut up = vec![from];
         let mut down = vec![to];
@@ -233,7 +240,7 @@ impl Tree {
 /// A path through the tree: up to a common ancestor, then down.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// The indices of the shoes on the path, both ends included.
+    /// The indices in the tree's order of the shoes on the path, both ends included, from the first to the last.
     pub indices: Vec<usize>,
     /// The index in [`Path::indices`] of the common ancestor.
     pub top: usize,

@@ -8,7 +8,8 @@ use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::RigidTransform;
 
-/// Checks that all bonds meet, and that no two modules overlap.
+/// Checks that closed bonds connect all modules, that the docks of those that close loops meet, and that no two
+/// modules overlap.
 ///
 /// # Errors
 /// [`Refusal::InvalidStart`] or [`Refusal::OpenLoop`].
@@ -29,9 +30,9 @@ pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
     }
 }
 
-/// Opens the closed bonds whose docks do not meet, and returns their indices in order. Of two bonds between the same
-/// modules that contradict each other the one in the tree of a breadth-first search from module 0 counts, unless only
-/// the other leaves no overlap; up to ten contradictions are tried in all combinations.
+/// Opens the closed bonds whose docks do not meet, and returns their indices in [`Robot::bonds`], ascending. Of two
+/// bonds between the same modules that contradict each other the one in the tree of a breadth-first search from module
+/// 0 counts, unless only the other leaves no overlap; up to ten contradictions are tried in all combinations.
 ///
 /// # Errors
 /// [`InvalidStart`]: the robot is not connected, or modules overlap in all combinations; then nothing is opened.

@@ -7,7 +7,8 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::{SegmentPair, end_segment, segment_segment};
 
-/// One inequality constraint g(x) >= 0; the numbers are indices of struts unless said otherwise.
+/// One inequality constraint g(x) >= 0 on the positions x of the nodes. The numbers are indices in
+/// [`Structure::struts`], from 0, unless said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Constraint {
     /// A strut is not shorter than its range.
@@ -20,19 +21,21 @@ pub enum Constraint {
     /// beside `Clearance` where two struts are nearly parallel, so that their closest points jump from end
     /// to end and the distance is not smooth.
     EndClearance(usize, usize, usize),
-    /// A node (its index) is not below the ground.
+    /// A node (its index in the positions) is not below the ground.
     NodeHeight(usize),
     /// A sample point of a strut (first) is not too far below uneven ground; the second number, 0 to [`SAMPLES`],
     /// counts the sample points from the strut's first node on.
     StrutHeight(usize, usize),
-    /// An end (0 or 1, last) of a strut (first) stays on its side of the plane that separates the strut from
-    /// a part of an obstacle (second, an index of `Surroundings::parts`).
+    /// An end (0 or 1, last) of a strut (first) stays on its side of the plane that separates the strut from a convex
+    /// part of an obstacle (second, an index in [`Surroundings::parts`](super::surroundings::Surroundings::parts)).
     ObstacleClearance(usize, usize, usize),
     /// Two struts that share a node, the lower first, keep the least angle between them.
     Angle(usize, usize),
-    /// The sum of the lengths of a loop (an index of `Limits::loops`) is not below its range.
+    /// The sum of the lengths of a loop (an index in [`Limits::loops`](super::structure::Limits::loops)) is not below
+    /// its range.
     LoopMin(usize),
-    /// The sum of the lengths of a loop (an index of `Limits::loops`) is not above its range.
+    /// The sum of the lengths of a loop (an index in [`Limits::loops`](super::structure::Limits::loops)) is not above
+    /// its range.
     LoopMax(usize),
     /// A singular value of the rigidity matrix is not below its limit: of the mode i for (i, i), counted
     /// from the least; of two modes together, (i, j) for the sum of their vectors if i < j and for the
@@ -45,9 +48,9 @@ pub const SAMPLES: usize = 64;
 
 impl Constraint {
     /// Returns g(x), m, with the nodes at `x`, m; not negative where the constraint holds. Angles (rad) and singular
-    /// values are multiplied by the unit length. `Rigidity` costs an eigenvalue decomposition. `Clearance` of struts at
-    /// an angle of less than 3.2e-5 rad may be too great by that angle times the shorter length
-    /// ([`segment_segment`]).
+    /// values are multiplied by the unit length [`Structure::unit`]. `Rigidity` costs an eigenvalue decomposition.
+    /// `Clearance` of struts at an angle of less than 3.2e-5 rad may be too great by that angle times the shorter
+    /// length ([`segment_segment`]). Panics if an index is none of the truss.
     pub fn value(self, truss: &Structure, x: &[Vec3]) -> f64 {
         match self {
             Constraint::LengthMin(strut) => truss.length(x, strut) - truss.lengths[strut].0,
@@ -81,7 +84,7 @@ impl Constraint {
     }
 
     /// Returns the gradient of [`value`](Constraint::value) over the position of each node that it depends on, without
-    /// unit, with the index of the node; gradients of a node that is named twice add up.
+    /// unit, each with the index of the node before it; gradients of a node that is named twice add up.
     pub fn gradient(self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         match self {
             // d|a - b| is the unit vector along the strut: a row of the rigidity matrix.

@@ -8,9 +8,10 @@ use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::plan::Margins;
 
-/// Returns the least margin of each kind of limit at the positions `x` of the nodes, m: `None` for kinds that
-/// the truss does not have, and for distances of which none is at most twice the clearance. `stands`: true if
-/// the truss stands on the ground, so that its static stability margin counts; `None` for one on fewer than two nodes.
+/// Returns the least margin of each kind of limit at the positions `x` of the nodes, m, in the unit that [`Margins`]
+/// gives. A margin is `None` for a kind of limit that the truss does not have, and a distance to struts or obstacles
+/// also if none is at most twice the clearance. `stands`: true if the truss stands on the ground, so that its static
+/// stability margin counts; that is `None` with fewer than two nodes on the ground.
 pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
     let value = |constraint: Constraint| constraint.value(truss, x);
     let least = |values: &mut dyn Iterator<Item = f64>| values.reduce(f64::min);

@@ -10,7 +10,7 @@ use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Surrou
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Move {
-    /// Every node moves at constant velocity, to these positions, m.
+    /// Every node moves at constant velocity to its position here, m, in the order of the nodes.
     Linear(Vec<Vec3>),
     /// The whole truss topples over an edge as a rigid body.
     Roll(Roll),
@@ -32,8 +32,8 @@ impl Default for TimeLaw {
 }
 
 impl TimeLaw {
-    /// Returns the least duration (s) of a move from `x` (m): that in which the speed of the struts suffices, or of a
-    /// roll its angle divided by `roll_speed`. It is not rounded up to `step_duration_min`.
+    /// Returns the least duration (s) of a move from positions `x` of the nodes (m): that in which the speed of the
+    /// struts suffices, or of a roll its angle divided by `roll_speed`. It is not rounded up to `step_duration_min`.
     pub fn duration(&self, truss: &Structure, x: &[Vec3], step: &Move) -> f64 {
         match step {
             Move::Linear(y) => truss.rates(x, y).fold(0.0, f64::max) / truss.speed,
@@ -42,7 +42,7 @@ impl TimeLaw {
     }
 }
 
-/// Returns the positions of the nodes after a move from `x`, m.
+/// Returns the positions of the nodes after a move from `x`, both in m and in the order of the nodes.
 pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
     match step {
         Move::Linear(y) => y.clone(),
@@ -50,8 +50,8 @@ pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
     }
 }
 
-/// Returns the length of the path of the centre of mass over the ground, m, by the straight lines between the ends of
-/// moves from `start` (m), heights left out.
+/// Returns the length of the path of the centre of mass over the ground, m: the sum of the straight lines between its
+/// positions at the ends of the moves, seen from above. `start`: the positions of the nodes before the first move, m.
 pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> f64 {
     let mut x = start.to_vec();
     let mut distance = 0.0;

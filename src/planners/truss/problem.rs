@@ -29,9 +29,10 @@ pub struct TrussProblem {
     pub strut: Strut,
     /// A name for each node, for messages and the plan, in the order of `nodes` and as many.
     pub node_names: Vec<String>,
-    /// The position of each node at the start, m.
+    /// The position of each node at the start, m; the index of a node here, from 0, names it in the whole planner.
     pub nodes: Vec<Vec3>,
-    /// The two nodes of each strut, as indices in `nodes`.
+    /// The two nodes of each strut, as indices in `nodes`; the index of a strut here, from 0, names it in the whole
+    /// planner.
     pub struts: Vec<(usize, usize)>,
     /// Limits of the shape beside those of the struts.
     pub limits: Limits,
@@ -142,11 +143,13 @@ impl TrussProblem {
         format!("{} -- {}", self.node_names[a], self.node_names[b])
     }
 
-    /// Returns the truss with its limits and surroundings. Struts may be half their clearance below uneven
-    /// ground: nodes are taken to be thicker by that much. Panics if a limit names a strut that is not there.
+    /// Returns the truss with its limits and surroundings. Struts may be half their clearance below uneven ground:
+    /// nodes are taken to be thicker by that much. Panics if a limit names a strut that is not there.
     ///
     /// # Errors
-    /// [`InvalidTruss`], but for the three about the start, which [`TrussProblem::check_start`] finds.
+    /// [`InvalidTruss`] of any kind but [`NearObstacle`](InvalidTruss::NearObstacle),
+    /// [`BelowGround`](InvalidTruss::BelowGround) and [`InsideObstacle`](InvalidTruss::InsideObstacle), which
+    /// [`TrussProblem::check_start`] finds.
     pub fn structure(&self, tolerances: Tolerances) -> Result<Structure, InvalidTruss> {
         self.check()?;
         let mut solids = Vec::with_capacity(self.obstacles.len());
@@ -190,12 +193,12 @@ impl TrussProblem {
         Ok(())
     }
 
-    /// Checks that the truss with its nodes at `x`, m, is free of obstacles and its struts are not below uneven ground;
-    /// flat ground is not checked.
+    /// Checks that the truss with its nodes at `x`, m, is free of obstacles and its struts are not below uneven
+    /// ground; flat ground is not checked. `truss`: as [`TrussProblem::structure`] returned it.
     ///
     /// # Errors
     /// [`InvalidTruss::NearObstacle`], [`InvalidTruss::BelowGround`] or [`InvalidTruss::InsideObstacle`];
-    /// [`InvalidTruss::NotSolid`] if [`TrussProblem::structure`] was not asked before.
+    /// [`InvalidTruss::NotSolid`] for a truss that `structure` did not check.
     pub fn check_start(&self, truss: &Structure, x: &[Vec3]) -> Result<(), InvalidTruss> {
         let around = &truss.surroundings;
         for index in 0..truss.struts.len() {

@@ -22,8 +22,8 @@ pub(super) struct Mode {
     nodes: DVector<f64>,
 }
 
-/// Returns the `count` least singular values in ascending order, those of rigid motions left out. Found as
-/// square roots of the eigenvalues of RᵀR, so values below about 1e-8 are noise.
+/// Returns the modes of the `count` least singular values in ascending order, those of the six rigid motions left out.
+/// Found as square roots of the eigenvalues of RᵀR, so values below about 1e-8 are noise.
 pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
     let n = 3 * truss.nodes;
     let along = |strut: usize| {
@@ -76,7 +76,8 @@ impl Mode {
         (self.value - truss.limits.rigidity) * truss.unit
     }
 
-    /// Returns the gradient of the singular value times the unit, by node: `uᵀ dR v`.
+    /// Returns the gradient of the singular value times the unit, `uᵀ dR v`, for each node with its index; without
+    /// unit.
     pub(super) fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         let mut sums = vec![Vec3::zeros(); truss.nodes];
         for (strut, &(a, b)) in truss.struts.iter().enumerate() {

@@ -14,14 +14,15 @@ pub(in crate::planners) const ROLLS_MAX: usize = 50;
 /// A rigid rotation about the line through two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roll {
-    /// The indices of the two nodes on the axis, which stay; the axis points from the first to the second.
+    /// The indices of the two nodes on the axis, which keep their positions; the axis points from the first to the
+    /// second.
     pub edge: (usize, usize),
     /// The angle by the right-hand rule, rad.
     pub angle: f64,
 }
 
-/// Returns the roll over an edge of the support polygon (inside on the left) to the outside, by the least
-/// angle that brings a node to the ground; `None` if none gets there.
+/// Returns the roll over an edge of the support polygon, two nodes with the inside on the left, to the outside, by the
+/// least angle that brings another node to the ground; `None` if none gets there.
 pub(in crate::planners) fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll> {
     let axis = axis(x, edge);
     // Over terrain by conservative advancement, over flat ground in closed form.
@@ -81,9 +82,10 @@ pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<
     }
 }
 
-/// Returns the positions of the nodes, m, once the truss has come to rest: it is put down with its lowest nodes on the
-/// ground, then rolls over edges of its support polygon until it is statically stable. Quasi-static, without inertia;
-/// obstacles do not count. `None` if it never rests, or nothing of it meets the ground any more.
+/// Returns the positions of the nodes, m, once the truss has come to rest from `x`, m: it is put down with its lowest
+/// nodes on the ground, then rolls over edges of its support polygon until it is statically stable. Quasi-static,
+/// without inertia; obstacles do not count. `None` if it does not rest after 50 rolls, or nothing of it meets the
+/// ground any more.
 pub fn settled(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
     let mut x = x.to_vec();
     for _ in 0..ROLLS_MAX {
@@ -113,7 +115,7 @@ fn toppled_over_node(truss: &Structure, x: &[Vec3], node: usize) -> Option<Vec<V
     Some(found)
 }
 
-/// Returns the positions of the nodes after a roll, m.
+/// Returns the positions of the nodes after a roll from `x`, both in m and in the order of the nodes.
 pub fn rolled(x: &[Vec3], roll: Roll) -> Vec<Vec3> {
     let axis = axis(x, roll.edge);
     let rotate = axis.rotation(roll.angle);

@@ -31,9 +31,10 @@ pub struct QuadraticCost {
     /// H as (row, column, value), on and above the diagonal only; repeated entries add up. It must be positive
     /// semidefinite.
     pub hessian: Vec<(usize, usize, f64)>,
-    /// The vector c, one entry for each coordinate.
+    /// The vector c, one entry for each coordinate, three for each node.
     pub linear: Vec<f64>,
-    /// The vectors a, each as (coordinate, value), whose products with u count by their absolute values.
+    /// The vectors a, each as (coordinate, value) for the entries that are not 0, whose products with u count by their
+    /// absolute values.
     pub absolutes: Vec<Vec<(usize, f64)>>,
 }
 
@@ -45,9 +46,10 @@ pub struct StepProblem<'a> {
     pub x: &'a [Vec3],
     /// The cost of displacements.
     pub cost: &'a QuadraticCost,
-    /// Nodes that keep their positions.
+    /// The indices of the nodes that keep their positions.
     pub pinned: &'a [usize],
-    /// The displacement of the centre of mass (m) along some axes (0 to 2); along the others it is free.
+    /// The displacement of the centre of mass, m, along some axes of the world (0 to 2 for x, y, z); along the others
+    /// it is free.
     pub centre_of_mass: &'a [(usize, f64)],
     /// True if nodes, and struts over uneven ground, must not get below the ground.
     pub ground: bool,
@@ -74,9 +76,10 @@ pub struct WarmStart {
     neighbours: Option<NeighbourList>,
 }
 
-/// Returns the positions of the nodes after one step, m. Every constraint holds there up to the tolerance `rounding`,
-/// and all but the rigidity hold while the nodes move there linearly, clearances and angles up to the tolerance
-/// `clearance_margin` ([`Structure::tightened`] makes up for it).
+/// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of the
+/// paper, mended). Every constraint holds there up to the tolerance `rounding`, and all but the rigidity hold while
+/// the nodes move there linearly, clearances and angles up to the tolerance `clearance_margin`
+/// ([`Structure::tightened`] makes up for it).
 ///
 /// # Errors
 /// [`StepError`] if no step is found; the active constraints of `warm_start` are then of no use.

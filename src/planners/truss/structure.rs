@@ -11,23 +11,23 @@ use crate::robot::Strut;
 pub struct Structure {
     /// The number of nodes.
     pub nodes: usize,
-    /// The indices of the two nodes of each strut.
+    /// The indices of the two nodes of each strut; the index of a strut here, from 0, names it in the whole planner.
     pub struts: Vec<(usize, usize)>,
-    /// The least and the greatest length of each strut, m.
+    /// The least and the greatest length of each strut, in the order of `struts`, m.
     pub lengths: Vec<(f64, f64)>,
     /// The greatest rate of length of a strut, m/s.
     pub speed: f64,
     /// The least distance between struts that share no node, and between struts and obstacles, m.
     pub clearance: f64,
-    /// The fraction of the whole mass that each node carries: half of each of its struts.
+    /// The fraction of the whole mass that each node carries, in their order, in all 1: half of each of its struts.
     pub mass_fractions: Vec<f64>,
     /// The mean length of a strut at the start, m: the unit of steps and tolerances.
     pub unit: f64,
     /// The limits of the shape beside those of the struts.
     pub limits: Limits,
-    /// The range of the sum of lengths of each of `limits.loops`, m.
+    /// The least and the greatest sum of lengths of each of `limits.loops`, in their order, m.
     pub loop_ranges: Vec<(f64, f64)>,
-    /// Pairs of struts that share a node, the lesser index first; empty unless their angles are limited.
+    /// Pairs of struts (indices) that share a node, the lesser index first; empty unless their angles are limited.
     pub corners: Vec<(usize, usize)>,
     /// The obstacles and the terrain.
     pub surroundings: Surroundings,
@@ -77,7 +77,8 @@ impl Structure {
     }
 
     /// Returns the truss under `limits` in place of those that it has. Locked struts and loops keep the lengths that
-    /// they have at `start`, m, up to the tolerance `locked_slack`. Panics for a strut that is not there.
+    /// they have at the positions `start` of the nodes, m, up to the tolerance `locked_slack`. Panics if a limit names
+    /// a strut that is not there.
     pub fn with_limits(mut self, start: &[Vec3], limits: Limits) -> Structure {
         let slack = self.tolerances.locked_slack * self.unit;
         for &strut in &limits.locked {
@@ -110,13 +111,14 @@ impl Structure {
         truss
     }
 
-    /// Returns the sum of the lengths of the loop at `index` in [`Limits::loops`], m.
+    /// Returns the sum of the lengths of the loop at `index` in [`Limits::loops`] with the nodes at `x`, m. Panics if
+    /// there is no such loop.
     pub fn loop_length(&self, x: &[Vec3], index: usize) -> f64 {
         self.limits.loops[index].iter().map(|&strut| self.length(x, strut)).sum()
     }
 
-    /// Returns the node that two struts share, and the other end of the first and of the second, as indices of nodes.
-    /// The struts must share a node.
+    /// Returns three indices of nodes: the one that the struts `i` and `j` share, the other end of `i`, and the other
+    /// end of `j`. The struts must share a node.
     pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         match (a == c, a == d, b == c) {
@@ -127,13 +129,13 @@ impl Structure {
         }
     }
 
-    /// Returns the length of a strut, m.
+    /// Returns the length of a strut, given by its index, with the nodes at `x`, m.
     pub fn length(&self, x: &[Vec3], strut: usize) -> f64 {
         let (a, b) = self.struts[strut];
         (x[a] - x[b]).norm()
     }
 
-    /// Returns the positions of the two ends of a strut, m.
+    /// Returns the positions of the two ends of a strut, given by its index, with the nodes at `x`, m.
     pub fn segment(&self, x: &[Vec3], strut: usize) -> (Vec3, Vec3) {
         let (a, b) = self.struts[strut];
         (x[a], x[b])
@@ -145,13 +147,15 @@ impl Structure {
         a == c || a == d || b == c || b == d
     }
 
-    /// Returns the centre of mass, m, of a truss whose struts have equal masses, half at either end.
+    /// Returns the centre of mass with the nodes at `x`, m, of a truss whose struts have equal masses, half at either
+    /// end.
     pub fn centre_of_mass(&self, x: &[Vec3]) -> Vec3 {
         x.iter().zip(&self.mass_fractions).map(|(p, fraction)| p * *fraction).sum()
     }
 
-    /// Returns for each strut the greatest speed of its length, m/s, while the nodes move from `x` to `y`
-    /// at constant velocity in one second. The length is convex in time, so its rate is greatest at an end.
+    /// Returns for each strut, in their order, the greatest absolute rate of its length, m/s, while the nodes move
+    /// from `x` to `y`, m, at constant velocity in one second. The length is convex in time, so its rate is greatest
+    /// at an end.
     pub fn rates(&self, x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
         self.struts.iter().map(|&(a, b)| {
             let (from, to) = (x[a] - x[b], y[a] - y[b]);

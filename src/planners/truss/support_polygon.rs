@@ -10,7 +10,7 @@ pub(in crate::planners) fn contacts(truss: &Structure, x: &[Vec3]) -> Vec<usize>
     (0..truss.nodes).filter(|&node| truss.surroundings.height(x[node]) <= height).collect()
 }
 
-/// Returns true if a node that is on the ground at both ends of a linear motion is so in between.
+/// Returns true if a node that is on the ground at both ends of a linear motion, m, is so in between.
 pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: Vec3) -> bool {
     let height_max = truss.tolerances.contact_height * truss.unit;
     let terrain = truss.surroundings.terrain.as_ref().filter(|_| from != to);
@@ -21,8 +21,8 @@ pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: V
     })
 }
 
-/// Returns the support polygon: the convex hull of the contacts seen from above, counter-clockwise, without
-/// nodes on its edges (Andrew's monotone chain).
+/// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above,
+/// counter-clockwise, without nodes on its edges (Andrew's monotone chain).
 pub(in crate::planners) fn hull(x: &[Vec3], contacts: &[usize]) -> Vec<usize> {
     let mut order = contacts.to_vec();
     order.sort_by(|&a, &b| x[a].x.total_cmp(&x[b].x).then(x[a].y.total_cmp(&x[b].y)));
@@ -50,8 +50,9 @@ fn cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// Returns the signed distance of a point from the boundary of a hull seen from above, m, positive inside,
-/// and the edge that it is nearest to. A hull of two nodes has no inside. `None` with fewer.
+/// Returns the signed distance of the point `at` from the boundary of a hull (nodes as by [`hull`]) seen from above,
+/// m, positive inside, and the edge that it is nearest to, as two nodes. A hull of two nodes has no inside. `None`
+/// with fewer.
 pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Option<(f64, (usize, usize))> {
     if hull.len() < 2 {
         return None;
@@ -64,8 +65,8 @@ pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Optio
     edges.map(inside).min_by(|p, q| p.0.total_cmp(&q.0))
 }
 
-/// Returns the static stability margin of the truss on some contacts, m, negative if it topples, and the
-/// edge of the support polygon nearest to the centre of mass. `None` with fewer than two contacts.
+/// Returns the static stability margin of the truss on some contacts (nodes), m, negative if it topples, and the edge
+/// of the support polygon nearest to the centre of mass, as two nodes. `None` with fewer than two contacts.
 pub(in crate::planners) fn stability_margin(
     truss: &Structure,
     x: &[Vec3],
@@ -74,8 +75,8 @@ pub(in crate::planners) fn stability_margin(
     margin(x, &hull(x, contacts), truss.centre_of_mass(x))
 }
 
-/// Returns the three nodes of a hull whose triangle holds a point with the greatest margin; all nodes of a
-/// hull of fewer.
+/// Returns the three nodes of a hull (as by [`hull`]) whose triangle holds the point `at` with the greatest margin;
+/// all nodes of a hull of fewer.
 pub(in crate::planners) fn support_triangle(x: &[Vec3], hull: &[usize], at: Vec3) -> Vec<usize> {
     let mut best: Option<(f64, Vec<usize>)> = None;
     for (i, &a) in hull.iter().enumerate() {

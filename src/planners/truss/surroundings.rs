@@ -20,7 +20,7 @@ const DISC: [[f64; 2]; 9] = [
 /// height 0 without obstacles.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
-    /// The convex parts of all obstacles, each with the index of its obstacle.
+    /// The convex parts of all obstacles, in the world's frame, each with the index of its obstacle, from 0.
     pub parts: Vec<(usize, Part)>,
     /// The ground; `None` for a plane at height 0.
     pub terrain: Option<HeightField>,
@@ -50,7 +50,7 @@ impl Surroundings {
         }
     }
 
-    /// Returns the height of a point above the ground, m; negative below.
+    /// Returns the height of a point (m, in the world's frame) above the ground, measured along z, m; negative below.
     pub fn height(&self, p: Vec3) -> f64 {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
@@ -73,15 +73,15 @@ impl Surroundings {
         at(to) - at(from)
     }
 
-    /// Returns the signed distance between a strut, given by its ends (m), and the part at index `part`, with its
-    /// direction, as [`segment_part`] does; distances beyond `enough` (m) may be returned too small, but not below
-    /// `enough`.
+    /// Returns the signed distance between a strut, given by its ends (m), and the part at index `part` of
+    /// [`Surroundings::parts`], with its direction, as [`segment_part`] does; distances beyond `enough` (m) may be
+    /// returned too small, but not below `enough`.
     pub fn signed_distance(&self, strut: (Vec3, Vec3), part: usize, enough: f64) -> SignedDistance {
         segment_part(strut, &self.parts[part].1, enough)
     }
 
-    /// Returns false if the bounding spheres of a strut, given by its ends (m), and of the part at index `part` are
-    /// farther apart than `reach`, m.
+    /// Returns false if the bounding spheres of a strut, given by its ends (m), and of the part at index `part` of
+    /// [`Surroundings::parts`] are farther apart than `reach`, m.
     pub fn may_collide(&self, (a, b): (Vec3, Vec3), part: usize, reach: f64) -> bool {
         let part = &self.parts[part].1;
         ((a + b) / 2.0 - part.centre).norm() - (b - a).norm() / 2.0 - part.radius <= reach
