@@ -22,7 +22,7 @@ pub(super) struct Ledger<'a> {
 }
 
 impl<'a> Ledger<'a> {
-    /// Returns an empty record for a plan with these exemptions that ends at `end` (s).
+    /// Returns an empty record for a plan with these exemptions, named by their indices, that ends at `end` (s).
     pub(super) fn new(exemptions: &'a [Exemption], end: f64) -> Ledger<'a> {
         let verdict = Verdict { duration: end, ..Verdict::default() };
         Ledger {
@@ -50,7 +50,8 @@ impl<'a> Ledger<'a> {
         excused
     }
 
-    /// Marks the exemption of an index as needed by a check, as another part of the judge found.
+    /// Marks the exemption of an index in the plan's list as needed by a check, as another part of the judge found.
+    /// Panics if there is none.
     pub(super) fn use_exemption(&mut self, index: usize, kind: CheckKind) {
         self.used[index] = true;
         self.note_excuse(kind);
@@ -83,7 +84,8 @@ impl<'a> Ledger<'a> {
         &mut self.verdict.failures
     }
 
-    /// Records a check: failed if there is a failure of its kind, exempt if one was excused, else `otherwise`.
+    /// Records the status of a check: failed if there is a failure of its kind so far, exempt if one was excused, else
+    /// `otherwise`.
     pub(super) fn check(&mut self, kind: CheckKind, otherwise: Status) {
         let failed = self.verdict.failures.iter().any(|f| f.kind == kind);
         let status = match (failed, self.excused.contains(&kind)) {

@@ -11,15 +11,16 @@ pub(super) type Point = [f64; 2];
 pub struct Margin {
     /// The distance to the nearest edge, m: positive inside, negative outside.
     pub distance: f64,
-    /// The two ends of the nearest edge, as indices of the points that span the polygon, counter-clockwise.
+    /// The two ends of the nearest edge, as indices in the list of points that span the polygon, from 0,
+    /// counter-clockwise seen from above.
     pub edge: (usize, usize),
     /// The least width of the polygon, m.
     pub width: f64,
 }
 
-/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise, as indices; collinear points
-/// are left out. Of coinciding points the first is taken. One or two corners are left if the points do not span an
-/// area, none without points.
+/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise seen from above, as indices in
+/// `points`; collinear points are left out. Of coinciding points the first is taken. One or two corners are left if
+/// the points do not span an area, none without points.
 pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {

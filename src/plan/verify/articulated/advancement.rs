@@ -97,8 +97,9 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Judges a window of time (from, to; s) in which bonds stay as they are. Parts that are not connected are
-    /// judged each by itself: their relative pose is unknown.
+    /// Judges a window of time (from, to; s) in which bonds stay as they are. `bonds`: for each bond of the assembly,
+    /// true if it holds; `excused`: the exemptions of the window. Parts that are not connected are judged each by
+    /// itself: their relative pose is unknown.
     pub(super) fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
         while let Some(first) = seen.iter().position(|seen| !seen) {
@@ -120,7 +121,8 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Returns the least distance at one instant, m; `None` if no two links may not touch.
+    /// Returns the least signed distance of links that may not touch at one instant (s), m; `None` if there are no two
+    /// such links. `bonds`: for each bond of the assembly, true if it holds. Forgets the collisions found so far.
     pub(super) fn clearance_at(&mut self, bonds: &[bool], time: f64) -> Option<f64> {
         self.clearance = None;
         self.collisions.clear();
@@ -128,7 +130,7 @@ impl<'a> Advancement<'a> {
         self.clearance.as_ref().map(|nearest| nearest.distance)
     }
 
-    /// Returns the collisions and the clearance that were found.
+    /// Returns the collisions and the clearance that were found in all windows; `exemptions`: those of the plan.
     pub(super) fn findings(self, exemptions: &[Exemption]) -> Findings {
         let reached_limit = self.reached_limit();
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();

@@ -11,13 +11,13 @@ use crate::geometry::{Vec3, pose::turned};
 /// The number of linearised rounds of [`height_keeping_turn`].
 const TURN_ROUNDS: usize = 4;
 
-/// Returns the rotation by a rotation vector, rad.
+/// Returns the rotation matrix of a rotation vector (axis times angle), rad.
 pub(super) fn rotation(omega: Vec3) -> Mat3 {
     *turned(omega, omega.norm()).rotation.to_rotation_matrix().matrix()
 }
 
-/// Returns the rotation from the new robot frame to the old that moves the masses least about the centre of
-/// mass. It does not depend on which module is the base.
+/// Returns the rotation R_ON from the new robot frame to the old that moves the masses least about the centre of mass
+/// (Kabsch algorithm). It does not depend on which module is the base.
 pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     let mut S = Mat3::zeros();
     for &link in &model.attached {
@@ -34,8 +34,9 @@ pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat
     U * Mat3::from_diagonal(&flip) * Vt
 }
 
-/// Returns the rotation about a horizontal axis that keeps the loaded contacts of the sample before at their
-/// heights above the ground: without it a swinging arm would turn the guess.
+/// Returns the rotation about a horizontal axis, in the world's axes, that keeps the loaded contacts of the sample
+/// before at their heights above the ground: without it a swinging arm would turn the guess. `features`: placed in the
+/// new posture about the centre of mass; `contact_points`: those of the sample before.
 pub(super) fn height_keeping_turn(
     features: &[Feature],
     contact_points: &[ContactPoint],

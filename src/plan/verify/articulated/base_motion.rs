@@ -110,7 +110,8 @@ impl<'a> Monitor<'a> {
         });
     }
 
-    /// Records displacement, heading, slip and the statuses; `names` returns the name of a link.
+    /// Records displacement, heading, slip and the statuses; `names` returns the name of a link, given by its number
+    /// among all links.
     pub(super) fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);
@@ -147,7 +148,8 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// Returns the deepest contact point that penetrates the ground by more than its module may; `None` if none does.
+/// Returns the deepest contact point, if it penetrates the ground by more than its module may; `None` if it does not,
+/// and without contact points.
 pub(super) fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
     let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {

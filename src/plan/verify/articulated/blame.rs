@@ -26,17 +26,19 @@ const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame: a candidate.
 pub(super) struct Candidate {
-    /// The joint that it moves, by its [`JointId`].
+    /// The joint that it moves, by the number in its [`JointId`].
     pub joint: usize,
     /// The time at which its segment begins, s.
     pub start: f64,
-    /// The command.
+    /// The cause of its segment: the command in the source.
     pub cause: CauseId,
     /// True if it moves at the time of the failure.
     moving: bool,
 }
 
-/// Adds the actions to blame to the failures that do not name any.
+/// Adds the actions to blame to the failures that do not name any: up to [`BLAMED_MAX`] whose joint, held still,
+/// removes the failure; else all that move at its time, or the start. `checkpoints`: states of the rollout from which
+/// it is repeated.
 pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
@@ -68,7 +70,8 @@ pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mu
     }
 }
 
-/// Returns the actions begun before a time (s), latest first.
+/// Returns the actions begun before a time (s), latest first, of equal times by joint; of each joint the last few
+/// only.
 pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Candidate> {
     let mut found = Vec::new();
     for track in &tracks.tracks {

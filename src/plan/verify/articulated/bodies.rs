@@ -19,11 +19,12 @@ pub struct UnsoundLink {
 /// The convex parts of a robot's links.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    /// The bodies, in order of link; links without shapes have none.
+    /// The bodies, ascending by the number of their link ([`Kinematics`]); links without shapes have none.
     pub bodies: Vec<Body>,
     /// Index of the first body of each module, and the number of bodies at the end.
     first: Vec<usize>,
-    /// An upper bound, for each module, on the distance of its points from its body link's origin, m.
+    /// An upper bound, for each module by index, on the distance of its points from the origin of its body link (link
+    /// 0) in any posture, m.
     pub reach: Vec<f64>,
     kinds: Vec<Kind>,
     kind_of: Vec<usize>,
@@ -97,14 +98,13 @@ impl Bodies {
         Ok(all)
     }
 
-    /// Returns the indices of the bodies of a module.
+    /// Returns the indices in [`Bodies::bodies`] of the bodies of a module, given by its index in the assembly.
     pub fn of(&self, module: usize) -> std::ops::Range<usize> {
         self.first[module]..self.first[module + 1]
     }
 
-    /// Returns the pairs of bodies within a module that are checked for collision, by index among the
-    /// module's own bodies. Each may penetrate by `InnerPair::allowed`: `touch`, plus the overlap as drawn
-    /// for two links that a joint joins.
+    /// Returns the pairs of bodies within a module (its index in the assembly) that are checked for collision. Each
+    /// may penetrate by `InnerPair::allowed`: `touch`, plus the overlap as drawn for two links that a joint joins.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }
@@ -116,8 +116,8 @@ impl Bodies {
         f64::min(touch(a), touch(b))
     }
 
-    /// Returns the penetration depth of two links, m, each given by its module and its index there; `X_AB` is the
-    /// pose of the second in the first. 0 if they are apart.
+    /// Returns the penetration depth of two links, m, each given by the index of its module and its index there;
+    /// `X_AB` is the pose of the second in the first. 0 if they are apart.
     pub(super) fn overlap(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         let distance = distance_of_solids(self.solid(a), &Pose::identity(), self.solid(b), X_AB);
         (-distance).max(0.0)
@@ -127,14 +127,15 @@ impl Bodies {
         &self.kinds[self.kind_of[module]].solids[link]
     }
 
-    /// Returns the first body of a link, by the numbering of [`Kinematics`]; `None` for a link without a shape.
+    /// Returns the index in [`Bodies::bodies`] of the first body of a link, by the numbering of [`Kinematics`]; `None`
+    /// for a link without a shape.
     pub(super) fn first_of_link(&self, link: usize) -> Option<usize> {
         let first = self.bodies.partition_point(|body| body.link < link);
         self.bodies.get(first).filter(|body| body.link == link).map(|_| first)
     }
 
-    /// Returns the signed distance between two links, m, or `enough` if it is no less; `poses`: the world poses of
-    /// all links.
+    /// Returns the signed distance between two links, given by the numbering of [`Kinematics`], m, or `enough` (m) if
+    /// it is no less; `poses`: the world poses of all links, by the same numbering.
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
             let from = self.bodies.partition_point(|body| body.link < link);

@@ -24,7 +24,7 @@ pub(super) struct BondedLinks(BTreeMap<(usize, usize), BondedPair>);
 /// Two links that one or several bonds join.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BondedPair {
-    /// The first of the bonds, or that which holds the links at its nominal pose.
+    /// The index in the assembly of the first of the bonds, or of that which holds the links at its nominal pose.
     pub bond: usize,
     /// The overlap at the nominal pose, m.
     pub overlap: f64,
@@ -51,7 +51,8 @@ impl NominalOverlaps {
 }
 
 impl BondedLinks {
-    /// Finds the pairs that bonds join which hold, in the part of the robot that `kinematics` reaches.
+    /// Finds the pairs of links that bonds join which hold, in the part of the robot that `kinematics` reaches.
+    /// `bonds`: for each bond of the assembly, true if it holds.
     pub(super) fn new(
         robot: &Assembly,
         bonds: &[bool],
@@ -71,12 +72,13 @@ impl BondedLinks {
         found
     }
 
-    /// Returns the bonded pair of two links; `None` if no bond joins them.
+    /// Returns the bonded pair of two links, given by their numbers in the kinematics, in any order; `None` if no bond
+    /// joins them.
     pub(super) fn get(&self, a: usize, b: usize) -> Option<&BondedPair> {
         self.0.get(&(a, b))
     }
 
-    /// Iterates over the pairs, each once.
+    /// Iterates over the pairs, each once, in ascending order of the two links' numbers, the lesser first.
     pub(super) fn iter(&self) -> impl Iterator<Item = ((usize, usize), &BondedPair)> {
         self.0.iter().filter(|((a, b), _)| a < b).map(|(links, pair)| (*links, pair))
     }

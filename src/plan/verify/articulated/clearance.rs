@@ -18,10 +18,10 @@ const PAIRS_MAX: usize = 4_000_000;
 /// The number of points of a curve below which no points are left out to save work.
 const POINTS_MIN: usize = 20;
 
-/// Returns the least signed distance of links that may not touch, m, at evenly spaced times from the start to
-/// `until` (s), both included: (time, distance). There are `count` + 1 of them, or fewer for robots of more than a
-/// few hundred modules, but not fewer than 21 for that reason. None if no two such links are, if `until` is not
-/// positive, for a plan that is not of an articulated robot, and for one that is not valid.
+/// Returns the least signed distance of links that may not touch, m, at evenly spaced times from the start to `until`
+/// (s), both included, in order of time: (time, s; distance, m). There are `count` + 1 of them, or fewer for robots of
+/// more than a few hundred modules, but not fewer than 21 for that reason. Empty if there are no two such links, if
+/// `until` is not positive, for a plan that is not of an articulated robot, and for one that is not valid.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
     if until <= 0.0 || validation::check(plan).is_err() {
@@ -35,8 +35,9 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     times.iter().zip(found).filter_map(|(time, distance)| Some((*time, distance?))).collect()
 }
 
-/// Returns the least signed distance of links that may not touch, m, at each of these times (s), `None` if no two
-/// such links are. `None` instead of the list for a plan that is not of an articulated robot, or is not valid.
+/// Returns the least signed distance of links that may not touch, m, for each of `times` (s) in their order, `None` if
+/// there are no two such links. `None` instead of the list for a plan that is not of an articulated robot, or is not
+/// valid.
 pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     validation::check(plan).ok()?;
@@ -56,9 +57,10 @@ fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
     Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
 }
 
-/// Returns the point (world, m) at which two modules, given by index, or two links of one penetrate each other at a
-/// time (s): that of the two links that exceed their allowed depth most. `None` if these do not overlap, for a plan
-/// that is not of an articulated robot, and for one that is not valid.
+/// Returns the point (in the world, m) at which two modules, given by their indices in the assembly, penetrate each
+/// other at a time (s); for one index twice, at which two links of that module do. It is that of the two links that
+/// exceed their allowed depth most. `None` if these do not overlap, for a plan that is not of an articulated robot,
+/// and for one that is not valid.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     if validation::check(plan).is_err() {

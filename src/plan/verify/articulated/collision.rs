@@ -23,8 +23,8 @@ use crate::units::{Dimension, quantity};
 /// Collisions and clearance of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// Proved; within tolerance, if links penetrate by no more than `touch`; exempt, if every collision is excused;
-    /// failed; or the number of intervals after which it gave up.
+    /// The status of the check: proved; within tolerance, if links penetrate by no more than `touch`; exempt, if every
+    /// collision is excused; failed; or the number of intervals after which it gave up.
     pub status: Status,
     /// The collisions, in order of time; one for each pair of modules, and one more if an earlier or later one of
     /// the pair is excused.
@@ -34,16 +34,16 @@ pub struct Findings {
     pub clearance: Option<Worst>,
     /// The number of intervals examined.
     pub samples: usize,
-    /// Indices of the exemptions that excused something, ascending.
+    /// Indices in the plan's list of the exemptions that excused something, ascending.
     pub used: Vec<usize>,
 }
 
 /// A penetration of two modules, or of two links of one, deeper than is allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
-    /// The modules, by index; the same twice for two links of one module.
+    /// The modules, by their indices in the assembly; the same twice for two links of one module.
     pub modules: (usize, usize),
-    /// The links that penetrate first, by their indices in their modules.
+    /// The links that penetrate first, one of each of `modules`, by their indices in their modules.
     pub links: (usize, usize),
     /// The first instant of a penetration deeper than allowed, s.
     pub time: f64,
@@ -55,16 +55,16 @@ pub struct Collision {
     pub allowed: f64,
     /// True if an exemption excuses it.
     pub exempt: bool,
-    /// The index of the bond at whose nominal pose the links penetrate each other; `None` if a motion brings them
-    /// there.
+    /// The index in the assembly of the bond at whose nominal pose the links penetrate each other; `None` if a motion
+    /// brings them there.
     pub bond: Option<usize>,
 }
 
-/// Returns the collisions and the clearance of a plan's body over all instants. `tracks` must be valid.
+/// Returns the collisions and the clearance of a plan's body over all instants, by conservative advancement. `tracks`
+/// must be valid, or it panics; `exemptions`: those of the plan.
 ///
 /// # Errors
-///
-/// The first link whose shape is not sound.
+/// [`UnsoundLink`] for the first link whose shape is not sound.
 pub fn judge(
     tracks: &Tracks,
     settings: &Settings,
@@ -170,9 +170,9 @@ fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec
 /// An exemption from collisions that holds all through a window of time.
 #[derive(Clone, Copy, Debug)]
 pub struct Excuse {
-    /// The index of the exemption in the plan.
+    /// The index of the exemption in the plan's list.
     pub index: usize,
-    /// The two modules that it is about, by index; `None`: any.
+    /// The two modules that it is about, by their indices in the assembly; `None`: any.
     pub modules: Option<(usize, usize)>,
 }
 

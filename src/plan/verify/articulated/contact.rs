@@ -12,11 +12,11 @@ use crate::plan::verify::support_polygon::{self, Margin};
 pub struct ContactPoint {
     /// The index of the feature in [`Model::features`].
     pub feature: usize,
-    /// The number of the point of the feature, from 0.
+    /// The number of the point of the feature, from 0, as [`Feature::point`] counts.
     pub k: u8,
-    /// The link of the feature, by its number among all links.
+    /// The link of the feature, by its number among all links ([`Model::bodies`]).
     pub link: usize,
-    /// The position from the centre of mass, in level axes of the stance's heading; +z up, m.
+    /// The position from the centre of mass, m, in level axes of the stance's heading: x forward, y left, z up.
     pub p: Vec3,
     /// The height above the ground, m; negative below it.
     pub gap: f64,
@@ -27,20 +27,20 @@ pub struct ContactPoint {
 /// The contact of a link as a whole: its loaded contact points gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPatch {
-    /// The link, by its number among all links.
+    /// The link, by its number among all links ([`Model::bodies`]).
     pub link: usize,
     /// The normal force as a fraction of the weight.
     pub load: f64,
-    /// The centre of pressure along the first level axis, from the centre of mass, m.
+    /// The centre of pressure from the centre of mass along the stance's level forward axis, m.
     pub x: f64,
-    /// The centre of pressure along the second level axis, from the centre of mass, m.
+    /// The centre of pressure from the centre of mass along the stance's level left axis, m.
     pub y: f64,
     /// The load-weighted mean square distance of the points from the centre of pressure, m².
     pub spread: f64,
 }
 
-/// Returns all points within their module's contact tolerance of the ground, which is `height` (m) below the
-/// centre of mass, with normal forces as on elastic ground.
+/// Returns all points within their module's contact tolerance of the ground, which is `height` (m) below the centre of
+/// mass, with normal forces as on elastic ground. `features`: as [`Model::placed`] returns them.
 pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],
@@ -72,8 +72,8 @@ pub(super) fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
-/// Returns the static stability margin in the support polygon of the contact points that `chosen` selects; its edge
-/// is given by indices of `contact_points`. `None` if they span no area.
+/// Returns the static stability margin in the support polygon of the contact points for which `chosen` returns true;
+/// its edge is given by indices in `contact_points`. `None` if they span no area.
 pub(super) fn margin(
     contact_points: &[ContactPoint],
     chosen: impl Fn(&ContactPoint) -> bool,
@@ -84,8 +84,8 @@ pub(super) fn margin(
     Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
 }
 
-/// Returns the contact points gathered by link, in order of link: one patch a link, since a wheel with two rims that
-/// each stuck would track as wide as its outer rim.
+/// Returns the contact points gathered by link, in ascending order of link: one patch a link, since a wheel with two
+/// rims that each stuck would track as wide as its outer rim.
 pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     let mut found: Vec<ContactPatch> = Vec::new();
     let loaded = || contact_points.iter().filter(|t| t.load > 0.0);

@@ -27,7 +27,7 @@ const COLUMNS_MAX: usize = 100_000;
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of the wrench that a bond that
 /// closes a loop transmits.
 pub(super) struct Column {
-    /// The wrenches of one unit of it.
+    /// The wrenches of one unit of it, each on one link.
     pub wrenches: Vec<Wrench>,
     /// True if it may also act in the opposite direction.
     pub free: bool,
@@ -45,9 +45,10 @@ pub(super) struct ContactForces {
     pub bound: f64,
     /// The sizes of the columns, for the next sample.
     pub warm_start: WarmStart,
-    /// The load at every cut under these forces and the weights, N or N·m.
+    /// The load at every cut under these forces and the weights, in the order of [`Structure::loads`], N or N·m.
     pub held: Vec<f64>,
-    /// The forces of the ground on the links, and the wrenches that bonds that close loops transmit.
+    /// The forces of the ground on the links, four for each contact along the edges of its pyramid, then the wrenches
+    /// that bonds that close loops transmit.
     pub wrenches: Vec<Wrench>,
 }
 
@@ -75,15 +76,15 @@ pub(super) struct ContactQuery<'a> {
     pub stance: &'a Stance,
     /// Its cuts in that stance.
     pub sections: &'a [Section],
-    /// The weights of the links.
+    /// The weights of the links as wrenches.
     pub gravity_wrenches: &'a [Wrench],
-    /// The loads at the cuts from the weights alone, N or N·m.
+    /// The loads at the cuts from the weights alone, in the order of [`Structure::loads`], N or N·m.
     pub weights: &'a [f64],
-    /// The indices of the loads that count.
+    /// The indices in [`Structure::loads`] of the loads that count.
     pub loads: &'a [usize],
     /// The weight of the robot, N.
     pub weight: f64,
-    /// The factor on the friction coefficients of links.
+    /// The factor on the friction coefficients of links, without unit; that of the world.
     pub friction: f64,
     /// True for a fixed base: then the ground does not push, and the fixture of the base balances the rest.
     pub fixed_base: bool,
@@ -92,7 +93,7 @@ pub(super) struct ContactQuery<'a> {
 }
 
 impl ContactForces {
-    /// Returns the force of the ground at each contact point that carries something.
+    /// Returns the force of the ground at each contact point that carries something, in the order of the contacts.
     pub(super) fn of_ground(&self) -> Vec<Wrench> {
         let edges = &self.wrenches[..self.warm_start.contacts.len() * EDGES];
         let force = |edges: &[Wrench]| Wrench { f: edges.iter().map(|edge| edge.f).sum(), ..edges[0] };

@@ -45,7 +45,7 @@ impl<T> Decimated<T> {
         self.seen
     }
 
-    /// Returns the items kept, in order.
+    /// Returns the items kept, in the order in which they came.
     pub(super) fn into_kept(self) -> Vec<T> {
         self.kept
     }

@@ -8,8 +8,8 @@ use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
-/// Judges every docking, and that the robot is one piece from the start to the end. Returns the indices of the bonds
-/// that missed.
+/// Judges every docking, and that the robot is one piece from the start to the end. Returns the indices in the
+/// assembly of the bonds that missed, in order of time.
 pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
     let mut missed = Vec::new();
@@ -91,7 +91,7 @@ pub(super) struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    /// Returns a monitor; `missed` are bonds that did not dock.
+    /// Returns a monitor; `missed`: the indices in the assembly of bonds that did not dock.
     pub(super) fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
         Monitor { rollout, missed, samples: 0, open: vec![] }
     }
@@ -144,7 +144,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
     bond == closing || ends(bond).iter().all(|link| path.contains(link))
 }
 
-/// Returns true if a loop is open in a sample, by the name of its bond.
+/// Returns true if the loop that the bond of this name closes is open in a sample.
 pub(super) fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
     residuals(sample)
         .iter()
@@ -163,8 +163,8 @@ fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> boo
     residual.distance <= error.distance && residual.angle <= error.angle
 }
 
-/// Returns the error of two ports at which a bond docks and holds: that which the connector states, or else that of
-/// loops.
+/// Returns the error of two ports at which the bond of an index docks and holds: that which the connector states, or
+/// else that of loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let a = robot.bonds[bond].a;
     let connector = robot.module_type(a.module).ports[a.port].connector;
@@ -172,6 +172,7 @@ pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) 
     capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
 }
 
+/// Returns the name of the bond of an index for messages: those of its two ports, such as `a.x -- b.y`.
 pub(super) fn bond_name(robot: &Assembly, bond: usize) -> String {
     let declared = &robot.bonds[bond];
     format!("{} -- {}", robot.port_name(declared.a), robot.port_name(declared.b))

@@ -6,9 +6,9 @@ use crate::plan::polynomial::{hull, split};
 /// The greatest number of pieces that are examined before the bound is taken instead of the value.
 const PIECES_MAX: usize = 4096;
 
-/// Returns the greatest value over 0..1 and its argument, by subdivision (the convex hull property). The value is
-/// never below the true one, and above it by no more than rounding, unless a polynomial is so oscillatory that the
-/// pieces run out.
+/// Returns the greatest value over 0..1 of a polynomial, given by its Bernstein control points (at least one), and the
+/// argument where it is reached, by subdivision (the convex hull property). The value is never below the true one, and
+/// above it by no more than rounding, unless a polynomial is so oscillatory that the pieces run out.
 pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
     let (first, last) = (control[0], control[control.len() - 1]);
@@ -31,7 +31,8 @@ pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     bound.fold(best, |best, piece| if piece.0 > best.0 { piece } else { best })
 }
 
-/// Returns the control points of the same polynomial at a higher degree (degree elevation).
+/// Returns the Bernstein control points of the same polynomial at the degree `degree` (degree elevation); unchanged if
+/// its degree is no lower.
 pub(super) fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
     let mut points = control.to_vec();
     while points.len() <= degree {

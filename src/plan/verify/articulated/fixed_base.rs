@@ -27,7 +27,8 @@ pub(super) enum BetweenSamples {
     Over { time: f64, load: usize, ratio: f64 },
 }
 
-/// Judges the whole plan, if its base is held fast all the time and no loop leaves the distribution of loads open.
+/// Judges the torques of the whole plan between samples, if its base is held fixed all the time and no loop leaves the
+/// distribution of loads open; [`BetweenSamples::Open`] otherwise.
 pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     let held = |world: &crate::plan::World| world.ground == Ground::Held;
     let excused = |e: &crate::plan::Exemption| matches!(e.kind, ExemptionKind::Overload(_));

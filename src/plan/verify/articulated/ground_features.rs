@@ -6,7 +6,7 @@
 use super::tolerances::NUMERICS;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
-/// A 3×3 matrix, mostly a rotation.
+/// A 3×3 matrix, mostly a rotation; its columns are the axes of the turned frame.
 pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 
 /// The number of points that represent a circle: the lowest, and others round it so that a disc lying flat is more
@@ -37,7 +37,7 @@ pub enum Form {
 }
 
 impl Feature {
-    /// Returns the feature in the frame in which its own frame is turned by `R` and then shifted by `p`.
+    /// Returns the feature in the frame in which its own frame has the orientation `R` and the origin `p` (m).
     pub fn placed(&self, R: &Mat3, p: &Vec3) -> Feature {
         let form = match self.form {
             Form::Circle(axis, radius) => Form::Circle(R * axis, radius),
@@ -51,7 +51,8 @@ impl Feature {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }
 
-    /// Returns the height of its lowest point along the unit vector `up`, m, from the origin of its frame.
+    /// Returns the height of its lowest point along the unit vector `up` (in its frame), m, from the origin of its
+    /// frame.
     pub fn lowest(&self, up: &Vec3) -> f64 {
         let centre = up.dot(&self.centre);
         match self.form {
@@ -64,8 +65,8 @@ impl Feature {
         }
     }
 
-    /// Returns point `k` of those that represent it, in its frame, m; 0 is the lowest along the unit vector `up`,
-    /// the others of a circle follow at eighths of a turn.
+    /// Returns point `k` of those that represent it, in its frame, m; 0 is the lowest along the unit vector `up` (in
+    /// its frame), the others of a circle, 1 to 7, follow at eighths of a turn.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
         match self.form {
             Form::Vertex => self.centre,
@@ -127,8 +128,7 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     (across - axis * across.dot(axis)).normalize()
 }
 
-/// Returns the features of a link's shapes, in the frame of the link, in an order that depends on nothing
-/// but the declaration.
+/// Returns the features of a link's shapes, in the frame of the link, in the order in which the shapes are declared.
 pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();

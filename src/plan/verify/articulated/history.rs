@@ -28,9 +28,9 @@ pub struct Moment {
     pub base: Pose,
     /// The centre of mass of the links connected with the base, in the world, m.
     pub centre: Vec3,
-    /// The support polygon: corners of the convex hull of the contact points, counter-clockwise from above, x and y
-    /// in the world, m; fewer than three if the contacts span no area, none without weight and for a base that is
-    /// held fast.
+    /// The support polygon: corners of the convex hull of the contact points, counter-clockwise from above, x and y in
+    /// the world, m; fewer than three if the contacts span no area, none without weight and for a base that is held
+    /// fixed.
     pub support: Vec<[f64; 2]>,
     /// The contact points, x and y in the world, m: at most [`CONTACTS_MAX`] of them.
     pub contacts: Vec<[f64; 2]>,
@@ -39,8 +39,8 @@ pub struct Moment {
     pub margin: Option<f64>,
     /// True if the support was lost and the base is held for the time that `unstable_for` allows.
     pub held: bool,
-    /// The ratio of load to limit of each joint that states one, with the ground's forces spread evenly, as (index
-    /// of the joint, ratio). The judge may find better forces. Empty at most moments.
+    /// The ratio of load to limit of each joint that states one, with the ground's forces spread evenly, as (number of
+    /// the joint as in its `JointId`, ratio). The judge may find better forces. Empty at most moments.
     pub loads: Vec<(usize, f64)>,
 }
 

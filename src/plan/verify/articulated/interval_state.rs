@@ -23,8 +23,8 @@ pub(super) struct IntervalState {
     /// The joints over the interval.
     pub interval: Interval,
     poses: Vec<Pose>,
-    /// Orientation, position (m), angular velocity (rad/s) and velocity (m/s) of each link, in the frame of the root
-    /// link.
+    /// Orientation, position (m), angular velocity (rad/s) and velocity (m/s) of each link, by its number in the
+    /// kinematics, in the frame of the root link.
     pub links: Vec<Moving>,
     /// The state of each step of the kinematics.
     joints: Vec<JointInterval>,
@@ -36,13 +36,13 @@ pub(super) struct IntervalState {
 /// Pose and velocity of a link, in the frame of the root link.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moving {
-    /// Orientation.
+    /// The orientation.
     pub R: Matrix3<f64>,
-    /// Position of the origin, m.
+    /// The position of the origin, m.
     pub p: Vec3,
-    /// Angular velocity, rad/s.
+    /// The angular velocity, rad/s.
     pub spin: Vec3,
-    /// Velocity of the origin, m/s.
+    /// The velocity of the origin, m/s.
     pub v: Vec3,
 }
 
@@ -98,7 +98,9 @@ impl IntervalState {
         }
     }
 
-    /// Computes the bounds of all links at a level, when first asked for.
+    /// Computes the bounds of all links at a level (an index in
+    /// [`ReferenceLinks::levels`](super::reference_links::ReferenceLinks::levels)), when first asked for since
+    /// [`set`](Self::set).
     pub(super) fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
         if self.known.len() != levels.levels.len() {
             self.known.resize(levels.levels.len(), false);
@@ -123,12 +125,14 @@ impl IntervalState {
         self.deviations[level] = deviations;
     }
 
-    /// Returns the bound of a link at a level that was computed before.
+    /// Returns the bound of a link, by its number in the kinematics, at a level for which
+    /// [`deviations`](Self::deviations) was called.
     pub(super) fn deviation(&self, level: usize, link: usize) -> &Deviation {
         &self.deviations[level][link]
     }
 
-    /// Returns `X_AB`, the pose of link b in link a, in the middle.
+    /// Returns `X_AB`, the pose of link b in link a, both by their numbers in the kinematics, in the middle of the
+    /// interval.
     pub(super) fn relative(&self, a: usize, b: usize) -> Pose {
         self.poses[a].inverse() * self.poses[b]
     }

@@ -24,7 +24,8 @@ pub struct PlanarPose {
 }
 
 impl PlanarPose {
-    /// Returns the pose moved by a displacement in its own frame along an arc: forward (m), left (m), turn (rad).
+    /// Returns the pose moved by a displacement in its own frame along an arc: forward (m), left (m), turn (rad,
+    /// counter-clockwise from above).
     pub fn moved(&self, shift: &Vec3) -> PlanarPose {
         let (s, c) = libm::sincos(shift.z);
         // sin(w)/w and (1 - cos w)/w, by their series where w is small.
@@ -68,8 +69,10 @@ impl SlidingPatch {
     }
 }
 
-/// Returns the pose that the robot moves to, and for each loaded patch the link, its slip (m) and its load as a
-/// fraction of the weight: half of the slip for the patches of the sample before, half for those of this one.
+/// Returns the pose that the robot moves to, and for each loaded patch, first those of the sample before, then those
+/// of this one, the number of its link, its slip (m) and its load as a fraction of the weight: half of the slip for
+/// either sample. `R` and `height`: the rotation of the robot and the height of the centre of mass (m) in this sample;
+/// `patches`: those of this sample.
 pub(super) fn displacement(
     model: &Model,
     old: &Stance,

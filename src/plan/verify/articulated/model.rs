@@ -12,13 +12,14 @@ pub struct Model<'a> {
     pub robot: &'a Assembly,
     /// Its kinematics, with the base module as the root.
     pub kinematics: Kinematics,
-    /// The bodies, one for every link of the assembly, loose ones too.
+    /// The bodies, one for every link of the assembly by its number in `kinematics`, also for those that are not
+    /// connected with the base.
     pub bodies: Vec<Body>,
-    /// The links connected with the base, in order of link.
+    /// The numbers of the links connected with the base, ascending.
     pub attached: Vec<usize>,
-    /// The features of the attached links, in order of link.
+    /// The features of the attached links, each in the frame of its link, ascending by link.
     pub features: Vec<Feature>,
-    /// The number of the link of each feature.
+    /// The number of the link of each feature, in the order of `features`.
     pub link_of: Vec<usize>,
     /// The mass of the attached links, kg.
     pub mass: f64,
@@ -27,7 +28,7 @@ pub struct Model<'a> {
 /// A link with its mass, friction and ground features.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// The index of the module that it belongs to.
+    /// The index in the assembly of the module that it belongs to.
     pub module: usize,
     /// The mass, kg.
     pub mass: f64,
@@ -44,16 +45,17 @@ pub struct Body {
 /// Poses of all links in the frame of the base module's body.
 #[derive(Clone, Debug)]
 pub struct Posture {
-    /// The orientation of each link, by number; those of loose links mean nothing.
+    /// The orientation of each link, by its number; those of links that are not connected with the base mean nothing.
     pub R: Vec<Mat3>,
-    /// The position of each link's origin, m.
+    /// The position of each link's origin, by its number, m.
     pub p: Vec<Vec3>,
     /// The centre of mass of the attached links, m; without mass the origin.
     pub centre: Vec3,
 }
 
 impl<'a> Model<'a> {
-    /// Compiles `robot` with the bonds for which `bonds` is true. Panics unless there is one flag for every bond.
+    /// Compiles `robot` with the bonds for which `bonds`, by the bond's index in the assembly, is true. Panics unless
+    /// there is one flag for every bond.
     pub fn new(robot: &'a Assembly, bonds: &[bool]) -> Model<'a> {
         let kinematics = Kinematics::new(robot, bonds, robot.base);
         let mut model = Model {
@@ -114,8 +116,8 @@ impl<'a> Model<'a> {
         self.kinematics.link(self.robot.base, 0)
     }
 
-    /// Returns all features, in the order of [`Model::features`], with the robot turned by `R` and the centre of
-    /// mass at the origin.
+    /// Returns all features, in the order of [`Model::features`], with the robot turned by `R` (from the frame of
+    /// `posture`) and the centre of mass at the origin, m.
     pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
         let mut placed = Vec::with_capacity(self.features.len());
         for &link in &self.attached {
@@ -127,7 +129,7 @@ impl<'a> Model<'a> {
         placed
     }
 
-    /// Returns the path name of the module of a link.
+    /// Returns the path name of the module of a link, given by its number.
     pub fn module_name(&self, link: usize) -> &str {
         &self.robot.modules[self.bodies[link].module].name
     }

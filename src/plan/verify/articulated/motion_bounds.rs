@@ -25,7 +25,7 @@ struct Piece {
     acceleration: f64,
 }
 
-/// All joints over one interval; indexed by joint.
+/// All joints over one interval; lists are indexed by the number in a [`JointId`](crate::robot::JointId).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Interval {
     /// The middle, s.

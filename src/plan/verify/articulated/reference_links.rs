@@ -24,26 +24,26 @@ pub(super) struct ReferenceLinks {
 /// All modules that are not yet centroids themselves, each seen from the centroid of its part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ReferenceLevel {
-    /// The body link of each centroid.
+    /// The number in the kinematics of the body link of each centroid.
     pub origins: Vec<usize>,
-    /// The steps from links already reached to their neighbours.
+    /// The steps from links already reached to their neighbours, in an order in which each begins at a link reached.
     pub hops: Vec<LinkStep>,
-    /// The reference link of each link.
+    /// The reference link of each link, both by their numbers in the kinematics.
     pub origin_of: Vec<u32>,
 }
 
 /// A step from a link to a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkStep {
-    /// The link already reached.
+    /// The number in the kinematics of the link already reached.
     pub from: u32,
-    /// Its neighbour.
+    /// The number in the kinematics of its neighbour.
     pub to: u32,
-    /// Index in [`Kinematics::steps`].
+    /// The index in [`Kinematics::steps`] of the step between them.
     pub step: u32,
-    /// Distance of the origin of `from` from the joint's axis, m.
+    /// The distance of the origin of `from` from the joint's axis, m.
     pub out: f64,
-    /// Distance of the origin of `to` from the joint's axis, m.
+    /// The distance of the origin of `to` from the joint's axis, m.
     pub back: f64,
 }
 
@@ -72,20 +72,20 @@ impl ReferenceLinks {
         ReferenceLinks { levels, centroids }
     }
 
-    /// Returns the level at which a centroid lies between two modules, or is one of them. A module is its own
-    /// reference.
+    /// Returns the level (index in `levels`) at which a centroid lies between two modules, given by their indices in
+    /// the assembly, or is one of them. A module is its own reference.
     pub(super) fn between(&self, a: usize, b: usize) -> usize {
         let same = |level: &&Vec<u32>| level[a] == level[b] && level[a] != NOWHERE;
         self.centroids.iter().take_while(same).count() - 1
     }
 
-    /// Returns the reference link of a link at a level.
+    /// Returns the reference link of a link at a level (index in `levels`), both by their numbers in the kinematics.
     pub(super) fn origin(&self, level: usize, link: usize) -> usize {
         self.levels[level].origin_of[link] as usize
     }
 }
 
-/// Returns the centroid of all modules that `kinematics` reaches.
+/// Returns the index in the assembly of the centroid of all modules that `kinematics` reaches.
 pub(super) fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
     let taken = vec![false; robot.modules.len()];
     let neighbours = neighbours(robot, kinematics);

@@ -26,7 +26,8 @@ pub struct Rollout<'a> {
     pub settings: &'a Settings,
     /// The tolerances.
     pub tolerances: &'a Tolerances,
-    /// A joint (by id) that is held from a time on (s), to find the command to blame; `None`: all joints move.
+    /// A joint, by the number in its `JointId`, that is held from a time on (s), to find the command to blame; `None`:
+    /// all joints move.
     pub held: Option<(usize, f64)>,
 }
 
@@ -50,9 +51,9 @@ pub struct Sample<'a> {
     pub time: f64,
     /// The time of the sample before, s; the same as `time` at the start.
     pub before: f64,
-    /// The positions of all joints by id, rad or m.
+    /// The positions of all joints, by the number in their `JointId`, rad or m.
     pub joints: &'a [f64],
-    /// A flag for every bond of the robot, true if it holds.
+    /// A flag for every bond of the robot, by its index, true if it holds.
     pub bonds: &'a [bool],
     /// The model of the robot with those bonds.
     pub model: &'a Model<'a>,
@@ -69,8 +70,8 @@ pub struct Sample<'a> {
     pub motion: f64,
     /// The loss of support since the sample before; `None` if there was none.
     pub tip: Option<&'a TipOver>,
-    /// For each loaded contact patch the link, its slip since the sample before, m, and its load as a fraction of
-    /// the weight.
+    /// For each loaded contact patch the number of its link, its slip since the sample before, m, and its load as a
+    /// fraction of the weight.
     pub slips: &'a [(usize, f64, f64)],
     /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
     /// samples.
@@ -86,8 +87,8 @@ pub struct TipOver {
     pub fall: f64,
     /// An upper bound on the motion of points about the centre of mass in the step that showed it, m.
     pub motion: f64,
-    /// The links at the two ends of the edge, one if they are the same; all supporting links if the support has no
-    /// area.
+    /// The numbers of the links at the two ends of the edge, one if they are the same; all supporting links if the
+    /// support has no area.
     pub edge: Vec<usize>,
     /// True if an exemption excuses it.
     pub excused: bool,
@@ -113,8 +114,8 @@ pub enum RolloutEnd {
 /// longer, count once for each so many.
 const FEATURES_PER_SAMPLE: usize = 100;
 
-/// Returns the number of samples that a plan of a robot with so many features (see [`Model::features`]) may take, of the
-/// `samples_max` of its settings.
+/// Returns the number of samples that a plan of a robot with so many features (see [`Model::features`]) may take:
+/// `samples_max` of its settings, or a part of it for a robot of many features.
 pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
     settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }
@@ -146,9 +147,9 @@ struct Stepper<'a> {
     samples: usize,
 }
 
-/// Rolls a plan out from its start, or after a checkpoint, until `until` (s) or its end. `observe` receives every
-/// sample, with a function that returns the checkpoint at it, and returns false to stop. The sample of the
-/// checkpoint itself is not observed again.
+/// Rolls a plan out from its start, or after the checkpoint `from` (`None`: from the start), until `until` (s) or its
+/// end. `observe` receives every sample in order of time, with a function that returns the checkpoint at it, and
+/// returns false to stop. The sample of the checkpoint itself is not observed again.
 pub fn roll_out(
     rollout: Rollout,
     from: Option<&Checkpoint>,
@@ -449,7 +450,7 @@ pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
     exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.from <= t && t <= e.to)
 }
 
-/// Writes the joint positions at a time (s), with the blamed joint held.
+/// Writes the joint positions (rad or m) at a time (s), by the number in their `JointId`, with the blamed joint held.
 pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     joints.clear();
     joints.extend_from_slice(&rollout.tracks.start.joints);
@@ -463,7 +464,7 @@ pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     }
 }
 
-/// Returns for each bond if it holds just after a time (s).
+/// Returns for each bond of the robot, by its index, true if it holds just after a time (s).
 pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     let mut bonds = tracks.start.bonds.clone();
     for dock in tracks.events.iter().take_while(|d| d.time <= t) {
@@ -472,7 +473,7 @@ pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
     bonds
 }
 
-/// Returns the world just after a time (s).
+/// Returns the world just after a time (s); the default world before the first change.
 pub(super) fn world_at(worlds: &[WorldFrom], t: f64) -> World {
     worlds.iter().take_while(|w| w.from <= t).last().map_or_else(World::default, |w| w.world)
 }

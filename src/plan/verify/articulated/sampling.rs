@@ -5,8 +5,8 @@ use super::tolerances::Tolerances;
 use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
 use crate::robot::JointId;
 
-/// Returns every instant that is a sample under any settings, ascending: starts and ends of segments, docking,
-/// changes of the world, ends of exemptions, the start and the end.
+/// Returns every instant (s) that is a sample under any settings, ascending and each once: starts and ends of
+/// segments, docking, changes of the world, ends of exemptions, the start and the end of the plan.
 pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
     let mut all = tracks.instants();
     all.extend(worlds.iter().map(|w| w.from));
@@ -17,7 +17,9 @@ pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exem
     all
 }
 
-/// Returns the number of samples between two neighbouring instants (s); 0 where no joint moves.
+/// Returns the number of samples between two neighbouring instants (s): as many as keep samples no farther apart in
+/// time than `settings.sample`, and turns of joints between them no greater than `tolerances.turn_sample`; 0 where no
+/// joint moves.
 pub(super) fn divisions(
     tracks: &Tracks,
     t0: f64,

@@ -11,11 +11,11 @@ use crate::robot::Kinematics;
 /// Two modules that are not proved to be separated yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ModulePair {
-    /// The index of the first module.
+    /// The index in the assembly of the first module.
     pub a: u32,
-    /// The index of the second module.
+    /// The index in the assembly of the second module.
     pub b: u32,
-    /// The level of their reference link.
+    /// The level of their reference link, an index in [`ReferenceLinks::levels`].
     pub level: u32,
 }
 
@@ -24,15 +24,15 @@ pub(super) struct ModulePair {
 pub(super) struct BodyPair {
     /// The index of the first body in [`Bodies::bodies`].
     pub a: u32,
-    /// The index of the second body.
+    /// The index of the second body in [`Bodies::bodies`].
     pub b: u32,
-    /// The level of their reference link.
+    /// The level of their reference link, an index in [`ReferenceLinks::levels`].
     pub level: u32,
     /// True if they count for the clearance: two links that a joint joins do not.
     pub counts: bool,
     /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
-    /// The separating direction from a to b found last, in the frame of a's carrier; zero at first.
+    /// The unit vector of the separating direction from a to b found last, in the frame of a's carrier; zero at first.
     pub normal: Vec3,
 }
 
@@ -123,8 +123,8 @@ pub(super) fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bo
     Bound { least: ends - state.drift(deviation(a) + deviation(b)), middle }
 }
 
-/// Returns the signed distance in the middle (m), or, once it is known to be at least `enough`, a lower bound of at
-/// least that, and leaves its direction in the pair.
+/// Returns the signed distance of two bodies in the middle of the interval (m), or, once it is known to be at least
+/// `enough` (m), a lower bound of at least that. Its direction is left in `pair.normal`.
 pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);

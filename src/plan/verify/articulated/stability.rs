@@ -34,9 +34,9 @@ pub(super) struct SupportLoss {
     pub drop: Option<f64>,
     /// The least margin, m; `None` if the contacts span no area, and for a tip-over.
     pub margin: Option<f64>,
-    /// The parts at the edge, in words.
+    /// The parts at the edge in words, for a message; empty if there is none.
     pub edge: String,
-    /// The modules at the edge.
+    /// The path names of the modules at the edge.
     pub modules: Vec<String>,
 }
 

@@ -14,9 +14,9 @@ use nalgebra::{Rotation3, UnitQuaternion};
 /// The state of a robot on the ground (or held over it) at a sample, with all that the next sample needs.
 #[derive(Clone, Debug)]
 pub struct Stance {
-    /// The poses of the links in the base's frame.
+    /// The poses of the links in the frame of the base module's body.
     pub posture: Posture,
-    /// The orientation of the base's frame, before the turn by the yaw of the planar pose.
+    /// The orientation of that frame, before the turn by the yaw of the planar pose.
     pub R: Mat3,
     /// The height of the centre of mass above the ground, m.
     pub height: f64,
@@ -109,8 +109,8 @@ impl Stance {
         (stance, up - rest.height, turned)
     }
 
-    /// Returns the effect of a change of posture: the robot turned as its masses and contacts were, then settled.
-    /// While a robot is held, the contacts are those before it was.
+    /// Returns the effect of a change to `posture`: the robot is turned as its masses and contacts were, then settled.
+    /// While a robot is held, the contacts are those before it was. `model` must be that of this stance.
     pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> SettleAttempt {
         let mut R = self.R * mass_alignment(model, &self.posture, &posture);
         let mut features = model.placed(&posture, &R);
@@ -125,8 +125,8 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
-    /// Returns the robot settled as attempted, and for each loaded contact patch the link, its slip (m), and its
-    /// load as a fraction of the weight.
+    /// Returns the robot settled as attempted, and for each loaded contact patch the number of its link, its slip (m),
+    /// and its load as a fraction of the weight.
     pub fn settled(
         &self,
         model: &Model,
@@ -181,7 +181,7 @@ impl Stance {
         self.link_pose(link)
     }
 
-    /// Returns `X_WL`, the world pose of the link of a number.
+    /// Returns `X_WL`, the world pose of the link of a number. Panics if there is none.
     pub fn link_pose(&self, link: usize) -> Pose {
         let (s, c) = libm::sincos(self.planar_pose.yaw);
         let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;

@@ -14,14 +14,15 @@ use nalgebra::DMatrix;
 
 /// The loads and cuts of a model; compiled once for its bonds.
 pub(super) struct Structure {
-    /// All loads that have a limit.
+    /// All loads that have a limit; lists of loads elsewhere are in this order.
     pub loads: Vec<Load>,
     /// True if some motor's effort does not follow from those of its joints.
     pub motors_open: bool,
     cuts: Vec<Cut>,
     /// Preorder number of each link, and the last number of those distal to it.
     span: Vec<(usize, usize)>,
-    /// Links of the far sides of bonds that close loops: (bond, link at a, link at b).
+    /// The bonds that close loops, each as (index of the bond, number of the link with its port `a`, number of the
+    /// link with its port `b`).
     pub closing: Vec<(usize, usize, usize)>,
 }
 
@@ -34,7 +35,8 @@ pub(super) struct Load {
     pub kind: LoadKind,
     /// The limit, N·m or N; positive.
     pub limit: f64,
-    /// The cuts whose forces (N) or moments (N·m) make the load, each with its factor.
+    /// The cuts whose forces (N) or moments (N·m) make the load, each as (index of the cut as in
+    /// [`Structure::sections`], factor).
     pub terms: Vec<(usize, f64)>,
 }
 
@@ -62,18 +64,19 @@ enum Cut {
 /// `dir·((p - at) × f)` if they are moments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
-    /// The first link beyond the cut.
+    /// The number of the first link beyond the cut.
     pub link: usize,
     /// A point of the cut, from the centre of mass, level axes, m.
     pub at: Vec3,
-    /// Unit direction of the component.
+    /// The unit direction of the component, in level axes.
     pub dir: Vec3,
     /// True for a moment about `dir`, false for a force along it.
     pub moment: bool,
 }
 
 impl Section {
-    /// Returns the component that a force `f` at `p` with a moment `m` contributes.
+    /// Returns the component, N or N·m, that a force `f` (N) at `p` (m) with a moment `m` (N·m) contributes, all in
+    /// level axes from the centre of mass.
     pub(super) fn of(&self, p: &Vec3, f: &Vec3, m: &Vec3) -> f64 {
         if self.moment { self.dir.dot(&((p - self.at).cross(f) + m)) } else { self.dir.dot(f) }
     }
@@ -82,7 +85,7 @@ impl Section {
 /// A wrench on a link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrench {
-    /// The link that it acts on.
+    /// The number of the link that it acts on.
     pub link: usize,
     /// Point of application, from the centre of mass, level axes, m.
     pub p: Vec3,
@@ -109,20 +112,20 @@ impl Structure {
         structure
     }
 
-    /// Returns true if `link` is `at` or lies beyond it in the tree.
+    /// Returns true if the link `link` is the link `at` or lies beyond it in the tree; both are numbers of links.
     pub(super) fn beyond(&self, at: usize, link: usize) -> bool {
         let ((first, last), (number, _)) = (self.span[at], self.span[link]);
         first <= number && number <= last
     }
 
-    /// Returns the first link beyond a cut.
+    /// Returns the number of the first link beyond the cut of an index.
     pub(super) fn cut_link(&self, cut: usize) -> usize {
         match self.cuts[cut] {
             Cut::Step { link, .. } | Cut::Bond { link, .. } => link,
         }
     }
 
-    /// Returns all cuts in a stance.
+    /// Returns all cuts in a stance, in level axes from the centre of mass; the index of a cut is its index here.
     pub(super) fn sections(&self, stance: &Stance) -> Vec<Section> {
         let R = |link: usize| stance.R * stance.posture.R[link];
         let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
@@ -146,7 +149,7 @@ impl Structure {
             .collect()
     }
 
-    /// Returns the load at every cut from these wrenches, N or N·m.
+    /// Returns the load at every cut from these wrenches, N or N·m, in the order of `sections`.
     pub(super) fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
@@ -163,7 +166,8 @@ impl Structure {
         sections.iter().map(|s| s.of(&zero, &force[s.link], &moment[s.link])).collect()
     }
 
-    /// Returns the size of a load from the forces that its cuts hold, N·m or N; a pull is signed.
+    /// Returns the size of a load, N·m or N, from the loads that all cuts hold ([`Structure::held`]): a pull is
+    /// signed, positive where it separates the ports, the others are absolute values.
     pub(super) fn size(&self, load: &Load, held: &[f64]) -> f64 {
         let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
         match load.kind {
@@ -173,8 +177,8 @@ impl Structure {
         }
     }
 
-    /// Returns the generalised force (N or N·m) that a motor supplies at a joint, by virtual work: the cuts that the
-    /// joint moves, with their factors.
+    /// Returns the generalised force (N or N·m) that a motor supplies at a joint, given by the number in its
+    /// `JointId`, by virtual work. `held`: the loads of all cuts; `effects`: as [`effects`] returns them.
     pub(super) fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
@@ -294,7 +298,8 @@ impl Structure {
         }
     }
 
-    /// Returns the position of a bond that closes a loop: its port `a`, from the centre of mass, m.
+    /// Returns the position of a bond that closes a loop, given by its index: that of its port `a`, from the centre of
+    /// mass in level axes, m.
     pub(super) fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
         let a = model.robot.bonds[bond].a;
         let port = &model.robot.module_type(a.module).ports[a.port];
@@ -324,7 +329,8 @@ pub(super) fn moves(step: &Step) -> bool {
     step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 
-/// Returns for each joint the moving steps that it drives, numbered among the moving steps, with factors.
+/// Returns for each joint, by the number in its `JointId`, the cuts at the steps that it drives, each as (index of the
+/// cut, factor of the step's motion).
 pub(super) fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     let count = model.robot.joints().count();
     let mut effects = vec![Vec::new(); count];

@@ -22,9 +22,9 @@ pub struct Instant {
     /// 0 in a support without area. `None` without a ground or weight, and while the base is held because support is
     /// missing.
     pub margin: Option<f64>,
-    /// The torque (N·m) or force (N) that a motor supplies at each joint, by [`JointId`](crate::robot::JointId), in
-    /// the joint's positive direction. `None` without weight, if the judge does not know it, and if it was not
-    /// requested.
+    /// The torque (N·m) or force (N) that a motor supplies at each joint, by the number in its
+    /// [`JointId`](crate::robot::JointId), in the joint's positive direction. An entry is `None` without weight, if
+    /// the judge does not know it, and if it was not requested.
     pub efforts: Vec<Option<f64>>,
     /// The forces of the ground; `None` without weight, if the judge does not know them, and if they were not
     /// requested.
@@ -43,7 +43,7 @@ pub enum Detail {
 /// A force of the ground on a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundForce {
-    /// The index of the module that it acts on.
+    /// The index in the assembly of the module that it acts on.
     pub module: usize,
     /// The point of application in the world, m.
     pub point: Vec3,
@@ -51,9 +51,10 @@ pub struct GroundForce {
     pub force: Vec3,
 }
 
-/// Returns the judge's quantities at these times (s), which ascend and lie within the plan, in the same order. Fewer
-/// if the judge took all samples that are allowed before it got there; none for plans of other families, and for
-/// plans that are not valid.
+/// Returns the judge's quantities at these times (s), one instant for each, in the order of `times`. `times` must
+/// ascend (equal ones may follow each other) and lie between 0 and the duration of the plan; a negative one panics.
+/// The list ends early if the judge took all samples that are allowed before it got there, or if `times` do not
+/// ascend. It is empty for plans of other families, and for plans that are not valid.
 pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     if validation::check(plan).is_err() {

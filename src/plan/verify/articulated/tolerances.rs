@@ -137,37 +137,42 @@ pub(super) struct Numerics {
     /// Weight of a turn in the alignment on contacts, m²: it keeps a robot on one or two contacts from being
     /// turned about them.
     pub turn_weight: f64,
-    /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own.
+    /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own. 1e-9: rounding.
     pub level_sine: f64,
-    /// A support plane is violated when it lies above the model of the bundle method by more than this, m.
+    /// A support plane is violated when it lies above the model of the bundle method by more than this, m. 1e-12:
+    /// rounding of coordinates.
     pub plane_violation: f64,
-    /// Rounding allowed in the multipliers of the bundle method.
+    /// Rounding allowed in the multipliers of the bundle method, which are without unit and sum to 1. 1e-10.
     pub multiplier: f64,
-    /// Proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points
-    /// are.
+    /// Proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points are.
+    /// Without unit; 1e-8.
     pub proximal_weight: f64,
-    /// Gradient at which the dual of the normal forces is solved, in parts of the weight.
+    /// Gradient at which the dual of the normal forces is solved, in parts of the weight. 1e-14: rounding.
     pub dual_gradient: f64,
-    /// Relative precision of the greatest value of a polynomial.
+    /// Relative precision of the greatest value of a polynomial, without unit. 1e-12: well above rounding.
     pub extremum: f64,
     /// The least spread of a sliding patch, m² (0.1 mm): a point resists spinning a little.
     pub patch_spread: f64,
-    /// Slips shorter than this part of the greatest motion are smoothed.
+    /// Slips shorter than this part of the greatest motion are smoothed. 1e-4: the power then has a derivative
+    /// everywhere.
     pub smoothed_slip: f64,
-    /// The rounds of the displacement of least friction end when it changes by less than this part of the
-    /// greatest motion.
+    /// The rounds of the displacement of least friction end when it changes by less than this part of the greatest
+    /// motion. 1e-10.
     pub power_change: f64,
-    /// Weight that keeps the normal equations of a balance regular, in parts of the weight.
+    /// Weight that keeps the normal equations of a balance regular, in parts of the weight. 1e-15.
     pub balance_ridge: f64,
-    /// The part of [`Tolerances::balance`] to which a balance is corrected.
+    /// The part of [`Tolerances::balance`] to which a balance is corrected. 1e-6.
     pub balance_spare: f64,
-    /// The least size of a robot about its base, m, to which the moment of its weight is compared.
+    /// The least size of a robot about its base, m, to which the moment of its weight is compared. 1 mm: smaller
+    /// robots would divide by nothing.
     pub robot_size: f64,
-    /// Angle below which an arc is followed by the series of sine and cosine, rad.
+    /// Angle below which an arc is followed by the series of sine and cosine, rad. 1e-6: the series is then exact to
+    /// rounding.
     pub series_angle: f64,
-    /// Square of the angle below which the logarithm of a displacement is taken by its series, rad².
+    /// Square of the angle below which the logarithm of a displacement is taken by its series, rad². 1e-6: the series
+    /// is then exact to rounding.
     pub series_angle_squared: f64,
-    /// Sine of the angle below which a rotation has no axis.
+    /// Sine of the angle below which a rotation has no axis. 1e-12: rounding.
     pub no_rotation: f64,
 }
 

@@ -56,10 +56,11 @@ struct Decided {
 
 /// The efforts of joints at one sample, and the forces of the ground with which they were judged.
 pub(super) struct JudgedLoads {
-    /// The force or torque that a motor supplies at each joint, N or N·m; `None` where it is not known.
+    /// The force or torque that a motor supplies at each joint, by the number in its `JointId`, N or N·m; `None` where
+    /// it is not known.
     pub efforts: Vec<Option<f64>>,
-    /// The forces of the ground on links, at points from the centre of mass in level axes; `None` where they are not
-    /// known.
+    /// The forces of the ground on links (N), at points from the centre of mass in level axes (m); `None` where they
+    /// are not known.
     pub forces: Option<Vec<Wrench>>,
 }
 
@@ -76,13 +77,13 @@ const UNDECIDED: &str =
 /// A load over its limit.
 #[derive(Clone, Debug)]
 pub(super) struct Overload {
-    /// The name of the load.
+    /// The name of the load, as in [`Load::name`](super::statics::Load::name).
     pub name: String,
     /// Its kind.
     pub kind: LoadKind,
-    /// First sample over the limit, s.
+    /// The time of the first sample over the limit, s.
     pub since: f64,
-    /// Last sample over the limit, s.
+    /// The time of the last sample over the limit, s.
     pub until: f64,
     /// The greatest load so far; N·m or N.
     pub value: f64,
@@ -439,7 +440,7 @@ pub(super) struct LoadGauge {
 
 impl LoadGauge {
     /// Returns the ratio of load to limit of every joint that states one, with the ground's forces spread evenly and
-    /// without friction: (joint by id, ratio). Empty without weight or ground.
+    /// without friction, as (number of the joint in its `JointId`, ratio). Empty without weight or ground.
     pub(super) fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return vec![];

@@ -10,8 +10,8 @@ use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Checks the smallest and the largest edge at the end of a stage (K1). Returns false if one is beyond its
-    /// limit.
+    /// Checks the smallest and the largest edge at the end of a stage (K1). `lines`: the grid lines to a cell; `time`:
+    /// s; `stage`: the stage to blame, `None` at the start. Returns false if one is beyond its limit.
     pub(super) fn sizes(
         &self,
         change: &Change,
@@ -95,7 +95,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records that two cells in contact move too fast relative to each other.
+    /// Records that two cells in contact, given by number, move too fast relative to each other; `relative`: their
+    /// relative displacement in the stage, on the grid of half lines.
     pub(super) fn contact_too_fast(
         &self,
         step: &Step,
@@ -193,7 +194,7 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records an overlap of two cells (K2).
+    /// Records an overlap of two cells (K2) in a stage from `from` to `to` (s); `stage` is `None` at the start.
     pub(super) fn overlapping(
         &self,
         overlap: &Overlap,
@@ -209,7 +210,7 @@ impl Judgement<'_> {
         self.fail_at(CheckKind::Collision, time, stage, (message, 0.0, 0.0), &[a, b], ledger);
     }
 
-    /// Checks that contacts connect all cells (K3).
+    /// Checks at `time` (s) that contacts connect all cells (K3); `stage` is `None` at the start.
     pub(super) fn connected(
         &self,
         forest: &mut ContactForest,

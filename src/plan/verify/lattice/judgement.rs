@@ -22,9 +22,9 @@ pub(super) struct Step<'a> {
     pub from: f64,
     /// The end of the stage, s.
     pub to: f64,
-    /// The cells at its start.
+    /// The cells at its start, by number.
     pub before: &'a [Cube],
-    /// The cells at its end.
+    /// The cells at its end, by number.
     pub after: &'a [Cube],
     /// Sums and extremes of the displacements.
     pub change: Change,
@@ -35,7 +35,7 @@ pub(super) struct Step<'a> {
 }
 
 impl Judgement<'_> {
-    /// Records a failure of a stage that has no value and no limit.
+    /// Records a failure of a stage at `time` (s) that has no value and no limit; `stage` is `None` at the start.
     pub(super) fn fail(
         &self,
         kind: CheckKind,
@@ -47,7 +47,8 @@ impl Judgement<'_> {
         self.fail_at(kind, time, stage, (message, 0.0, 0.0), &[], ledger);
     }
 
-    /// Records a failure of a stage with its value, its limit and the cells concerned.
+    /// Records a failure of a stage at `time` (s) with its message, value and limit, and the numbers of the cells
+    /// concerned; `stage` is `None` at the start.
     pub(super) fn fail_at(
         &self,
         kind: CheckKind,
@@ -76,7 +77,7 @@ impl Judgement<'_> {
     }
 }
 
-/// Returns the names of cells in a report.
+/// Returns the names of cells in a report, such as `cell 3`, by their numbers from 0.
 pub(super) fn names(cells: &[u32]) -> Vec<String> {
     cells.iter().map(|cell| format!("cell {cell}")).collect()
 }

@@ -55,7 +55,11 @@ impl fmt::Display for NotJudged {
 }
 
 impl Judgement<'_> {
-    /// Checks the assumptions of the model: no gravity, no ground, and units that the cell is capable of.
+    /// Checks the assumptions of the model: no gravity, no ground, units that the cell is capable of, and not too much
+    /// work.
+    ///
+    /// # Errors
+    /// [`NotJudged::World`], [`NotJudged::Units`] or [`NotJudged::Work`].
     pub(super) fn assumptions(&self, plan: &Plan) -> Result<(), NotJudged> {
         let floats = |world: &World| world.gravity == 0.0 && world.ground == Ground::Off;
         if !plan.worlds.iter().all(|w| floats(&w.world)) {
@@ -79,7 +83,11 @@ impl Judgement<'_> {
         Ok(())
     }
 
-    /// Judges the start and then stage after stage.
+    /// Judges the start and then stage after stage; failures of the plan go to `ledger`.
+    ///
+    /// # Errors
+    /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place, or too many pairs of cells come
+    /// near each other.
     pub(super) fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let grid = Grid::of(self.stages)?;
         // A cell that no run names has no size.

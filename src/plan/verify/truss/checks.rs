@@ -10,7 +10,8 @@ use crate::plan::{CheckKind, Failure, Interpolation, Plan, Status, World, Worst}
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Judges the start of a plan of one keyframe as a step in which nothing moves; does nothing for other plans.
+    /// Judges the start of a plan of one keyframe, whose nodes are at `x` (m), as a step in which nothing moves; does
+    /// nothing for other plans.
     pub(super) fn at_rest(
         &self,
         x: &[Vec3],
@@ -121,7 +122,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records displacement, events and the status of every check.
+    /// Records displacement, events and the status of every check; `places`: for each keyframe the positions of the
+    /// nodes, m.
     pub(super) fn summary(
         &self,
         places: &[Vec<Vec3>],

@@ -10,9 +10,9 @@ use crate::robot::Strut;
 
 /// The motion from one keyframe to the next.
 pub(super) struct Step {
-    /// Node positions at the start, m.
+    /// The positions of the nodes at the start, by node, m.
     pub from: Vec<Vec3>,
-    /// Node positions at the end, m.
+    /// The positions of the nodes at the end, by node, m.
     pub to: Vec<Vec3>,
     /// The interpolation of the nodes between the two.
     pub interpolation: Interpolation,
@@ -41,7 +41,7 @@ pub(super) struct Judgement<'a> {
 }
 
 impl Judgement<'_> {
-    /// Returns the name of a strut in a report, made of the names of its nodes.
+    /// Returns the name of a strut, given by its index in the plan, in a report: the names of its nodes, `a -- b`.
     pub(super) fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.paths.struts[strut];
         format!("{} -- {}", self.paths.node_names[a], self.paths.node_names[b])

@@ -15,7 +15,8 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// Returns a length outside a range (m) by more than `tolerance`, with its time; `None` if there is none.
+    /// Returns a length (m) outside the range `low` to `high` (m) by more than `tolerance` (m), with its time (s), the
+    /// least length first; `None` if there is none.
     pub(super) fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
         let short = (self.least.0 < low - tolerance).then_some(self.least);
         short.or_else(|| (self.most.0 > high + tolerance).then_some(self.most))
@@ -27,7 +28,7 @@ impl Lengths {
     }
 }
 
-/// Returns the extremes for the strut between nodes `a` and `b`, which move on straight lines.
+/// Returns the extremes for the strut between the nodes of the indices `a` and `b`, which move on straight lines.
 pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     let (from, to) = (step.from[a] - step.from[b], step.to[a] - step.to[b]);
     let change = to - from;

@@ -161,8 +161,8 @@ impl Judgement<'_> {
     }
 }
 
-/// Returns the least singular value of the rigidity matrix that does not belong to a rigid motion of the whole
-/// truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid.
+/// Returns the least singular value of the rigidity matrix at node positions `x` (m) that does not belong to a rigid
+/// motion of the whole truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid.
 pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
@@ -188,14 +188,14 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// Returns the angle between its struts at node positions `x`, rad.
+    /// Returns the angle between its struts at node positions `x` (m), rad, 0 to π.
     pub(super) fn angle(&self, x: &[Vec3]) -> f64 {
         let (p, q) = self.ends;
         angle_between(x[p] - x[self.node], x[q] - x[self.node])
     }
 }
 
-/// Returns all pairs of struts that share a node, in order of node.
+/// Returns all pairs of struts that share a node, ascending by the node's index.
 pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
     let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
     for (strut, &(a, b)) in paths.struts.iter().enumerate() {

@@ -10,7 +10,7 @@ use crate::plan::NodePaths;
 
 /// Two struts near each other on a step.
 pub(super) struct NearPair {
-    /// Their indices, in ascending order.
+    /// The indices of the two struts in the plan, the lesser first.
     pub struts: (usize, usize),
     /// The least distance at any sample, m.
     pub distance: f64,
@@ -20,9 +20,9 @@ pub(super) struct NearPair {
     pub holds: bool,
 }
 
-/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the
-/// `clearance` (m), with their distances. Narrow phase: conservative advancement, with `tolerance` (m) below the
-/// clearance.
+/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the `clearance` (m),
+/// with their distances, ascending by their indices. Narrow phase: conservative advancement, with `tolerance` (m)
+/// below the clearance.
 pub(super) fn nearest(
     paths: &NodePaths,
     step: &Step,

@@ -16,17 +16,18 @@ pub(super) struct StabilityMonitor<'a> {
     slid: Vec<f64>,
     /// The steepest slope that a foot stood on, without unit.
     steepest: f64,
-    /// Rolls so far: their times, s, with words.
+    /// The rolls so far: their times, s, with words, in order of time.
     pub events: Vec<(f64, String)>,
 }
 
-/// Returns the centre of mass, m: half of each strut's mass is at each of its ends.
+/// Returns the centre of mass with the nodes at `x`, m: half of each strut's mass is at each of its ends.
 pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
     let sum: Vec3 = paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
     sum / paths.struts.len().max(1) as f64
 }
 
-/// Returns the least height of a node on a step, m, and the fraction of the step (0 to 1) at which it is reached.
+/// Returns the least height of a node, given by its index, on a step over flat ground, m, and the fraction of the step
+/// (0 to 1) at which it is reached.
 pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     let (from, to) = (step.from[node], step.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
@@ -64,7 +65,7 @@ impl<'a> StabilityMonitor<'a> {
         }
     }
 
-    /// Returns the greatest distance that a node slid, m, and the node.
+    /// Returns the greatest distance that a node slid, m, and the index of that node; the first node if none slid.
     pub(super) fn slid(&self) -> (f64, usize) {
         let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
             if *slid > best.0 { (*slid, node) } else { best }
@@ -85,7 +86,7 @@ impl<'a> StabilityMonitor<'a> {
         )
     }
 
-    /// Returns true if a point is on the ground, within the contact tolerance.
+    /// Returns true if a point (m) is on the ground, within the contact tolerance.
     pub(super) fn touches(&self, p: Vec3) -> bool {
         self.judgement.paths.surroundings.above(p) <= self.contact
     }

@@ -17,10 +17,9 @@ pub(super) struct Obstacle {
     name: String,
 }
 
-/// Returns the obstacles of a plan as solids.
+/// Returns the obstacles of a plan as solids, in their order.
 ///
 /// # Errors
-///
 /// The first shape that is no solid.
 pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
     let obstacles = paths.surroundings.obstacles.iter().enumerate();
@@ -29,7 +28,7 @@ pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
         .collect()
 }
 
-/// Returns the position of a node, m, at a fraction of a step from 0 to 1.
+/// Returns the position of a node, given by its index, m, at a fraction of a step from 0 to 1.
 pub(super) fn position(step: &Step, node: usize, part: f64) -> Vec3 {
     match step.interpolation {
         Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
