@@ -30,14 +30,15 @@ pub enum Body {
 pub enum Snapshot {
     /// Joint positions, bonds and the base of an articulated robot.
     Robot(State),
-    /// The boxes of the cells of a lattice, in cell sizes.
+    /// The boxes of the cells of a lattice, by the number of the cell, in cell sizes.
     Cells(Vec<CellBox>),
-    /// World positions of the nodes of a truss, m.
+    /// World positions of the nodes of a truss, by the index of the node, m.
     Nodes(Vec<[f64; 3]>),
 }
 
 /// One body followed by another.
 pub(super) struct Appended {
+    /// The motion of both.
     pub(super) body: Body,
     /// The map of the second robot's names to those of the first; `None` for families whose robots have no names.
     pub(super) remap: Option<Remap>,
@@ -62,7 +63,7 @@ impl From<NodePaths> for Body {
 }
 
 impl Body {
-    /// Returns the duration in seconds.
+    /// Returns the duration, s.
     pub fn duration(&self) -> f64 {
         match self {
             Body::Tracks(tracks) => tracks.duration,
@@ -138,8 +139,8 @@ impl Body {
         })
     }
 
-    /// Returns this motion and then another, whose causes are numbered from `causes` on. Each body's library stands
-    /// beside it.
+    /// Returns this motion and then another, whose causes are numbered from `causes` on. Each body is given with the
+    /// library that its indices refer to.
     ///
     /// # Errors
     /// The [`OperationError`] that keeps the two from following each other: of another family, another robot, or
@@ -190,12 +191,18 @@ impl Body {
         }
     }
 
-    /// Refuses numbers that are not finite, before the references are checked.
+    /// Checks that all numbers are finite, before the references are checked.
+    ///
+    /// # Errors
+    /// [`PlanFault::Unwritable`] for the first number that is not finite.
     pub(super) fn check_numbers(&self) -> Result<(), PlanFault> {
         self.tracks().map_or(Ok(()), Tracks::check_numbers)
     }
 
     /// Checks that numbers are in their ranges, after the references are checked.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(super) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         match self {
             Body::Tracks(tracks) => tracks.check_ranges(library),
@@ -216,6 +223,7 @@ pub(super) enum BodyJson<'a> {
 }
 
 impl<'a> BodyJson<'a> {
+    /// Returns the form of a body in a file; it borrows what is large.
     pub(super) fn of(body: &'a Body, library: &Library) -> BodyJson<'a> {
         match body {
             Body::Tracks(tracks) => BodyJson::Tracks(tracks::TracksJson::of(tracks)),
@@ -233,6 +241,7 @@ impl<'a> BodyJson<'a> {
         }
     }
 
+    /// Returns the body that stands in a file, whose indices refer to `library`; nothing is checked.
     pub(super) fn into_body(self, library: &Arc<Library>) -> Body {
         match self {
             BodyJson::Tracks(tracks) => tracks.into_tracks(library).into(),

@@ -40,7 +40,7 @@ pub enum Declared {
 }
 
 /// Returns all declarations but connectors, which are facts of the modules that have them: modules, cells, struts,
-/// each in order of index.
+/// each kind ascending by index.
 pub fn declarations(library: &Library) -> Vec<Declared> {
     let modules = (0..library.modules.len()).map(Declared::Module);
     let cells = (0..library.cells.len()).map(Declared::Cell);

@@ -86,7 +86,7 @@ pub enum PlanFault {
     },
     /// A fault inside the track of a joint.
     InTrack {
-        /// The index of the joint.
+        /// The joint, by the number in its `JointId`.
         joint: u32,
         /// The fault in the track.
         fault: Box<PlanFault>,
@@ -203,7 +203,7 @@ pub enum TracksFault {
     BondUnchanged {
         /// The time, s.
         time: f64,
-        /// The index of the bond.
+        /// The index of the bond in the assembly.
         bond: usize,
         /// True if it holds before the event.
         holds: bool,
@@ -261,11 +261,11 @@ pub enum StagesFault {
     RunSize,
     /// A run that names cells which there are not: the lowest and the highest that it names.
     RunCells {
-        /// The lowest number.
+        /// The lowest number that it names.
         low: i128,
-        /// The highest number.
+        /// The highest number that it names.
         high: i128,
-        /// The number of cells.
+        /// The number of cells, which are numbered from 0.
         count: u64,
     },
     /// A pair of numbers that is no rational number with a positive denominator.
@@ -307,27 +307,42 @@ pub enum NodePathsFault {
     Terrain(&'static str),
 }
 
-/// Returns `Ok` if a condition holds, and the fault otherwise.
+/// Returns `Ok` if a condition holds.
+///
+/// # Errors
+/// The fault that `fault` returns, if the condition does not hold.
 pub(super) fn need<F: Into<PlanFault>>(holds: bool, fault: impl FnOnce() -> F) -> Result<(), PlanFault> {
     if holds { Ok(()) } else { Err(fault().into()) }
 }
 
-/// Returns `Ok` if an index is below the count of things of a sort.
+/// Returns `Ok` if an index, from 0, is below the count of things of a sort.
+///
+/// # Errors
+/// [`PlanFault::Index`] otherwise.
 pub(super) fn need_index(index: usize, count: usize, what: &'static str) -> Result<(), PlanFault> {
     need(index < count, || PlanFault::Index { what, index, count })
 }
 
 /// Returns `Ok` if every time is later than the one before.
+///
+/// # Errors
+/// [`PlanFault::TimeOrder`] otherwise, and for a time that is NaN.
 pub(super) fn need_ascending(times: &[f64], what: &'static str) -> Result<(), PlanFault> {
     need(times.windows(2).all(|w| w[0] < w[1]), || PlanFault::TimeOrder { what })
 }
 
-/// Returns `Ok` if a number is no farther from 0 than its limit; not for NaN.
+/// Returns `Ok` if a number is no farther from 0 than its limit.
+///
+/// # Errors
+/// [`PlanFault::Bound`] otherwise, and for NaN.
 pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<(), PlanFault> {
     need(value.abs() <= most, || PlanFault::Bound { what, value, most })
 }
 
 /// Returns `Ok` if every number of a part of a plan is finite.
+///
+/// # Errors
+/// [`PlanFault::Unwritable`] otherwise.
 pub(super) fn need_finite(part: &'static str, value: &impl Serialize) -> Result<(), PlanFault> {
     check_serialisable(value).map_err(|value| PlanFault::Unwritable { part, value })
 }

@@ -65,16 +65,15 @@ pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
     Ok(new)
 }
 
-/// Returns `p ++ q`: the one plan, then the other, which starts as the first ends: the same robot up to
-/// the names of its modules and a rigid motion.
+/// Returns `p ++ q`: the one plan, then the other, which must start as the first ends: with the same robot up to the
+/// names of its modules and a rigid motion.
 ///
 /// Names, base and library are those of `p`; each part keeps its world; the judge is as strict as the stricter part
-/// asks. The renaming is recorded in the history; verdict and bound are dropped, and the program unless both have
-/// one.
+/// asks. The renaming is recorded in the history; verdict and bound are dropped, and the program unless both have one.
 ///
 /// # Errors
-/// The [`OperationError`] that keeps the plans from following each other, [`OperationError::TooLong`] if together
-/// they last longer than [`DURATION_MAX`].
+/// The [`OperationError`] that keeps the plans from following each other, [`OperationError::TooLong`] if together they
+/// last longer than [`DURATION_MAX`].
 pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     let at = p.body.duration();
     let duration = at + q.body.duration();

@@ -4,8 +4,9 @@
 /// The greatest degree of a segment in a plan.
 pub const DEGREE_MAX: usize = 15;
 
-/// Returns the value at `u`, by de Casteljau's rule: exact at both ends, and that of the nearer end outside 0..1.
-/// Panics without control points, or with more than [`DEGREE_MAX`] + 1.
+/// Returns the value at the argument `u` of the polynomial with these control points, by de Casteljau's rule: exact at
+/// both ends, and that of the nearer end outside 0..1. Panics without control points, or with more than [`DEGREE_MAX`]
+/// + 1.
 pub fn value(control: &[f64], u: f64) -> f64 {
     if u <= 0.0 {
         return control[0];
@@ -24,8 +25,8 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     points[0]
 }
 
-/// Returns the control points of the parts before and after `u` (0 to 1), by de Casteljau's rule, each over 0..1.
-/// They share the value at `u` to the bit.
+/// Returns the control points of the parts before and after the argument `u` (0 to 1), by de Casteljau's rule, each
+/// over 0..1 and of the same degree. They share the value at `u` to the bit.
 pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     let mut right = control.to_vec();
     let mut left = Vec::with_capacity(control.len());
@@ -52,8 +53,8 @@ pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     points
 }
 
-/// Returns the derivative by the argument, as control points; that of a constant is `[0]`. Panics without control
-/// points.
+/// Returns the derivative with respect to the argument, as control points over 0..1; that of a constant is `[0]`.
+/// Panics without control points.
 pub fn derivative(control: &[f64]) -> Vec<f64> {
     let degree = control.len() - 1;
     if degree == 0 {

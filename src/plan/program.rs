@@ -30,7 +30,7 @@ pub enum Node {
     Repeat {
         /// The behaviour.
         body: Arc<Node>,
-        /// The number of repetitions.
+        /// The number of times that it is carried out.
         times: u64,
     },
     /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.

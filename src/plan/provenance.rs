@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Provenance {
     /// The name of the planner; `behavior` for the plan of a behaviour.
     pub planner: String,
-    /// Name and SHA-256 (hexadecimal) of every source text, in order of name.
+    /// Name and SHA-256 (hexadecimal) of every source text, ascending by name.
     pub sources: Vec<(String, String)>,
     /// The seed of the random numbers; `None` if the planner draws none.
     pub seed: Option<u64>,
@@ -25,7 +25,7 @@ pub struct Provenance {
     pub reached: Option<ObjectiveValue>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
     pub tool: String,
-    /// The changes since, in order.
+    /// The changes since, in order of time.
     pub history: Vec<Change>,
 }
 

@@ -198,8 +198,8 @@ pub struct Failure {
     pub value: f64,
     /// The limit in SI units; 0 where there is none.
     pub limit: f64,
-    /// The commands to blame, latest first, at most three: held still, each removes the failure. Empty if none was
-    /// found or sought.
+    /// The commands to blame, at most three, as indices in the plan's causes: each of them held still removes the
+    /// failure; if none does alone, those that move at its time. Empty if none was found or sought.
     pub blame: Vec<CauseId>,
     /// True if `blame` names the start pose (`set`, `connect`) instead of commands.
     pub blames_start: bool,
@@ -266,31 +266,33 @@ pub struct Verdict {
     pub failures: Vec<Failure>,
     /// Findings that are no failures: a large settling at the start, "needs friction".
     pub notes: Vec<String>,
-    /// Indices of the plan's exemptions that nothing needed.
+    /// Indices of the plan's exemptions that nothing needed, ascending.
     pub unneeded_exemptions: Vec<usize>,
     /// The least signed distance between links that may not touch, cells or struts, and of these from obstacles, m;
     /// `None` if none was measured, as for the other worst values.
     pub clearance: Option<Worst>,
     /// The least static stability margin, m: the distance of the centre of mass inside the support polygon, negative
-    /// outside.
+    /// outside; `None` if none was measured.
     pub margin: Option<Worst>,
-    /// The least 1 - effort / limit of joints and motors, with the best contact forces there are.
+    /// The least 1 - effort / limit of joints and motors, with the best contact forces there are; `None` if none was
+    /// measured.
     pub torque_margin: Option<Worst>,
-    /// The least 1 - load / limit of bonds, with the best contact forces there are.
+    /// The least 1 - load / limit of bonds, with the best contact forces there are; `None` if none was measured.
     pub bond_margin: Option<Worst>,
-    /// The least 1 - speed / limit of joints, cells or struts.
+    /// The least 1 - speed / limit of joints, cells or struts; `None` if none was measured.
     pub speed_margin: Option<Worst>,
-    /// The least angle between struts of a truss that share a node, rad.
+    /// The least angle between struts of a truss that share a node, rad; `None` if none was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<Worst>,
-    /// The least singular value of the rigidity matrix of a truss (rows of unit vectors), without unit.
+    /// The least singular value of the rigidity matrix of a truss (rows of unit vectors), without unit; `None` if none
+    /// was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<Worst>,
     /// The displacement of the base over the plan, x, y, z in the world, m; 0 for families without a base.
     pub travel: [f64; 3],
     /// The change of the base's heading, rad, counter-clockwise from above.
     pub heading: f64,
-    /// Greatest slip of a loaded link, summed over the plan, m.
+    /// Greatest slip of a loaded link, summed over the plan, m; `None` if none was measured.
     pub slip: Option<Worst>,
     /// The duration, s.
     pub duration: f64,

@@ -43,7 +43,7 @@ impl<'a> Graph<'a> {
         self.index[&Arc::as_ptr(node)]
     }
 
-    /// Returns every distinct action, in order of nodes; the actions of `else` branches are among them.
+    /// Returns every distinct action, in the order of [`Graph::nodes`]; the actions of `else` branches are among them.
     pub fn actions(&self) -> impl Iterator<Item = &'a Action> + '_ {
         self.nodes.iter().filter_map(|node| match &***node {
             Node::Action(action) => Some(action),

@@ -100,7 +100,9 @@ struct ExemptionJson {
 /// The part of a file that states its version.
 #[derive(Deserialize)]
 pub(super) struct Header {
+    /// The text of the field `format`; `None` if there is none.
     pub(super) format: Option<String>,
+    /// The number of the field `version`; `None` if there is none.
     pub(super) version: Option<u32>,
 }
 

@@ -49,6 +49,7 @@ struct PortNames {
 }
 
 impl LibraryNamesJson {
+    /// Returns the names of a library; empty for an index that points nowhere.
     pub(super) fn of(library: &Library) -> LibraryNamesJson {
         let connector = |index: usize| {
             library.connectors.get(index).map_or_else(String::new, |connector| connector.name.clone())
@@ -63,7 +64,7 @@ impl LibraryNamesJson {
         }
     }
 
-    /// Lists the names in order.
+    /// Lists the names in the order of the library.
     pub(super) fn names(&self, stated: &mut Stated) {
         for connector in &self.connectors {
             stated.add("connector", &connector.name);

@@ -113,6 +113,10 @@ impl<'a> ProgramJson<'a> {
         }
     }
 
+    /// Returns the program that stands in a file; nothing else is checked than its table.
+    ///
+    /// # Errors
+    /// [`PlanFault::ProgramChild`] or [`PlanFault::ProgramRoot`] for a node that the table has not, or has later.
     pub(super) fn into_program(self) -> Result<Program, PlanFault> {
         let mut done: Vec<Arc<Node>> = Vec::with_capacity(self.nodes.len());
         for (index, json) in self.nodes.into_iter().enumerate() {

@@ -12,11 +12,11 @@ use super::grid::Cube;
 pub struct ContactForest {
     /// The union-find parent of each cell.
     above: Vec<u32>,
-    /// The edges of the forest, as numbers of cells: contacts that joined two trees.
+    /// The edges of the forest, as pairs of numbers of cells: contacts that joined two trees.
     pub links: Vec<(u32, u32)>,
     /// Twice the greatest relative displacement of two cells in contact along an axis, in grid lines.
     pub relative: i64,
-    /// The two cells in contact with the greatest relative displacement; (0, 0) if nothing moves.
+    /// The numbers of the two cells in contact with the greatest relative displacement; (0, 0) if nothing moves.
     pub fastest: (u32, u32),
 }
 
@@ -51,8 +51,8 @@ impl ContactForest {
         at as u32
     }
 
-    /// Adds a contact of the cells `a` and `b` that lasts the stage. `relative` is twice the greatest relative
-    /// displacement of the two along an axis, in grid lines.
+    /// Adds a contact of the cells of numbers `a` and `b` that lasts the stage. `relative` is twice the greatest
+    /// relative displacement of the two along an axis, in grid lines.
     pub fn touch(&mut self, a: u32, b: u32, relative: i64) {
         if relative > self.relative {
             (self.relative, self.fastest) = (relative, (a, b));
@@ -65,8 +65,8 @@ impl ContactForest {
         }
     }
 
-    /// Returns the size and the lowest cell of each connected component, largest first; of equal ones that of the
-    /// lower cell.
+    /// Returns the size and the lowest number of a cell of each connected component, largest first; of equal ones that
+    /// of the lower cell first.
     pub fn components(&mut self) -> Vec<(usize, u32)> {
         let mut sizes = vec![0_usize; self.above.len()];
         for cell in 0..self.above.len() as u32 {
@@ -88,13 +88,12 @@ impl ContactForest {
         self.links.len() + 1 >= self.above.len()
     }
 
-    /// Returns the greatest force along an axis that an edge of the forest carries, with that edge. `before` and
-    /// `after` are the cells at the ends of the stage. The force is given as twice the absolute sum of the
-    /// displacements of the cells on one side of the edge, in grid lines; its factor follows from the time scaling
-    /// of the stage.
+    /// Returns the greatest force along an axis (0 to 2) that an edge of the forest carries, with that edge as two
+    /// numbers of cells. `before` and `after` are the cells by number at the ends of the stage. The force is given as
+    /// twice the absolute sum of the displacements of the cells on one side of the edge, in grid lines; its factor
+    /// follows from the time scaling of the stage.
     ///
     /// # Errors
-    ///
     /// The sum that is left over at a root, if the displacements of a component do not add up to zero: then an
     /// external force would be needed.
     pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {

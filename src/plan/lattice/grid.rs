@@ -8,19 +8,19 @@ use crate::plan::stages::ratio::Ratio;
 /// grid lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cube {
-    /// The coordinates of its lower faces.
+    /// The coordinates of its lower faces along x, y and z, in grid lines.
     pub lo: [i64; 3],
-    /// The coordinates of its upper faces.
+    /// The coordinates of its upper faces along x, y and z, in grid lines.
     pub hi: [i64; 3],
 }
 
 impl Cube {
-    /// Returns twice the coordinate of the centre along an axis, in grid lines.
+    /// Returns twice the coordinate of the centre along an axis (0 to 2), in grid lines.
     pub fn middle(&self, axis: usize) -> i64 {
         self.lo[axis] + self.hi[axis]
     }
 
-    /// Returns the edge length along an axis, in grid lines.
+    /// Returns the edge length along an axis (0 to 2), in grid lines.
     pub fn size(&self, axis: usize) -> i64 {
         self.hi[axis] - self.lo[axis]
     }
@@ -82,11 +82,11 @@ impl Grid {
         i128::from(self.lines / denominator) * i128::from(numerator)
     }
 
-    /// Writes the cells that `runs` name to their indices in `cubes`; the others stay as they are. The runs must be
-    /// among those that the grid was made of, and name cells that there are.
+    /// Writes the cells that `runs` name to `cubes`, which is indexed by the number of the cell; the others stay as
+    /// they are. The runs must be among those that the grid was made of. Panics if they name a cell that `cubes` has
+    /// not.
     ///
     /// # Errors
-    ///
     /// [`LatticeFault::CellsTooFar`] if a face would lie more than 2⁴⁸ lines from the origin.
     pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         runs.iter().try_for_each(|run| self.place_run(run, cubes))

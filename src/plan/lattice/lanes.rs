@@ -11,7 +11,7 @@ use super::tiles::{Section, Tile, Tiles};
 /// Two cells that overlap during a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlap {
-    /// The numbers of the two cells.
+    /// The numbers of the two cells, from 0.
     pub cells: (u32, u32),
     /// True if they overlap at the start of the stage, false if only later.
     pub at_start: bool,
@@ -38,10 +38,12 @@ struct Lanes {
 /// The number of comparisons of lanes that a stage may take, for each cell: sound plans take a few.
 const COMPARISONS_MAX: usize = 200;
 
-/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of two
-/// cells as an error. `before` and `after` are the cells by number at the two ends of the stage. All cells move
-/// along `axis` (0 to 2) only; `lines` is the number of grid lines to a cell. `None` if more lanes lie side by side
-/// than are compared.
+/// Joins in `forest` the cells that are in contact during the whole stage. `before` and `after` are the cells by
+/// number at the two ends of the stage. All cells move along `axis` (0 to 2) only; `lines` is the number of grid lines
+/// to a cell. `None` if more lanes lie side by side than are compared.
+///
+/// # Errors
+/// The inner result is the first [`Overlap`] of two cells that is found.
 pub fn examine(
     before: &[Cube],
     after: &[Cube],

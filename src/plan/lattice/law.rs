@@ -12,20 +12,20 @@ use std::cmp::Ordering;
 /// they are those of the sum of a cell's two faces. The default is the stage without cells.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
-    /// True for the axes along which some face moves.
+    /// For x, y and z, true if some face moves along that axis.
     pub axes: [bool; 3],
-    /// The greatest absolute displacement along an axis, with its cell.
+    /// The greatest absolute displacement along an axis, with the number of its cell.
     pub farthest: (i64, u32),
-    /// The sum of the displacements along each axis: zero if the centre of mass stays.
+    /// The sum of the displacements along x, y and z: zero if the centre of mass stays.
     pub drift: [i128; 3],
-    /// The greatest absolute change of an edge length, in grid lines (counted once), with its cell.
+    /// The greatest absolute change of an edge length, in grid lines (counted once), with the number of its cell.
     pub resized: (i64, u32),
-    /// The smallest edge length at the end, in grid lines, with its cell.
+    /// The smallest edge length at the end, in grid lines, with the number of its cell.
     pub smallest: (i64, u32),
-    /// The largest edge length at the end, in grid lines, with its cell.
+    /// The largest edge length at the end, in grid lines, with the number of its cell.
     pub largest: (i64, u32),
-    /// Four times the sum of the cross products of position and displacement, in squared grid lines: zero without
-    /// angular momentum.
+    /// Four times the sum of the cross products of position and displacement, x, y and z, in squared grid lines: zero
+    /// without angular momentum.
     pub turning: [i128; 3],
     /// The sum of the squared norms of the displacements.
     pub squares: i128,
@@ -125,8 +125,8 @@ impl TimeScaling {
         }
     }
 
-    /// Compares the peak acceleration (or force, per mass of a cell) of a thing that moves by `distance / lines`
-    /// cells over the stage with a limit in cells per squared time unit.
+    /// Compares the peak acceleration (or force, per mass of a cell) of a thing that moves by `distance / lines` cells
+    /// over the stage with a limit in cells per squared time unit: `Greater` if it exceeds the limit.
     pub fn compare_acceleration(&self, distance: i128, lines: i128, limit: Ratio) -> Ordering {
         // distance · speed / (ramp · T²) against the limit
         let product = |factors: &[i128]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
@@ -138,7 +138,7 @@ impl TimeScaling {
     }
 
     /// Compares the squared peak acceleration, in cells per squared time unit, with 1, for a thing that moves by a
-    /// distance with this square in squared grid lines, `lines` to a cell.
+    /// distance with this square in squared grid lines, `lines` to a cell: `Greater` if it exceeds 1.
     pub fn compare_acceleration_squared(&self, square: i128, lines: i128) -> Ordering {
         let product = |factors: [i128; 3]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let big = i128::from;
@@ -149,7 +149,7 @@ impl TimeScaling {
     }
 
     /// Compares the squared peak speed of a thing that moves by `distance / lines` cells over the stage with a limit
-    /// in squared cells per squared time unit.
+    /// in squared cells per squared time unit: `Greater` if it exceeds the limit.
     pub fn compare_speed_squared(&self, distance: i64, lines: i64, limit: Ratio) -> Ordering {
         let product = |factors: &[i64]| factors.iter().map(|&f| BigInt::from(f)).product::<BigInt>();
         let (t, (up, down)) = (self.time_squared, self.speed);

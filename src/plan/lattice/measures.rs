@@ -20,11 +20,10 @@ pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i6
     Some(forest.relative)
 }
 
-/// Returns for each stage the greatest contact force times the square of its duration, as numerator and denominator:
-/// the force in units of a cell's own, the duration in units of time.
+/// Returns for each stage, in order, the greatest contact force times the square of its duration, as numerator and
+/// denominator: the force in units of a cell's own, the duration in units of time.
 ///
 /// # Errors
-///
 /// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
 pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let grid = Grid::of(stages)?;
@@ -75,8 +74,8 @@ pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -
 /// The integer coordinates x, y, z of lattice sites, in cells.
 pub type Places = Vec<[i64; 3]>;
 
-/// Returns the lattice sites that the cells fill at the start and at the end of a plan, sorted and translated
-/// so that the lowest along each axis is 0.
+/// Returns the lattice sites that the cells fill at the start and at the end of a plan, each sorted by x, then y, then
+/// z, and translated so that the lowest along each axis is 0.
 ///
 /// # Errors
 /// [`LatticeFault::OffLattice`] if a cell does not fill a site; [`LatticeFault::GridTooFine`] or
@@ -102,10 +101,12 @@ fn places(cubes: &[Cube], lines: i64) -> Result<Places, LatticeFault> {
     Ok(places)
 }
 
-/// Joins in `forest` the cells that are in contact during the whole stage, and returns the first overlap of two
-/// cells as an error; by a sweep if cells move along one axis only. `change` must be that of `before` and `after`,
-/// the cells by number; `lines` is the number of grid lines to a cell. `None` if more pairs of cells come near each
-/// other than are examined.
+/// Joins in `forest` the cells that are in contact during the whole stage; by a sweep if cells move along one axis
+/// only. `change` must be that of `before` and `after`, the cells by number; `lines` is the number of grid lines to a
+/// cell. `None` if more pairs of cells come near each other than are examined.
+///
+/// # Errors
+/// The inner result is the first [`Overlap`] of two cells that is found.
 pub fn examine(
     before: &[Cube],
     after: &[Cube],

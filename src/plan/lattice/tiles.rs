@@ -33,7 +33,8 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Returns an index without lanes for the cross-sections of these cells along the axes `b` and `c`.
+    /// Returns an index without lanes for the cross-sections of these cells along the axes `b` and `c` (0 to 2);
+    /// `lines`: the number of grid lines to a cell, which is the side of a tile.
     pub(super) fn over(cubes: &[Cube], (b, c): (usize, usize), lines: i64) -> Tiles {
         let low = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).min().unwrap_or(0);
         let high = |axis: usize| cubes.iter().map(|cube| cube.lo[axis]).max().unwrap_or(0);
@@ -50,7 +51,7 @@ impl Tiles {
         (tile(section[1].0, self.origin.1), tile(section[0].0, self.origin.0))
     }
 
-    /// Returns the number of the lane with a cross-section, a new one if there is none yet. Each comparison
+    /// Returns the number, from 0, of the lane with a cross-section, a new one if there is none yet. Each comparison
     /// takes one from the budget `left`; `None` once it is used up.
     pub(super) fn lane(&mut self, section: Section, left: &mut usize) -> Option<u32> {
         let tile = self.tile(&section);
@@ -72,7 +73,7 @@ impl Tiles {
         Some(new)
     }
 
-    /// Returns all lanes with their tiles, row after row.
+    /// Returns the numbers of all lanes with their tiles, row after row.
     pub(super) fn order(&self) -> Vec<(Tile, u32)> {
         let mut order = Vec::with_capacity(self.sections.len());
         let mut add = |first: u32| {

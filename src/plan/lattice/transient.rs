@@ -22,8 +22,8 @@ pub struct TransientContact {
 /// The greatest product of intervals with contacts and cells that is examined: some seconds of work.
 const WORK_MAX: usize = 300_000_000;
 
-/// Returns all contacts that hold at some time of the stage between `before` and `after`, the cells by number.
-/// `None` if too many pairs of cells come near each other.
+/// Returns all contacts that hold at some time of the stage between `before` and `after`, the cells by number. `None`
+/// if too many pairs of cells come near each other.
 pub fn transient_contacts(before: &[Cube], after: &[Cube]) -> Option<Vec<TransientContact>> {
     let mut found = Vec::new();
     for_swept_pairs(before, after, |i, j| {
@@ -55,8 +55,8 @@ fn contact([a, b]: [(&Cube, &Cube); 2], axis: usize) -> Option<Window> {
         .try_fold(Window::WHOLE, |window, across| overlap([a, b], across, window))
 }
 
-/// Returns the intervals between successive instants at which one of the contacts `passing` begins or ends,
-/// ascending from 0 to 1. `None` if there are too many for so many `cells`.
+/// Returns the intervals of the path parameter between successive instants at which one of the contacts `passing`
+/// begins or ends, ascending from 0 to 1. `None` if there are too many for so many `cells`.
 pub fn contact_intervals(passing: &[TransientContact], cells: usize) -> Option<Vec<Window>> {
     let ends = passing.iter().flat_map(|contact| [contact.window.from, contact.window.to]);
     let mut instants: Vec<_> = ends.chain([Window::WHOLE.from, Window::WHOLE.to]).collect();

@@ -39,6 +39,7 @@ fn is_nothing_around(surroundings: &Surroundings) -> bool {
 }
 
 impl<'a> NodePathsJson<'a> {
+    /// Returns the form of node paths in a file, with the names of `library`; it borrows what is large.
     pub(in crate::plan) fn of(paths: &'a NodePaths, library: &Library) -> NodePathsJson<'a> {
         let strut = library.struts.get(paths.strut);
         let node = |index: usize| paths.node_names.get(index).cloned().unwrap_or_default();
@@ -63,6 +64,7 @@ impl<'a> NodePathsJson<'a> {
         }
     }
 
+    /// Returns the node paths that stand in a file; nothing is checked.
     pub(in crate::plan) fn into_node_paths(self) -> NodePaths {
         NodePaths {
             strut: self.strut,

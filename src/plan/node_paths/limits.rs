@@ -23,7 +23,7 @@ impl Surroundings {
         *self == Surroundings::default()
     }
 
-    /// Returns the height of a world position (m) above the ground, m; negative below it.
+    /// Returns the height of a world position (m) above the ground, measured along z, m; negative below it.
     pub fn above(&self, p: Vec3) -> f64 {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
@@ -49,7 +49,7 @@ pub struct TrussLimits {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthSum {
-    /// Indices of the struts, from 0.
+    /// Indices of the struts in the plan's list, from 0.
     pub struts: Vec<usize>,
     /// The least and the greatest sum, m.
     pub range: (f64, f64),
@@ -67,25 +67,31 @@ impl TrussLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Margins {
-    /// The distance to the nearer end of the range of a strut's lengths, m.
+    /// The least distance of a strut's length to the nearer end of its range, m; `None` if it is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// The distance between struts that share no node minus the clearance, m.
+    /// The least distance between struts that share no node minus the clearance, m; `None` if none are nearer than
+    /// twice the clearance, or it is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// The distance from obstacles minus the clearance, m.
+    /// The least distance of a strut from an obstacle minus the clearance, m; `None` if none is nearer than twice the
+    /// clearance, or it is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<f64>,
-    /// The distance of the centre of mass inside the hull of the nodes on the ground, m.
+    /// The distance of the centre of mass inside the hull of the nodes on the ground, m; `None` without ground, or if
+    /// it is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<f64>,
-    /// The angle between struts that share a node minus the least angle, rad.
+    /// The least angle between struts that share a node minus the limit, rad; `None` without a limit, or if it is not
+    /// stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
-    /// The least singular value of the rigidity matrix minus its limit.
+    /// The least singular value of the rigidity matrix minus its limit, without unit; `None` without a limit, or if it
+    /// is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
-    /// The distance to the nearer end of the range of a sum of lengths, m.
+    /// The least distance of a sum of lengths to the nearer end of its range, m; `None` without limited sums, or if it
+    /// is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sum: Option<f64>,
 }

@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 pub struct NodePaths {
     /// Index of the strut type in [`Library::struts`](crate::robot::Library).
     pub strut: usize,
-    /// The names of the nodes, by index.
+    /// The names of the nodes; the index of a node here, from 0, names it in the whole plan.
     pub node_names: Vec<String>,
-    /// The struts, each a pair of indices of nodes.
+    /// The struts, each a pair of indices of nodes; the index of a strut here, from 0, names it in the whole plan.
     pub struts: Vec<(usize, usize)>,
     /// The keyframes, in order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
@@ -35,7 +35,7 @@ pub struct Keyframe {
     pub time: f64,
     /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
     pub interpolation: Interpolation,
-    /// World position of each node, m.
+    /// World position of each node, by index, m.
     pub nodes: Vec<[f64; 3]>,
     /// The command of the source that this comes from.
     pub cause: CauseId,
@@ -61,18 +61,18 @@ pub enum Interpolation {
 }
 
 impl NodePaths {
-    /// Returns the duration in seconds.
+    /// Returns the duration, s.
     pub fn duration(&self) -> f64 {
         self.keyframes.last().map_or(0.0, |k| k.time)
     }
 
-    /// Returns the times of the keyframes in seconds, in order.
+    /// Returns the times of the keyframes, s, ascending.
     pub fn instants(&self) -> Vec<f64> {
         self.keyframes.iter().map(|k| k.time).collect()
     }
 
-    /// Returns the world position of each node, m, at a time in seconds; before the start and after the end, that of
-    /// the nearer end.
+    /// Returns the world position of each node, by index, m, at the time `t` (s); before the start and after the end,
+    /// that of the nearer end.
     pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
         let after = self.keyframes.partition_point(|k| k.time <= t);
         let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {
@@ -86,7 +86,7 @@ impl NodePaths {
         }
     }
 
-    /// Returns the length (m) of each strut at the time `t` (s).
+    /// Returns the length (m) of each strut, by index, at the time `t` (s).
     pub fn lengths(&self, t: f64) -> Vec<f64> {
         let nodes = self.state(t);
         let at = |i: usize| Vec3::from(nodes[i]);

@@ -10,8 +10,11 @@ use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
 
 impl NodePaths {
-    /// Checks that every index is within its list, and that keyframes are in order of time. `causes`: the number of
-    /// causes of the plan.
+    /// Checks that every index is within its list, and that keyframes are in order of time. `library`: that of the
+    /// plan; `causes`: the number of causes of the plan.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.strut, library.struts.len(), "strut type")?;
         let count = self.node_names.len();
@@ -36,6 +39,9 @@ impl NodePaths {
     }
 
     /// Checks that numbers are finite, obstacles solids, and that struts and rolls have a length.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(in crate::plan) fn check_ranges(&self) -> Result<(), PlanFault> {
         need_finite("the keyframes", &self.keyframes)?;
         need_finite("the limits", &self.limits)?;

@@ -1,20 +1,23 @@
 //! Arithmetic runs: numbers on which something changes by the same step from each to the next, and runs of such
 //! runs, which state lists of cells in closed form.
 
-/// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length: `times` lines of numbers that follow
-/// each other.
+/// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length: `times` lines of `length` consecutive
+/// numbers, one line after the other, so all numbers from `first` to `first + length·times - 1`. From each number of a
+/// line to the next there is one step, the same in all lines, and from each line's first number to that of the next
+/// another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ArithmeticRun {
-    /// The first number.
+    /// The first number of the first line.
     pub first: usize,
-    /// The number of lines.
+    /// The number of lines, at least 1.
     pub times: usize,
-    /// The length of a line.
+    /// The number of numbers in a line, at least 1.
     pub length: usize,
 }
 
-/// Splits 0..count greedily into arithmetic runs, in ascending order. `step` is the change from one number to
-/// another; `None` if no run may hold both.
+/// Splits the numbers 0 to `count - 1` greedily into arithmetic runs, which follow each other in ascending order and
+/// hold each number once; empty if `count` is 0. `step(a, b)` returns the change of what is attached to the numbers
+/// from `a` to `b` (`a < b`), such as the displacement between two cells; `None` if no run may hold both.
 pub fn arithmetic_runs<T: PartialEq>(
     count: usize,
     step: impl Fn(usize, usize) -> Option<T>,

@@ -29,6 +29,7 @@ pub(in crate::plan) struct StagesJson<'a> {
 }
 
 impl<'a> StagesJson<'a> {
+    /// Returns the form of stages in a file, with the names of `library`; it borrows what is large.
     pub(in crate::plan) fn of(stages: &'a Stages, library: &Library) -> StagesJson<'a> {
         let cell = library.cells.get(stages.cell);
         StagesJson {
@@ -48,6 +49,7 @@ impl<'a> StagesJson<'a> {
         stated.add("cell type", &self.cell_name);
     }
 
+    /// Returns the stages that stand in a file; nothing is checked.
     pub(in crate::plan) fn into_stages(self) -> Stages {
         Stages {
             cell: self.cell,

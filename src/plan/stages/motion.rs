@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub struct Stages {
     /// Index of the cell type in [`Library::cells`](crate::robot::Library).
     pub cell: usize,
-    /// The number of cells.
+    /// The number of cells, which are numbered from 0.
     pub count: u64,
     /// The unit of time, s: in it the greatest force brings a cell from rest to a speed of one cell size per unit of
     /// time.
@@ -131,7 +131,7 @@ pub struct CellBox {
 }
 
 impl Law {
-    /// Returns the fractions of the duration, 0 to 1, that the ramps at the start and at the end take.
+    /// Returns the fractions of the duration, 0 to 1, that the ramp at the start takes, and that at the end.
     pub fn ramps(self) -> (Ratio, Ratio) {
         match self {
             Law::BangBang => (Ratio(1, 2), Ratio(1, 2)),
@@ -196,7 +196,7 @@ impl Run {
         self.counters.iter().map(|c| c.count).product()
     }
 
-    /// Returns every cell of the run, by its number, with its centre and size.
+    /// Returns every cell of the run, as its number with its centre and size, in the order of the nested counters.
     pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
         (0..self.count()).map(|n| self.cell(n))
     }
@@ -217,12 +217,12 @@ impl Run {
 }
 
 impl Stages {
-    /// Returns the duration in seconds.
+    /// Returns the duration of all stages, s.
     pub fn duration(&self) -> f64 {
         self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
     }
 
-    /// Returns the time at which each stage begins, and the end, in seconds, ascending from 0.
+    /// Returns the time at which each stage begins, and the end, s, ascending from 0: one more than there are stages.
     pub fn instants(&self) -> Vec<f64> {
         let mut now = 0.0;
         let ends = self.stages.iter().map(|s| {
@@ -232,9 +232,9 @@ impl Stages {
         std::iter::once(0.0).chain(ends).collect()
     }
 
-    /// Returns runs that state the position of every cell before the stage of this index, or at the end if it is the
-    /// number of stages: those since the last that named every cell, in order, so that if two name a cell the later
-    /// holds. Panics if the index is larger.
+    /// Returns runs that state the position of every cell before the stage of this index (from 0), or at the end if it
+    /// is the number of stages: those since the last configuration that named every cell, in order, so that if two
+    /// name a cell the later holds. Panics if the index is larger.
     pub fn before(&self, stage: usize) -> Vec<Run> {
         let named: Vec<&[Run]> = std::iter::once(&self.start)
             .chain(self.stages[..stage].iter().map(|s| &s.end))
@@ -245,7 +245,7 @@ impl Stages {
         named[first..].concat()
     }
 
-    /// Returns every cell, by its number, at a time in seconds; before the start and after the end, as at the nearer
+    /// Returns every cell, by its number, at the time `t` (s); before the start and after the end, as at the nearer
     /// end.
     pub fn state(&self, t: f64) -> Vec<CellBox> {
         let mut cells = vec![CellBox { center: [0.0; 3], size: [1.0; 3] }; self.count as usize];

@@ -43,12 +43,12 @@ impl Ratio {
         Ratio::new(i128::from(whole as i64) * i128::from(rest.0) + i128::from(rest.1), i128::from(rest.0))
     }
 
-    /// Returns the nearest floating-point number, but for rounding of numbers above 2⁵³.
+    /// Returns the quotient as a floating-point number: the nearest one if numerator and denominator are at most 2⁵³.
     pub fn to_f64(self) -> f64 {
         self.0 as f64 / self.1 as f64
     }
 
-    /// Compares two numbers, which need not be in lowest terms.
+    /// Compares two numbers exactly, which need not be in lowest terms; their denominators must be positive.
     pub fn order(self, other: Ratio) -> Ordering {
         let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
         product(self.0, other.1).cmp(&product(other.0, self.1))

@@ -11,8 +11,11 @@ const CELLS_MAX: u64 = 4_000_000;
 const RAMP_DENOMINATOR_MAX: i64 = 1 << 60;
 
 impl Stages {
-    /// Checks that every run names cells there are, and that every ratio is a number in its range. `causes`: the
-    /// number of causes of the plan.
+    /// Checks that every run names cells there are, and that every ratio is a number in its range. `library`: that of
+    /// the plan; `causes`: the number of causes of the plan.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.cell, library.cells.len(), "cell type")?;
         need(self.count <= CELLS_MAX, || StagesFault::CellCount { most: CELLS_MAX })?;

@@ -123,6 +123,7 @@ struct EventJson {
 }
 
 impl<'a> TracksJson<'a> {
+    /// Returns the form of tracks in a file, with the names of the robot; it borrows what is large.
     pub(in crate::plan) fn of(tracks: &'a Tracks) -> TracksJson<'a> {
         let names = RobotNames::of(&tracks.robot);
         let event = |dock: &DockingEvent| EventJson {
@@ -176,6 +177,7 @@ impl<'a> TracksJson<'a> {
         }
     }
 
+    /// Returns the tracks that stand in a file, of a robot of this library; nothing is checked.
     pub(in crate::plan) fn into_tracks(self, library: &Arc<Library>) -> Tracks {
         let track = |track: TrackJson| Track { joint: track.joint, segments: track.segments.into_owned() };
         let dock = |e: EventJson| DockingEvent { time: e.time, kind: e.kind, bond: e.bond, cause: e.cause };

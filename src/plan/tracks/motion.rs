@@ -14,16 +14,16 @@ pub struct Tracks {
     pub robot: Assembly,
     /// The joint positions and bonds before the first motion, and the pose of the base.
     pub start: State,
-    /// The joint trajectories, at most one a joint, in order of joint. A joint without a track keeps its
-    /// start position.
+    /// The joint trajectories, at most one a joint, ascending by joint. A joint without a track keeps its start
+    /// position.
     pub tracks: Vec<Track>,
     /// The changes of bonds, in order of time.
     pub events: Vec<DockingEvent>,
     /// The duration, s.
     pub duration: f64,
-    /// The causes of the start pose: (joint, cause).
+    /// The causes of the start pose, each as (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The cause of each bond: (index of the bond, cause).
+    /// The cause of each bond, as (index of the bond in the robot, cause).
     pub bond_causes: Vec<(usize, CauseId)>,
 }
 
@@ -133,8 +133,8 @@ impl Track {
         segment.map_or(0.0, |s| s.velocity(t))
     }
 
-    /// Returns bounds on the position (rad or m) over the interval of time `t0..t1` (s), a little wider than it is:
-    /// from the control points of the pieces. `start` is the joint's position at the start of the plan.
+    /// Returns the least and the greatest position (rad or m) over the interval of time `t0..t1` (s), or bounds a
+    /// little wider: from the control points of the pieces. `start` is the joint's position at the start of the plan.
     pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
         let at = self.position(start, t0);
         let first = self.begun(t0).unwrap_or(0);
@@ -185,15 +185,15 @@ impl Tracks {
         self.state(self.duration)
     }
 
-    /// Returns bounds on the position of a joint (rad or m) over the interval of time `t0..t1` (s); see
-    /// [`Track::bounds`].
+    /// Returns bounds, the lower first, on the position of a joint (rad or m) over the interval of time `t0..t1` (s);
+    /// see [`Track::bounds`]. Panics if the robot has no such joint.
     pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
         let start = self.start.joints[joint.0 as usize];
         self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))
     }
 
-    /// Returns every instant at which a segment begins or ends or a bond changes, with 0 and the end, in
-    /// order and without repetition.
+    /// Returns every instant (s) at which a segment begins or ends or a bond changes, with 0 and the end, ascending
+    /// and each once.
     pub fn instants(&self) -> Vec<f64> {
         let segments = self.tracks.iter().flat_map(|t| t.segments.iter().flat_map(|s| [s.start, s.end]));
         let mut all: Vec<f64> =

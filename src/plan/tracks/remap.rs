@@ -60,8 +60,8 @@ impl Remap {
         Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// Returns the names that differ, as (name in B, name in A): of modules, and of joints of modules that lie
-    /// turned. `b` is robot B.
+    /// Returns the names that differ, as (name in B, name in A), in the order of the modules of B: of modules, and of
+    /// joints of modules that lie turned. `b` is robot B.
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
         let mut pairs = Vec::new();
         for (module, instance) in b.modules.iter().enumerate() {

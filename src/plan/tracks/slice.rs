@@ -3,8 +3,8 @@
 use super::motion::{Track, Tracks};
 
 impl Tracks {
-    /// Returns the trajectories between two times, s. Docks at the first instant have happened, those at the
-    /// last happen.
+    /// Returns the trajectories between two times, s. Bonds that dock or undock at the first instant have done so,
+    /// those at the last do so.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Tracks {
         let track = |t: &Track| {
             let pieces = t.segments.iter().filter_map(|s| s.between(from, to)).map(|mut s| {

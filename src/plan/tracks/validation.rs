@@ -12,8 +12,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Tracks {
-    /// Checks that every index is within its list, that segments and docks are in order, and that joints do not
-    /// jump. `causes`: the number of causes of the plan.
+    /// Checks that every index is within its list, that segments and docks are in order, and that joints do not jump.
+    /// `causes`: the number of causes of the plan.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(in crate::plan) fn validate(&self, causes: usize) -> Result<(), PlanFault> {
         robot(&self.robot)?;
         let (joints, bonds) = (self.robot.joints().count(), self.robot.bonds.len());
@@ -68,7 +71,10 @@ impl Tracks {
         Ok(())
     }
 
-    /// Refuses numbers that are not finite.
+    /// Checks that all numbers are finite.
+    ///
+    /// # Errors
+    /// [`PlanFault::Unwritable`] for the first number that is not finite.
     pub(in crate::plan) fn check_numbers(&self) -> Result<(), PlanFault> {
         need_finite("the start", &self.start)?;
         need_finite("the tracks", &self.tracks)?;
@@ -76,7 +82,11 @@ impl Tracks {
         need_finite("the robot", &*self.robot.library)
     }
 
-    /// Checks that joints can be moved and stay in their bounds, and that ports which are docked mate.
+    /// Checks that joints can be moved and stay in their bounds, and that ports which are docked mate. The references
+    /// must have been checked, or it panics. `library`: that of the plan.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(in crate::plan) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         // The library of the plan has been checked, and is that of its robot, as a rule.
         if !Arc::ptr_eq(library, &self.robot.library) {
@@ -119,6 +129,9 @@ fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
 }
 
 /// Checks the references of an assembly, and that its modules have names of their own.
+///
+/// # Errors
+/// The first fault.
 pub(super) fn robot(robot: &Assembly) -> Result<(), PlanFault> {
     need_index(robot.base, robot.modules.len(), "module")?;
     let mut names = BTreeSet::new();

@@ -15,11 +15,15 @@ pub(super) struct Names<'a> {
 }
 
 impl Names<'_> {
+    /// Returns the names that programs of this robot may use, in a plan of `causes` causes.
     pub(super) fn of(robot: &Assembly, causes: usize) -> Names<'_> {
         Names { robot, joints: robot.joints().count(), causes }
     }
 
     /// Checks the modules or the joint of an exemption.
+    ///
+    /// # Errors
+    /// [`PlanFault::Index`] for the first index that is none of the robot.
     pub(super) fn exemption(&self, kind: &ExemptionKind) -> Result<(), PlanFault> {
         match kind {
             ExemptionKind::Collision(Some((a, b))) => {
@@ -35,6 +39,9 @@ impl Names<'_> {
     }
 
     /// Checks every node of a program.
+    ///
+    /// # Errors
+    /// The first fault.
     pub(super) fn nodes(&self, graph: &Graph) -> Result<(), PlanFault> {
         graph.nodes.iter().try_for_each(|node| match &***node {
             Node::Action(action) => self.action(action),

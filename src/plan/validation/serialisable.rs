@@ -25,7 +25,10 @@ pub enum Unwritable {
 /// The greatest depth of nesting that is written; readers refuse more than 128.
 const DEPTH_MAX: usize = 100;
 
-/// Refuses numbers that are not finite, and nesting deeper than [`DEPTH_MAX`].
+/// Checks that all numbers are finite, and nesting is not deeper than [`DEPTH_MAX`].
+///
+/// # Errors
+/// The first [`Unwritable`] part.
 pub(in crate::plan) fn check_serialisable(value: &impl Serialize) -> Result<(), Unwritable> {
     value.serialize(&mut Walk { field: "", depth: 0 })
 }
