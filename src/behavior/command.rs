@@ -16,7 +16,10 @@ use std::sync::Arc;
 type Begun = (Option<f64>, Option<(JointId, CauseId)>);
 
 impl Run<'_> {
-    /// Carries out an action's command.
+    /// Carries out an action's command: gives its motions to the joints; returns the way in which the action ends.
+    ///
+    /// # Errors
+    /// A [`Refusal`] that blames the action, if the command can't be carried out.
     pub(super) fn command(&mut self, action: &Action) -> Result<Begun, Refusal> {
         self.judge(action).map_err(|reason| Refusal::at(action.cause, reason))
     }

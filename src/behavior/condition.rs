@@ -13,9 +13,11 @@ pub(super) const DEPTH_MAX: usize = 64;
 
 /// The motion that a condition is judged on.
 pub(super) struct View<'a> {
+    /// The robot with the bonds so far.
     pub(super) robot: &'a Assembly,
+    /// The motion of every joint, by the number in its `JointId`.
     pub(super) motions: &'a [Motion],
-    /// True, by bond, if it holds.
+    /// For every bond of the robot, by index, true if it holds.
     pub(super) holds: &'a [bool],
     /// The time at which the action began, s.
     pub(super) began: f64,
@@ -44,7 +46,7 @@ pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Opt
     (t1.is_finite() && holds(condition, view, t1)).then_some(t1)
 }
 
-/// Returns the depth of a condition's nesting, up to one more than [`DEPTH_MAX`].
+/// Returns the depth of a condition's nesting, 1 for a plain one, up to one more than [`DEPTH_MAX`].
 pub(super) fn depth(condition: &Condition) -> usize {
     let mut deepest = 0;
     let mut stack = vec![(condition, 1)];

@@ -20,9 +20,9 @@ use std::sync::Arc;
 /// A conflict: two commands to one joint, neither of which comes before the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Conflict {
-    /// The lesser cause of the two commands; equal to `second` where a command runs beside itself.
+    /// The lesser cause of the two commands, by its index; equal to `second` where a command runs beside itself.
     pub first: CauseId,
-    /// The greater cause of the two commands.
+    /// The greater cause of the two commands, by its index.
     pub second: CauseId,
     /// The joint that both command.
     pub joint: JointId,
@@ -43,7 +43,8 @@ pub struct Conflicts {
     pub work: usize,
 }
 
-/// The greatest number of pairs that are reported of each kind.
+/// The greatest number of pairs of causes in each of [`Conflicts::errors`] and [`Conflicts::warnings`], so that a
+/// program in which all commands conflict is answered in bounded time; [`Conflicts::more`] says if pairs were dropped.
 pub const PAIRS_MAX: usize = 100;
 
 /// Returns the conflicts of a program, found on its graph without running it. The work grows as n log n with the n

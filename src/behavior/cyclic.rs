@@ -16,7 +16,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Run<'_> {
-    /// Begins a phase, an approach or a stretch; returns the time at which it ends.
+    /// Begins a phase, an approach or a stretch; returns the time at which it ends, s. Panics for other nodes.
+    ///
+    /// # Errors
+    /// A [`Refusal`] if the body is not cyclic, a number is out of range, or a limit is exceeded.
     pub(super) fn begin_cycle(&mut self, node: &Node) -> Result<f64, Refusal> {
         match node {
             Node::Stretch { body, duration, cause } => self.begin_stretch(body, *duration, *cause),

@@ -7,13 +7,15 @@ use crate::geometry::pose::turned;
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use std::f64::consts::{PI, TAU};
 
-/// Returns the index of the bond that holds at a port; `None` if the port is free.
+/// Returns the index of the bond that holds at a port; `None` if the port is free. `holds`: for every bond of the
+/// robot, by index, true if it holds.
 pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option<usize> {
     (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
 }
 
-/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the
-/// position of its hinge in rad, if the connector has one.
+/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the position of
+/// its hinge in rad, `None` if the connector has no hinge. `holds`: for every bond of the robot, true if it holds;
+/// `joints`: positions of all joints, by the number in their `JointId`, rad or m.
 ///
 /// # Errors
 /// Refuses ports that are taken, that do not mate, or whose parts of the robot nothing connects.

@@ -13,12 +13,13 @@ pub(super) struct JointFacts {
     pub(super) uncommandable: Option<Uncommandable>,
     /// `true` for a joint that moves along its axis, in metres.
     pub(super) prismatic: bool,
-    /// The lowest and the highest position; `None` for a continuous joint.
+    /// The lowest and the highest position, rad or m; `None` for a continuous joint.
     pub(super) range: Option<(f64, f64)>,
-    /// The greatest speed when it moves alone, by its own limit and those of the motors that drive it; `None` for no
-    /// limit.
+    /// The greatest speed when it moves alone, rad/s or m/s, by its own limit and those of the motors that drive it;
+    /// `None` for no limit.
     pub(super) speed: Option<f64>,
-    /// The greatest acceleration when it moves alone, likewise.
+    /// The greatest acceleration when it moves alone, rad/s² or m/s², by its own limit and those of the motors that
+    /// drive it; `None` for no limit.
     pub(super) acceleration: Option<f64>,
 }
 
@@ -33,7 +34,7 @@ pub enum Uncommandable {
     Fixed,
 }
 
-/// Returns every joint of a robot, by [`JointId`](crate::robot::JointId).
+/// Returns every joint of a robot, by the number in its [`JointId`](crate::robot::JointId).
 pub(super) fn facts(robot: &Assembly) -> Vec<JointFacts> {
     let of = |owner| match owner {
         JointOwner::Module { module, joint } => of_module(robot, module, joint),

@@ -29,8 +29,8 @@ pub const SMOOTH_ACCELERATION: f64 = 5.773_502_691_896_258;
 /// The part of a trapezoid's duration that each ramp takes if no acceleration limit determines it.
 pub const RAMP: f64 = 0.25;
 
-/// Returns the least duration of a move by `distance` (rad or m, either sign) from rest to rest under the limits
-/// `able`, s; `None` if no limit bounds it. [`Profile::Linear`] knows no acceleration limit. 0 for no distance.
+/// Returns the least duration, s, of a move by `distance` (rad or m, either sign) from rest to rest under the limits
+/// `able`; 0 for no distance, `None` if no limit bounds it. [`Profile::Linear`] knows no acceleration limit.
 pub fn least_duration(profile: Profile, distance: f64, able: MotionLimits) -> Option<f64> {
     let distance = distance.abs();
     if distance == 0.0 {

@@ -60,7 +60,7 @@ pub enum IssueKind {
     TooFast {
         /// The path name of the joint.
         joint: String,
-        /// The speed, rad/s or m/s; negative in the direction of lower positions.
+        /// The speed, rad/s or m/s; negative towards lower positions.
         speed: f64,
         /// The greatest speed, rad/s or m/s.
         limit: f64,
@@ -97,8 +97,8 @@ pub enum IssueKind {
     },
 }
 
-/// Returns the issues of every action in order of the graph, each action once however often it is repeated. The
-/// durations of moves to a position are not checked, since they depend on the position before: see
+/// Returns the issues of every action in the order of [`Graph::actions`], each action once however often it is
+/// repeated. The durations of moves to a position are not checked, since they depend on the position before: see
 /// [`schedule`](super::schedule()). `tol` is the part of a limit or range by which it may be exceeded: rounding, see
 /// [`Settings`](super::Settings).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {

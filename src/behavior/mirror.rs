@@ -61,9 +61,9 @@ pub fn mirrored(
     rewritten(program, |action| mirrored_action(action, &image))
 }
 
-/// Returns the image of every joint, by joint, with 1 or -1, by which its positions are multiplied; `None` for a
-/// joint without an image, which hinges of bonds and fixed joints never have. A joint may be its own image. `holds`:
-/// for every bond of the robot, true if it is closed.
+/// Returns the image of every joint, by the number in its `JointId`, with 1 or -1, by which its positions are
+/// multiplied; `None` for a joint without an image, which hinges of bonds and fixed joints never have. A joint may be
+/// its own image. `holds`: for every bond of the robot, by index, true if it is closed.
 pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
     let marks = marks(robot, holds);
     let centre =

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 /// The past and the commanded future of a joint's position.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
-    /// The past segments, which nothing can change.
+    /// The past segments in order of time, which nothing can change.
     pub(super) past: Vec<Segment>,
     /// The present and coming segments, in order.
     ahead: VecDeque<Segment>,
@@ -23,9 +23,13 @@ pub(super) struct Motion {
 /// Steady motion from a time and position on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turning {
+    /// The time from which on it turns, s.
     pub(super) since: f64,
+    /// The position at that time, rad or m.
     pub(super) from: f64,
+    /// The constant speed, rad/s or m/s.
     pub(super) speed: f64,
+    /// The cause of the command.
     pub(super) cause: CauseId,
 }
 
@@ -42,7 +46,7 @@ impl Motion {
         }
     }
 
-    /// Returns the position at a time that is not before the last [`pass`](Motion::pass), rad or m.
+    /// Returns the position, rad or m, at the time `t` (s), which is not before the last [`pass`](Motion::pass).
     pub(super) fn position(&self, t: f64) -> f64 {
         let begun = self.ahead.iter().take_while(|s| s.start <= t).last();
         match (begun, self.turning) {
@@ -92,8 +96,8 @@ impl Motion {
         self.ahead.iter().chain(self.past.last()).any(|s| s.end == now)
     }
 
-    /// Appends pieces that begin at `start`, where the motion so far has ended; pieces without motion only take time.
-    /// Returns the time at which the last piece ends.
+    /// Appends pieces that begin at `start` (s), where the motion so far has ended; pieces without motion only take
+    /// time. Returns the time at which the last piece ends, s.
     pub(super) fn append(&mut self, start: f64, pieces: Vec<Piece>, cause: CauseId) -> f64 {
         let mut now = start;
         for Piece { duration, mut control } in pieces.into_iter().filter(|p| p.duration > 0.0) {
@@ -121,13 +125,14 @@ impl Motion {
         self.turning
     }
 
-    /// Returns the time at which the last present or coming segment ends; `None` if there is none.
+    /// Returns the time at which the last present or coming segment ends, s; `None` if there is none.
     pub(super) fn ends(&self) -> Option<f64> {
         self.ahead.back().map(|s| s.end)
     }
 
-    /// Returns the signal's pieces over `t0..t1` (which may be endless): each with its time and, in Bernstein
-    /// form, the position over it. The last may be endless, and is then linear over its first second.
+    /// Returns the pieces of the position over `t0..t1` (s, `t1` may be infinite), in order of time: each with its
+    /// interval and, in Bernstein form, the position (rad or m) over it. The last may be endless, and is then linear
+    /// over its first second.
     pub(super) fn pieces(&self, t0: f64, t1: f64) -> Vec<SignalPiece> {
         let mut pieces = Vec::new();
         let mut now = t0;
@@ -156,7 +161,7 @@ impl Motion {
         pieces
     }
 
-    /// Returns all segments, past and coming.
+    /// Returns all segments, past and coming, in order of time.
     pub(super) fn into_segments(mut self) -> Vec<Segment> {
         self.past.extend(self.ahead);
         self.past
@@ -166,8 +171,12 @@ impl Motion {
 /// A piece of a signal; see [`Motion::pieces`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SignalPiece {
+    /// The beginning, s.
     pub(super) start: f64,
+    /// The end, s; infinite for an endless piece.
     pub(super) end: f64,
+    /// The control points in Bernstein form of the signal over the piece, or over its first second if it is endless;
+    /// in the unit of the signal.
     pub(super) control: Vec<f64>,
 }
 
@@ -177,7 +186,7 @@ impl SignalPiece {
         if self.end.is_finite() { self.end - self.start } else { 1.0 }
     }
 
-    /// Returns the rate of the signal, over the same time.
+    /// Returns the rate of the signal, in its unit by s, over the same time.
     pub(super) fn rate(&self) -> SignalPiece {
         let span = self.span();
         let control = polynomial::derivative(&self.control).into_iter().map(|c| c / span).collect();

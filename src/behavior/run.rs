@@ -16,20 +16,32 @@ use std::sync::Arc;
 
 /// A run in progress. Time begins at 0.
 pub(super) struct Run<'a> {
+    /// The robot, with the bonds that docking has added so far.
     pub(super) robot: Arc<Assembly>,
+    /// The limits of every joint, by the number in its `JointId`.
     pub(super) facts: Vec<JointFacts>,
+    /// The motion of every joint, by the number in its `JointId`.
     pub(super) motions: Vec<Motion>,
-    /// The positions at the start, joints of new bonds included, rad or m.
+    /// The positions at the start, by the number in the joint's `JointId`, those of new bonds' hinges included, rad or
+    /// m.
     pub(super) start: Vec<f64>,
-    /// True, by bond, if it holds.
+    /// For every bond of the robot, by index, true if it holds now.
     pub(super) holds: Vec<bool>,
+    /// The changes of bonds so far, in order of time.
     pub(super) docks: Vec<DockingEvent>,
+    /// The intervals so far that are excused from a check.
     pub(super) exemptions: Vec<Exemption>,
+    /// Stated durations so far that are shorter than the limits allow.
     pub(super) issues: Vec<Issue>,
+    /// The limits and tolerances of scheduling.
     pub(super) settings: Settings,
+    /// The present time of the run, s.
     pub(super) now: f64,
+    /// The number of actions begun.
     pub(super) actions: u64,
+    /// The number of nodes entered.
     pub(super) steps: u64,
+    /// The number of pieces of motion made.
     pub(super) segments: u64,
     /// The nesting depth of phases and stretches of this run.
     pub(super) cycles: u64,
@@ -47,16 +59,23 @@ pub(super) struct Run<'a> {
 
 /// The result of a run.
 pub(super) struct Played {
+    /// The robot, with the bonds that docking added.
     pub(super) robot: Arc<Assembly>,
+    /// The trajectory of every joint that moves, ascending by joint.
     pub(super) tracks: Vec<Track>,
-    /// The positions at the start, rad or m.
+    /// The positions at the start, by the number in the joint's `JointId`, rad or m.
     pub(super) joints: Vec<f64>,
-    /// The positions at the end, rad or m.
+    /// The positions at the end, by the number in the joint's `JointId`, rad or m.
     pub(super) end: Vec<f64>,
+    /// The changes of bonds, in order of time.
     pub(super) docks: Vec<DockingEvent>,
+    /// The time at which all is done and at rest, s.
     pub(super) duration: f64,
+    /// The intervals that are excused from a check.
     pub(super) exemptions: Vec<Exemption>,
+    /// Stated durations that are shorter than the limits allow.
     pub(super) issues: Vec<Issue>,
+    /// The number of actions executed.
     pub(super) actions: u64,
     pub(super) steps: u64,
 }
@@ -128,7 +147,8 @@ impl PartialEq for Event {
 impl Eq for Event {}
 
 impl<'a> Run<'a> {
-    /// Sets up the run of a robot with these motions of its joints.
+    /// Sets up the run of a robot, with a fact and a motion for every joint, by the number in its `JointId`, and for
+    /// every bond true if it holds.
     pub(super) fn new(
         robot: Arc<Assembly>,
         facts: Vec<JointFacts>,
@@ -165,6 +185,10 @@ impl<'a> Run<'a> {
     }
 
     /// Runs a program to its end and until every joint is at rest.
+    ///
+    /// # Errors
+    /// A [`Refusal`] if a command can't be carried out, a condition never holds, the behaviour aborts, a joint still
+    /// turns at the end, or a limit of the settings is exceeded.
     pub(super) fn play(mut self, program: &'a Arc<Node>) -> Result<Played, Refusal> {
         self.tasks.push(Task::Begin(program, None));
         loop {
@@ -456,14 +480,20 @@ impl<'a> Run<'a> {
         limit(self.steps, self.settings.steps_max, "steps")
     }
 
-    /// Counts pieces of motion.
+    /// Counts `more` pieces of motion.
+    ///
+    /// # Errors
+    /// [`Reason::Limit`] if there are more than the settings allow.
     pub(super) fn count_segments(&mut self, more: usize) -> Result<(), Refusal> {
         self.segments += more as u64;
         limit(self.segments, self.settings.segments_max, "pieces of motion")
     }
 }
 
-/// Refuses a value above its limit.
+/// Checks that a value is not above its limit; `what`: the things that are counted, in words.
+///
+/// # Errors
+/// [`Reason::Limit`] if it is.
 pub(super) fn limit(value: u64, max: u64, what: &'static str) -> Result<(), Refusal> {
     if value > max { Err(Refusal::whole(Reason::Limit { what, limit: max })) } else { Ok(()) }
 }

@@ -20,8 +20,8 @@ use std::sync::Arc;
 pub struct Problem {
     /// The robot, with the bonds that its start state knows, closed or open.
     pub robot: Assembly,
-    /// The state that the behaviour begins in, at rest: one position (rad or m) for every joint, one flag for every
-    /// bond.
+    /// The state that the behaviour begins in, at rest: one position (rad or m) for every joint, by the number in its
+    /// `JointId`, one flag for every bond, by its index.
     pub start: State,
     /// The behaviour, a series-parallel graph of actions.
     pub program: Arc<Node>,

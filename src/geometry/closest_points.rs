@@ -22,8 +22,8 @@ const PARALLEL_SINE_SQUARED: f64 = 1e-9;
 pub struct SegmentPair {
     /// The distance of the two points, m; not negative.
     pub distance: f64,
-    /// The unit vector from the second segment's point to the first's. If the segments meet, it is perpendicular to
-    /// both of them, with arbitrary sign, and +z where they are parallel or a point.
+    /// The unit vector from the second segment's point to the first's, in the frame of the segments. If the segments
+    /// meet, it is perpendicular to both of them, with arbitrary sign, and +z where they are parallel or a point.
     pub normal: Vec3,
     /// The positions of the points along the first and the second segment, as fractions of the lengths, 0 to 1.
     pub along: (f64, f64),
@@ -52,7 +52,8 @@ pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     pair_at(p, q, (along_p, along_q))
 }
 
-/// Returns the first or second end (`end` is 0 or 1) of the segment `p` with the point of `q` that is closest to it.
+/// Returns the first or second end (`end` is 0 or 1) of the segment `p` with the point of `q` that is closest to it;
+/// coordinates in m.
 pub fn end_segment(p: Segment, end: usize, q: Segment) -> SegmentPair {
     let point = if end == 0 { p.0 } else { p.1 };
     let v = q.1 - q.0;

@@ -45,7 +45,7 @@ pub fn signed_distance_within(
 }
 
 /// Returns the distance by the nearest points of the cores, or a lower bound of at least `enough` (m); `None` where
-/// the cores overlap or touch.
+/// the cores overlap or touch. Arguments as for [`signed_distance_within`].
 pub(super) fn distance_apart(
     a: &Part,
     b: &Part,

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Faces {
     /// The corners of the hull, m.
     pub points: Vec<Vec3>,
-    /// Indices of `points`, from 0, counter-clockwise from outside.
+    /// Three indices in `points`, from 0, for each triangle, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 

@@ -21,6 +21,9 @@ pub(crate) struct PoseText {
 const NORM_TOLERANCE: f64 = 1e-6;
 
 /// Writes a pose, its numbers as they are.
+///
+/// # Errors
+/// The serializer's error.
 pub(crate) fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::Error> {
     let (t, q) = (&pose.translation.vector, &pose.rotation);
     PoseText { p: [t.x, t.y, t.z], q: [q.w, q.i, q.j, q.k] }.serialize(to)

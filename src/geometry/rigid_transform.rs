@@ -18,7 +18,7 @@ use std::ops::Mul;
 pub struct RigidTransform {
     /// `R_AB`: the axes of B as columns, in A. Orthonormal with determinant 1; nothing renormalises it.
     pub rotation: Matrix3<f64>,
-    /// The origin of B in A.
+    /// The origin of B in A, in the caller's unit of length.
     pub translation: Vec3,
 }
 

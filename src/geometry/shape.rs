@@ -82,7 +82,7 @@ impl Shape {
     }
 }
 
-/// A shape at a pose in the frame of what it belongs to (`X_LS`, link to shape).
+/// A shape at a pose in the frame of the thing that it belongs to (`X_LS`, link to shape).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Placed {

@@ -14,7 +14,7 @@ pub struct Volume {
     pub volume: f64,
     /// The centroid, m, in the frame of the shape or of the poses that it was computed from.
     pub centre: Vec3,
-    /// Second moments `∫ p pᵀ dV` with p from the centroid, along the axes of that frame, m⁵.
+    /// Second moments `∫ p pᵀ dV` with p from the centroid, along the axes of that frame, m⁵: a symmetric matrix.
     pub second: Matrix3<f64>,
 }
 

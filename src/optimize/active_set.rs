@@ -66,8 +66,8 @@ pub(super) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// Returns the program without rows for `H = L Lᵀ` and c; rows may be off by `tolerance`, in the units of their right
-    /// sides.
+    /// Returns the program without rows for `H = L Lᵀ`, given by its factor, and c, one entry for every variable; rows
+    /// may be off by `tolerance`, in the units of their right sides.
     pub(super) fn new(factor: SparseCholesky, linear: &[f64], tolerance: f64) -> ActiveSet {
         let mut free: Vec<f64> = linear.iter().map(|c| -c).collect();
         factor.solve_lower(&mut free);
@@ -83,12 +83,12 @@ impl ActiveSet {
         }
     }
 
-    /// Adds `a·x = b`, or `a·x ≤ b`. Rows are numbered as they come.
+    /// Adds the row `a·x = b` if `equal` is true, else `a·x ≤ b`. Rows are numbered from 0 as they come.
     pub(super) fn add(&mut self, (terms, right): Row, equal: bool) {
         self.lines.push(Line { terms, right, equal, image: None, active: false });
     }
 
-    /// Changes the right side of a row.
+    /// Changes the right side of the row of number `line`. Panics if there is none.
     pub(super) fn set(&mut self, line: usize, right: f64) {
         self.lines[line].right = right;
     }

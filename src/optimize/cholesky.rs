@@ -74,19 +74,22 @@ impl SymmetricMatrix {
         self.first[row]
     }
 
-    /// Returns a row's entries from the first column of its envelope up to the diagonal.
+    /// Returns a row's entries, in order of column, from the first column of its envelope up to the diagonal; rows
+    /// count from 0.
     #[inline]
     pub fn row(&self, row: usize) -> &[f64] {
         &self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Returns a row's entries, to be changed, from the first column of its envelope up to the diagonal.
+    /// Returns a row's entries, to be changed, in order of column, from the first column of its envelope up to the
+    /// diagonal; rows count from 0.
     #[inline]
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Adds to the entry at a row and column. Panics unless the entry lies in the envelope of the lower half.
+    /// Adds `value` to the entry at a row and column, from 0. Panics unless the entry lies in the envelope of the
+    /// lower half.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let first = self.first[row];
@@ -103,8 +106,8 @@ impl SymmetricMatrix {
         self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
     }
 
-    /// Decomposes the matrix in place. Returns `None` where the rule refuses a pivot; [`PivotRule::Raise`] refuses
-    /// none.
+    /// Decomposes the matrix in place (Cholesky-Banachiewicz). Returns `None` where the rule refuses a pivot;
+    /// [`PivotRule::Raise`] refuses none.
     pub fn cholesky(mut self, rule: PivotRule) -> Option<Cholesky> {
         for i in 0..self.size() {
             let (done, rest) = self.values.split_at_mut(self.start[i]);

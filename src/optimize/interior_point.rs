@@ -9,7 +9,8 @@ use clarabel::solver::{
 /// The greatest number of iterations of the solver.
 const ITERATIONS_MAX: u32 = 200;
 
-/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds the entries of H on and above the diagonal.
+/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds the entries of H on and above the diagonal,
+/// `costs` c; the multipliers of the result are in the order of `equal` and `at_most`.
 ///
 /// # Errors
 /// The status of the solver where it found no solution, also an approximate one.
@@ -47,7 +48,8 @@ pub(super) fn solve(
     }
 }
 
-/// Returns a sparse matrix from entries (row, column, value); those with equal indices are summed.
+/// Returns a sparse matrix of `rows` × `columns` from entries (row, column, value), indices from 0; those with equal
+/// indices are summed.
 pub(super) fn matrix(
     (rows, columns): (usize, usize),
     entries: impl Iterator<Item = (usize, usize, f64)>,

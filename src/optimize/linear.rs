@@ -24,9 +24,10 @@ pub struct LinearProgram {
 pub struct LinearSolution {
     /// The variables, in the order of [`LinearProgram::costs`].
     pub x: Vec<f64>,
-    /// The Lagrange multiplier of each equality.
+    /// The Lagrange multiplier of each equality, in the order of [`LinearProgram::equal`].
     pub y: Vec<f64>,
-    /// The Lagrange multiplier of each inequality; 0, to the tolerance, where it is not active.
+    /// The Lagrange multiplier of each inequality, in the order of [`LinearProgram::at_most`]; 0, to the tolerance,
+    /// where it is not active.
     pub z: Vec<f64>,
 }
 
@@ -41,7 +42,7 @@ pub enum Unsolved {
     Numerical,
 }
 
-/// Solves a linear program.
+/// Solves a linear program by an interior-point method.
 ///
 /// # Errors
 /// The status of the solver where it found no solution. A status, and a solution, holds to the solver's tolerance:

@@ -20,7 +20,8 @@ pub struct Assembly {
     pub library: Arc<Library>,
     /// The modules; a module is referred to by its index here.
     pub modules: Vec<ModuleInstance>,
-    /// Every bond that exists at some time; which ones do at the moment is part of the state.
+    /// Every bond that exists at some time; a bond is referred to by its index here, and which of them hold at the
+    /// moment is part of the state.
     pub bonds: Vec<Bond>,
     /// The index of the module whose body frame is drawn upright at the start, and whose pose is reported.
     pub base: usize,
@@ -61,7 +62,7 @@ pub struct Bond {
     pub turn: u32,
 }
 
-/// A joint of the assembly: an index into [`Assembly::joints`].
+/// A joint of the assembly: its index, from 0, in the order of [`Assembly::joints`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(transparent)]
 pub struct JointId(pub u32);
@@ -111,16 +112,16 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
-    /// Returns the hinge of a bond (by index), that of the connector at its first port; `None` for a bond that does
-    /// not turn.
+    /// Returns the hinge of a bond, given by its index: that of the connector at its first port; `None` for a bond
+    /// that does not turn. Panics if there is no such bond.
     pub fn hinge(&self, bond: usize) -> Option<&Hinge> {
         let a = self.bonds[bond].a;
         let connector = self.module_type(a.module).ports[a.port].connector;
         self.library.connectors[connector].hinge.as_ref()
     }
 
-    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports: `a.front
-    /// -- b.back`.
+    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports: `a.front --
+    /// b.back`. Panics if there is no such joint.
     pub fn joint_name(&self, owner: JointOwner) -> String {
         match owner {
             JointOwner::Module { module, joint } => {
@@ -132,7 +133,7 @@ impl Assembly {
         }
     }
 
-    /// Returns the path name of a port, such as `leg[2].m[0].front`.
+    /// Returns the path name of a port, such as `leg[2].m[0].front`. Panics if there is no such port.
     pub fn port_name(&self, p: PortRef) -> String {
         format!("{}.{}", self.modules[p.module].name, self.module_type(p.module).ports[p.port].name)
     }

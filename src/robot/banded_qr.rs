@@ -22,11 +22,12 @@ const CONVERGED_TIMES: usize = 4;
 pub(super) struct RigidityReport {
     /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
     pub(super) weakest: f64,
-    /// Struts without any one of which the truss stays rigid.
+    /// Indices of the struts without any one of which the truss stays rigid, ascending.
     pub(super) redundant: Vec<usize>,
 }
 
-/// Examines a truss with nodes at these positions (m); `None` where it is not rigid, or not clearly.
+/// Examines a truss with nodes at these positions (m) and struts between them (pairs of indices) by a banded QR
+/// decomposition of its rigidity matrix; `None` where it is not rigid, or not clearly.
 pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
     let order = cuthill_mckee_order(nodes.len(), struts);
     let mut position = vec![0; nodes.len()];

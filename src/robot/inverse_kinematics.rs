@@ -296,23 +296,24 @@ pub struct Reach<'a> {
     pub kinematics: &'a Kinematics,
     /// The frame that is to be moved.
     pub frame: LinkFrame,
-    /// The index of the module whose body stays where it is, and the world pose of that body.
+    /// The index in the assembly of the module whose body stays where it is, and the world pose of that body.
     pub base: (usize, Pose),
     /// The pose at which the frame is to be, `X_WF`.
     pub goal: Pose,
     /// The part of that pose that is to be reached.
     pub task_space: TaskSpace,
-    /// Positions that joints are drawn to as far as the goal allows (secondary task), rad or m, one for every joint
-    /// of the assembly; `None`: joints stay near where they are.
+    /// Positions that joints are drawn to as far as the goal allows (secondary task), rad or m, one for every joint of
+    /// the assembly, by the number in its `JointId`; `None`: joints stay near where they are.
     pub rest: Option<&'a [f64]>,
-    /// The errors at which the goal counts as reached: m, and rad.
+    /// The errors up to which the goal counts as reached: of the origin, m, and of the orientation, rad.
     pub tolerance: (f64, f64),
 }
 
 /// The result of [`reach`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// The positions of all joints by [`super::JointId`], rad or m; every step keeps them within the joints' limits.
+    /// The positions of all joints, by the number in their [`super::JointId`], rad or m; every step keeps them within
+    /// the joints' limits.
     pub joints: Vec<f64>,
     /// The reason that the descent ended; only [`StopReason::Converged`] means that the goal is reached.
     pub stop: StopReason,
@@ -334,9 +335,10 @@ const REST_GAIN: f64 = 0.1;
 /// The greatest angle that one step corrects, rad.
 const ANGLE_STEP_MAX: f64 = 0.4;
 
-/// Finds joint positions (rad or m) that bring a frame to a pose, from those of `start`, one for every joint of the
-/// assembly. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints are not regarded,
-/// nor collisions, nor bonds that close loops. Panics if `start` has too few positions.
+/// Finds joint positions (rad or m) that bring a frame to a pose, by damped least squares (Buss 2005) from those of
+/// `start`, one for every joint of the assembly, by the number in its `JointId`. Fixed, passive and mimicking joints
+/// are not commanded; the limits of mimicking joints are not regarded, nor collisions, nor bonds that close loops.
+/// Panics if `start` has too few positions.
 pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     let mut joints = start.to_vec();
     let held = task.kinematics.link(task.base.0, 0);

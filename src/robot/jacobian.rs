@@ -17,7 +17,7 @@ pub struct LinkFrame {
 }
 
 impl LinkFrame {
-    /// Returns the frame of a link itself.
+    /// Returns the frame of a link itself, given by its number among all links.
     pub fn of_link(link: usize) -> LinkFrame {
         LinkFrame { link, X_LF: Pose::identity() }
     }
@@ -29,7 +29,7 @@ impl LinkFrame {
         LinkFrame { link: kinematics.link(port.module, declared.link), X_LF: declared.pose }
     }
 
-    /// Returns the world pose `X_WF` of the frame from the world poses of all links.
+    /// Returns the world pose `X_WF` of the frame from the world poses of all links, by their numbers.
     pub fn pose(&self, poses: &[Pose]) -> Pose {
         poses[self.link] * self.X_LF
     }
@@ -64,8 +64,8 @@ impl JointAxis {
 }
 
 impl Step {
-    /// Returns the axis about or along which this step moves its child against its parent as its position grows;
-    /// `None` where it is fixed. `poses` are the world poses of all links.
+    /// Returns the axis, in the world, about or along which this step moves its child against its parent as its
+    /// position grows; `None` where it is fixed. `poses` are the world poses of all links, by their numbers.
     pub fn joint_axis(&self, poses: &[Pose]) -> Option<JointAxis> {
         let (X_WA, X_WB) = (&poses[self.parent], &poses[self.link]);
         match (self.motion, self.motion.axis()) {
@@ -79,13 +79,14 @@ impl Step {
     }
 }
 
-/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link `held` stays where it is; `None` if bonds
-/// do not connect the two, so that joints do not determine their relative pose.
+/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link of number `held` stays where it is; `None`
+/// if bonds do not connect the two, so that joints do not determine their relative pose. `poses`: the world poses of
+/// all links, by their numbers.
 ///
 /// `J · q̇` is the velocity of F: rows 0 to 2 the linear velocity of its origin (m/s), rows 3 to 5 its angular
-/// velocity (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by
-/// [`super::JointId`], q̇ in rad/s or m/s. Columns of joints off the path between the two links, of fixed joints and
-/// of mimics are zero; motions of mimics are in the columns of the joints that they follow. Bonds that close loops
+/// velocity (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by the number in
+/// their [`super::JointId`], q̇ in rad/s or m/s. Columns of joints off the path between the two links, of fixed joints
+/// and of mimics are zero; motions of mimics are in the columns of the joints that they follow. Bonds that close loops
 /// are not regarded.
 pub fn geometric_jacobian(
     kinematics: &Kinematics,
@@ -110,9 +111,9 @@ pub fn geometric_jacobian(
     Some(jacobian)
 }
 
-/// Returns the six columns of the Jacobian of a frame with its origin at `p_WF` (m) that belong to a floating base with
-/// its origin at `p_WB`, which carries it: for the base's linear velocity (three columns), then its angular velocity, in
-/// the world. Rows are those of [`geometric_jacobian`].
+/// Returns the six columns of the Jacobian of a frame with its origin at `p_WF` (m, in the world) that belong to a
+/// floating base with its origin at `p_WB` (m, in the world), which carries it: for the base's linear velocity (three
+/// columns), then its angular velocity, in the world. Rows are those of [`geometric_jacobian`].
 pub fn base_jacobian(p_WF: &Vec3, p_WB: &Vec3) -> Matrix6<f64> {
     let mut jacobian = Matrix6::identity();
     jacobian.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(p_WF - p_WB).cross_matrix());

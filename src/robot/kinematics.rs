@@ -14,11 +14,12 @@ use std::ops::Range;
 /// An assembly compiled for forward kinematics.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
-    /// The index of the module whose body carries all others.
+    /// The index in the assembly of the module whose body carries all others.
     pub root: usize,
     /// The spanning tree of modules over the bonds that hold.
     pub tree: Tree,
     /// One step for every link that is connected with the root but the root's body itself, parents before children.
+    /// Links are named by their numbers ([`Kinematics::link`]).
     pub steps: Vec<Step>,
     /// Index of the first link of each module, and the number of links at the end.
     first_link: Vec<usize>,
@@ -85,12 +86,13 @@ impl Kinematics {
         self.joint_count
     }
 
-    /// Returns the number of a module's link among all links, from 0; `link` is its index in the module.
+    /// Returns the number of a module's link among all links, from 0, which are numbered module by module; `module` is
+    /// the index of the module, `link` that of the link in the module.
     pub fn link(&self, module: usize, link: usize) -> usize {
         self.first_link[module] + link
     }
 
-    /// Returns the numbers of a module's links among all links.
+    /// Returns the numbers of the links of a module, given by its index, among all links.
     pub fn links_of(&self, module: usize) -> Range<usize> {
         self.first_link[module]..self.first_link[module + 1]
     }
@@ -100,26 +102,27 @@ impl Kinematics {
         self.first_link.partition_point(|&first| first <= link) - 1
     }
 
-    /// Returns the number of a module's joint among all joints, a [`super::JointId`]; `joint` is its index in the
-    /// module.
+    /// Returns the number, from 0, of a module's joint among all joints, that of its [`super::JointId`]; `module` is
+    /// the index of the module, `joint` that of the joint in the module.
     pub fn joint(&self, module: usize, joint: usize) -> usize {
         self.first_joint[module] + joint
     }
 
-    /// Returns the number of a bond's hinge among all joints, a [`super::JointId`]; `None` if the bond does not
-    /// turn.
+    /// Returns the number among all joints, that of its [`super::JointId`], of the hinge of the bond of this index;
+    /// `None` if the bond does not turn.
     pub fn hinge(&self, bond: usize) -> Option<usize> {
         self.hinge_joint[bond]
     }
 
-    /// Returns the step from a link's parent to the link; `None` for the root's body and for loose links.
+    /// Returns the step from a link's parent to the link, given by its number; `None` for the root's body and for
+    /// links that are not connected with it.
     pub fn step(&self, link: usize) -> Option<&Step> {
         self.step_of[link].map(|index| &self.steps[index])
     }
 
-    /// Returns the step between two links that are neighbours in the tree, such as those that follow each other on a
-    /// [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it leads back. Panics if
-    /// the links are not neighbours.
+    /// Returns the step between two links, given by their numbers, that are neighbours in the tree, such as those that
+    /// follow each other on a [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it
+    /// leads back. Panics if the links are not neighbours.
     pub fn step_between(&self, from: usize, to: usize) -> (&Step, f64) {
         let down = self.step(to).filter(|step| step.parent == from).map(|step| (step, 1.0));
         let up = || self.step(from).filter(|step| step.parent == to).map(|step| (step, -1.0));
@@ -137,27 +140,29 @@ impl Kinematics {
         }
     }
 
-    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of module `base`
-    /// at `X_WB`, which need not be the root but must be connected with it. `joints`: rad or m.
+    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of the module of
+    /// index `base` at `X_WB`, which need not be the root but must be connected with it. `joints`: rad or m, one for
+    /// each joint.
     pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
         self.link_poses(joints, &Pose::identity(), out);
         let X_WR = X_WB * out[self.link(base, 0)].inverse();
         self.link_poses(joints, &X_WR, out);
     }
 
-    /// Returns the pose of a module, that of its body (the first link), from the poses of all links.
+    /// Returns the pose of the module of this index, that of its body (the first link), from the poses of all links,
+    /// by their numbers.
     pub fn module_pose(&self, module: usize, poses: &[Pose]) -> Pose {
         poses[self.link(module, 0)]
     }
 
-    /// Returns the world pose of a port, `X_WP`, from the world poses of all links.
+    /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
         let declared = &robot.module_type(port.module).ports[port.port];
         poses[self.link(port.module, declared.link)] * declared.pose
     }
 
-    /// Returns the numbers of the links from `a` to `b` along the tree, both included; `None` if bonds do not
-    /// connect them.
+    /// Returns the numbers of the links from `a` to `b` along the tree, both included, in order; `None` if bonds do
+    /// not connect them.
     pub fn path(&self, a: usize, b: usize) -> Option<Vec<usize>> {
         let to_root = |link: usize| {
             let parents = std::iter::successors(Some(link), |&l| self.step(l).map(|step| step.parent));
@@ -181,7 +186,8 @@ impl Kinematics {
     }
 
     /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass
-    /// (kg); if they have no mass, the world's origin. `poses` are the world poses of all links.
+    /// (kg); if they have no mass, the world's origin and 0. `poses` are the world poses of all links, by their
+    /// numbers.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {
@@ -193,15 +199,15 @@ impl Kinematics {
         (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 
-    /// Returns the closure errors (m, rad) of the bonds that close loops, in order of bond, at these joint positions
-    /// and the link poses that belong to them.
+    /// Returns the closure errors (m, rad) of the bonds that close loops, ascending by bond, at these joint positions
+    /// (rad or m) and the world poses of all links that belong to them.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
-    /// Returns the closure error of a bond (by index), which need not hold: the distance (m) and the angle (rad) of
-    /// its second port from a perfect mate with the first. `poses` are the world poses of all links; `joints` (rad,
-    /// m) matter only for the bond's own hinge.
+    /// Returns the closure error of the bond of this index, which need not hold: the distance (m) and the angle (rad)
+    /// of its second port from a perfect mate with the first. `poses` are the world poses of all links, by their
+    /// numbers; `joints` (rad, m) matter only for the bond's own hinge.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;

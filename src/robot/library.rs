@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Library {
-    /// Kinds of connectors.
+    /// Kinds of connectors; each is referred to by its index here.
     pub connectors: Vec<Connector>,
-    /// Types of modules with links and joints.
+    /// Types of modules with links and joints; each is referred to by its index here.
     pub modules: Vec<ModuleType>,
-    /// Types of expanding cubes.
+    /// Types of expanding cubes; each is referred to by its index here.
     pub cells: Vec<Cell>,
-    /// Types of linear actuators.
+    /// Types of linear actuators; each is referred to by its index here.
     pub struts: Vec<Strut>,
 }
 
@@ -67,7 +67,7 @@ pub struct Hinge {
 pub struct ModuleType {
     /// The name, with the arguments where they differ from the defaults: `Hinge(length: 50mm)`.
     pub name: String,
-    /// The first link is the body: its frame is the module's frame.
+    /// The rigid bodies; the first link is the body: its frame is the module's frame.
     pub links: Vec<Link>,
     /// The joints, which make a tree of the links.
     pub joints: Vec<Joint>,
@@ -75,7 +75,8 @@ pub struct ModuleType {
     pub ports: Vec<Port>,
     /// Motors that drive several joints together.
     pub motors: Vec<Motor>,
-    /// Pairs of links, by index, that meet by design: they are not checked for collisions with each other.
+    /// Pairs of links, by their indices in `links`, that meet by design: they are not checked for collisions with each
+    /// other.
     pub touching: Vec<(usize, usize)>,
     /// The greatest depth of a penetration that counts as touching, m; a deeper one is a collision.
     pub touch: f64,
@@ -93,7 +94,7 @@ impl ModuleType {
 }
 
 impl Link {
-    /// The coefficient of friction of a link against the ground where its shapes state none.
+    /// The coefficient of friction of a link against the ground where its shapes state none, without unit.
     pub const FRICTION_DEFAULT: f64 = 0.5;
 }
 
@@ -128,7 +129,7 @@ pub struct Link {
     pub com: Vec3,
     /// The inertia about the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
     pub inertia: [f64; 6],
-    /// The Coulomb coefficient of friction against the ground.
+    /// The Coulomb coefficient of friction against the ground, without unit.
     pub friction: f64,
 }
 
@@ -180,11 +181,11 @@ pub struct Joint {
 pub struct Limits {
     /// Lowest and highest position, rad or m; `None`: the joint has no end, as a continuous joint.
     pub range: Option<(f64, f64)>,
-    /// Greatest speed, rad/s or m/s.
+    /// Greatest speed, rad/s or m/s; `None`: no limit stated.
     pub speed: Option<f64>,
-    /// Greatest acceleration, rad/s² or m/s².
+    /// Greatest acceleration, rad/s² or m/s²; `None`: no limit stated.
     pub acceleration: Option<f64>,
-    /// Greatest torque (N·m) or force (N).
+    /// Greatest torque (N·m) or force (N); `None`: no limit stated.
     pub effort: Option<f64>,
 }
 

@@ -14,9 +14,10 @@ pub struct Mass {
     pub inertia: [f64; 6],
 }
 
-/// Returns the mass properties of shapes that fill space with `density` (kg/m³). If shapes overlap, the overlap counts as
-/// often as shapes share it.
+/// Returns the mass properties of shapes that fill space with `density` (kg/m³), in the frame that they are placed in.
+/// If shapes overlap, the overlap counts as often as shapes share it.
 ///
+/// # Errors
 /// The first fault of a shape, or [`Unsound::Empty`] if there is none.
 pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     let whole = volume::of_placed(shapes)?;
@@ -29,10 +30,10 @@ pub fn of_shapes(shapes: &[Placed], density: f64) -> Result<Mass, Unsound> {
     })
 }
 
-/// Splits a module's mass (kg) over its links, each given by its shapes and its own mass (kg) if that is stated:
-/// those take theirs from the whole, the others share the rest by volume, at one density. Returns the mass
-/// properties of every link, in the frame of its shapes; `None` if the stated masses exceed the whole. If all links
-/// state their masses, a rest is in none of them.
+/// Splits a module's mass (kg) over its links, each given by its shapes and its own mass (kg), `None` if that is not
+/// stated. Links with a stated mass take theirs from the whole, the others share the rest by volume, at one density.
+/// Returns the mass properties of every link, in the order given and in the frame of its shapes; `None` if the stated
+/// masses exceed the whole. If all links state their masses, a rest is in none of them.
 ///
 /// # Errors
 /// The first fault of a shape, or [`Unsound::Empty`] for a link without shapes.

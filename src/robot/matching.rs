@@ -15,14 +15,14 @@ use std::f64::consts::TAU;
 /// An isomorphism from robot B to robot A: the images of its modules, bonds and joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matching {
-    /// The index of the module of A for each module of B.
+    /// The index of the module of A for each module of B, in the order of B's.
     pub modules: Vec<usize>,
-    /// The symmetry by which each module of B lies in its image.
+    /// The symmetry by which each module of B lies in its image, in the order of B's modules.
     pub turned: Vec<Symmetry>,
-    /// The index of the bond of A for each bond of B that holds; `None` for the others.
+    /// The index of the bond of A for each bond of B, in the order of B's; `None` for bonds that do not hold.
     pub bonds: Vec<Option<usize>>,
-    /// The offset from each joint's position in B to that in A, by the [`JointId`](super::JointId) in B, rad or m:
-    /// whole turns, and 0 for joints with limits, fixed joints and mimics.
+    /// The offset from each joint's position in B to that in A, by the number in its [`JointId`](super::JointId) in B,
+    /// rad or m: whole turns, and 0 for joints with limits, fixed joints and mimics.
     pub offsets: Vec<f64>,
 }
 
@@ -33,7 +33,8 @@ impl Matching {
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
     }
 
-    /// Returns the image in A of a joint of a module of B: module, and index in the joints of its type.
+    /// Returns the image in A of a joint of a module of B, given by their indices: the index of the module in A, and
+    /// that of the joint in its type.
     pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
         (self.modules[module], self.turned[module].joints[joint])
     }

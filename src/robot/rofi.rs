@@ -10,7 +10,7 @@ use std::fmt::{self, Write};
 /// A configuration of universal modules of the RoFI platform, as a file states it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct World {
-    /// The modules in order of their ids.
+    /// The modules ascending by their ids; edges name them by their indices here, from 0.
     pub modules: Vec<Module>,
     /// The connections in the order of the file, each once.
     pub edges: Vec<Edge>,
@@ -107,7 +107,7 @@ impl Dock {
         }
     }
 
-    /// Returns the dock of the module of an index that has this port name; `None` for any other name.
+    /// Returns the dock with this port name of the module of an index; `None` for a name that is none of the six.
     pub fn of_port(module: usize, port: &str) -> Option<Dock> {
         let all = SIDES.iter().flat_map(|(_, side)| FACES.iter().map(move |(_, face)| (*side, *face)));
         all.map(|(side, face)| Dock { module, side, face }).find(|dock| dock.port() == port)
@@ -196,7 +196,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Returns the index of the module of an id; `None` if there is none.
+    /// Returns the index, from 0 in the order of reading, of the module of an id; `None` if there is none.
     pub(super) fn index(&self, id: u64) -> Option<usize> {
         self.indices.get(&id).copied()
     }
@@ -209,10 +209,11 @@ impl Reader {
         self.add_edge(edge).map_err(|(end, what)| words.fault([1, 7][end], what))
     }
 
-    /// Adds a connection. The same connection a second time is ignored.
+    /// Adds a connection of modules given by their indices in the order of reading. The same connection a second time
+    /// is ignored.
     ///
     /// # Errors
-    /// The end that is wrong, 0 or 1, and a message in words.
+    /// The end that is wrong, 0 for `a` or 1 for `b`, and a message in words.
     pub(super) fn add_edge(&mut self, edge: Edge) -> Result<(), (usize, String)> {
         let Edge { a, b, .. } = edge;
         for (end, dock) in [a, b].into_iter().enumerate() {
@@ -243,7 +244,7 @@ impl Reader {
         Ok(Dock { module, side, face })
     }
 
-    /// Returns the configuration, with modules in order of their ids.
+    /// Returns the configuration, with modules ascending by their ids.
     ///
     /// # Errors
     /// [`FileError`] if there is no module.

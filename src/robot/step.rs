@@ -97,7 +97,7 @@ impl Motion {
 impl Step {
     /// Returns the step from the link `parent` (A) to the link `link` (B), given by their numbers among all links
     /// and their poses with the joint at zero, in the frame J of the joint, in which `motion` has its axis. `terms`
-    /// are the joints and factors whose sum is the position.
+    /// are the joints, by the number in their `JointId`, and factors whose sum is the position.
     pub fn new(
         parent: usize,
         link: usize,
@@ -135,8 +135,8 @@ impl Step {
         }
     }
 
-    /// Returns the step's position, rad or m, from the positions of all joints of the assembly; 0 if no joint moves
-    /// it.
+    /// Returns the step's position, rad or m, from the positions of all joints of the assembly, by the number in their
+    /// `JointId`; 0 if no joint moves it.
     #[inline]
     pub fn position(&self, joints: &[f64]) -> f64 {
         match &self.drive {
@@ -145,8 +145,8 @@ impl Step {
         }
     }
 
-    /// Returns the joints (by [`JointId`](super::JointId)) and factors whose sum is the step's position: one joint,
-    /// unless it mimics others; none for fixed joints.
+    /// Returns the joints, by the number in their [`JointId`](super::JointId), and factors whose sum is the step's
+    /// position: one joint, unless it mimics others; none for fixed joints.
     pub fn terms(&self) -> &[(usize, f64)] {
         match &self.drive {
             Drive::One(one) => std::slice::from_ref(one),
@@ -202,9 +202,9 @@ impl Step {
     }
 }
 
-/// Returns the joints and factors that drive a joint of a module, by index in its type: itself, or those it mimics;
-/// none for a fixed joint. `first` is the [`JointId`](super::JointId) of the module's first joint, and the joints
-/// returned are ids.
+/// Returns the joints and factors that drive a joint of a module, given by its index in its type: itself, or those it
+/// mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of the module's
+/// first joint, and the joints returned are such numbers.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

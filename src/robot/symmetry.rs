@@ -9,8 +9,8 @@ use crate::geometry::{Pose, Shape, Vec3};
 /// The difference below which lengths (m), directions, masses (kg) and moments of inertia (kg·m²) are the same.
 const TOL_SAME: f64 = 1e-9;
 
-/// A symmetry of a module, by the images of its parts: each list has, for every part, the index of another of its
-/// sort.
+/// A symmetry of a module, by the images of its parts: each list has, for every part in the order of the module type,
+/// the index of its image among the parts of its sort.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symmetry {
     /// The image of each link: the link whose pose it takes.

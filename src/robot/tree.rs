@@ -5,17 +5,17 @@ use super::assembly::Assembly;
 /// A spanning tree over the modules that bonds connect with the root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// Reached modules, parents before children, the root first; each with the bond that leads to it, `None` for the
-    /// root.
+    /// Reached modules (indices in the assembly), parents before children, the root first; each with the index of the
+    /// bond that leads to it, `None` for the root.
     pub order: Vec<(usize, Option<usize>)>,
-    /// Bonds between reached modules that hold and close a loop, ascending.
+    /// Indices of the bonds between reached modules that hold and close a loop, ascending.
     pub closing: Vec<usize>,
-    /// Modules that no bond that holds connects with the root, ascending.
+    /// Indices of the modules that no bond that holds connects with the root, ascending.
     pub loose: Vec<usize>,
 }
 
-/// Returns the tree from `root` over the bonds for which `holds` is true. Neighbours are visited in order of bond,
-/// so that the tree depends on nothing but the assembly.
+/// Returns the tree from the module of index `root` over the bonds for which `holds`, by the index of the bond, is
+/// true. Neighbours are visited in order of bond, so that the tree depends on nothing but the assembly.
 pub(super) fn grow(robot: &Assembly, holds: &[bool], root: usize) -> Tree {
     let mut bonds_of = vec![Vec::new(); robot.modules.len()];
     for (index, bond) in robot.bonds.iter().enumerate().filter(|(index, _)| holds[*index]) {

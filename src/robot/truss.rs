@@ -132,7 +132,8 @@ fn rigidity_matrix(nodes: &[Vec3], struts: &[(usize, usize)]) -> DMatrix<f64> {
     matrix
 }
 
-/// Returns an orthonormal basis of the rigid motions of all nodes together, translations and rotations.
+/// Returns an orthonormal basis of the rigid motions of all nodes together, translations and rotations: vectors with
+/// three coordinates for each node.
 pub(super) fn rigid_motions(nodes: &[Vec3]) -> Vec<DVector<f64>> {
     let centre = nodes.iter().sum::<Vec3>() / nodes.len().max(1) as f64;
     let moved = |motion: &dyn Fn(&Vec3) -> Vec3| {

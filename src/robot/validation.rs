@@ -154,7 +154,7 @@ pub fn check_connector(all: &[Connector], index: usize) -> Checked {
     Ok(())
 }
 
-/// Checks a module type, with `connectors` the number of connectors that its ports may have.
+/// Checks a module type, with `connectors` the number of connectors that the indices in its ports may name.
 ///
 /// # Errors
 /// Its first fault; if it is that of a link, joint, motor or port, inside that part.
