@@ -2,7 +2,7 @@
 
 use super::bindings::Bindings;
 use super::checker::{Checker, DefItem, Entity, ParamInfo, Signature};
-use super::expr::{Role, error_expr, expr_of, has_params};
+use super::expr::{Role, error_expr, expr_of, has_params, in_dimensions};
 use super::lists::list_element;
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
@@ -361,6 +361,9 @@ impl<'a> Checker<'a> {
         for (index, lambda) in lambdas {
             out[index] = Some(self.lambda_argument(scope, lambda, &params[index], &mut bindings));
         }
+        if !signature.type_params.is_empty() {
+            in_bound_dimensions(&mut out, params, &bindings);
+        }
         let mut missing = Vec::new();
         // A parameter without default needs an argument.
         for (index, param) in params.iter().enumerate().filter(|(_, p)| !p.may_be_left_out()) {
@@ -503,6 +506,17 @@ impl<'a> Checker<'a> {
             .collect();
         let ty = bindings.apply(element);
         let ty = if has_params(&ty) { Type::Error } else { ty };
+        let items = items.into_iter().map(|item| in_dimensions(item, &ty)).collect();
         expr_of(span, Type::List(Arc::new(ty)), ExprKind::List(items))
+    }
+}
+
+/// Gives the arguments of parameters with type parameters the dimensions that these were bound to in the end: an argument
+/// may have been checked before a later one bound them anew.
+fn in_bound_dimensions(args: &mut [Option<Expr>], params: &[ParamInfo], bindings: &Bindings) {
+    for (arg, param) in args.iter_mut().zip(params).filter(|(_, param)| has_params(&param.ty)) {
+        let ty = bindings.apply(&param.ty);
+        let ty = if param.variadic { Type::list(ty) } else { ty };
+        *arg = arg.take().map(|arg| in_dimensions(arg, &ty));
     }
 }

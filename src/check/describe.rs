@@ -20,6 +20,7 @@ pub(super) fn dimension_words(d: Dimension) -> String {
         Some("AngularAcceleration") => "an angular acceleration",
         Some("Force") => "a force",
         Some("Torque") => "a torque or energy",
+        Some("Energy") => "an energy",
         Some("Power") => "a power",
         Some("Area") => "an area",
         Some("Volume") => "a volume",

@@ -36,6 +36,14 @@ pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }
 
+/// Returns an expression that fits `want` with its quantities in the dimensions of that type.
+pub(super) fn in_dimensions(got: Expr, want: &Type) -> Expr {
+    match got.ty.in_dimensions_of(want) {
+        Some(ty) => expr_of(got.span, ty, ExprKind::SetDimension(Box::new(got))),
+        None => got,
+    }
+}
+
 /// Returns the expression that marks a reported mistake.
 pub(super) fn error_expr(span: Span) -> Expr {
     expr_of(span, Type::Error, ExprKind::Error)
@@ -48,20 +56,14 @@ impl<'a> Checker<'a> {
         self.coerce(got, want, role)
     }
 
-    /// Returns an expression as one of the type `want`: drops radians and wraps where that is needed;
+    /// Returns an expression as one of the type `want`: drops radians, and shows energies and torques as `want` does;
     /// reports a mismatch.
     pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
             return error_expr(got.span);
         }
-        match (&got.ty, inner_quantity(want)) {
-            (Type::Quantity(a), Some(b)) if *a != b => {
-                let span = got.span;
-                expr_of(span, Type::Quantity(b), ExprKind::DropRadians(Box::new(got)))
-            }
-            _ => got,
-        }
+        in_dimensions(got, want)
     }
 
     /// Returns the text of a span; `None` if it has more than 40 bytes or several lines.
@@ -211,8 +213,8 @@ impl<'a> Checker<'a> {
         };
         let kind = ExprKind::If {
             condition: Box::new(condition),
-            then: Box::new(then),
-            otherwise: Some(Box::new(otherwise)),
+            then: Box::new(in_dimensions(then, &ty)),
+            otherwise: Some(Box::new(in_dimensions(otherwise, &ty))),
         };
         expr_of(span, ty, kind)
     }

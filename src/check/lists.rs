@@ -1,7 +1,7 @@
 //! Lists, comprehensions, ranges and indices.
 
 use super::checker::Checker;
-use super::expr::{Role, alternatives, error_expr, expr_of, has_params};
+use super::expr::{Role, alternatives, error_expr, expr_of, has_params, in_dimensions};
 use super::scope::Scope;
 use super::typed::{Clause, Expr, ExprKind};
 use super::types::Type;
@@ -65,7 +65,9 @@ impl<'a> Checker<'a> {
             let out: Vec<Expr> = out.into_iter().map(|e| self.coerce(e, element, role)).collect();
             return expr_of(span, Type::list(element.clone()), ExprKind::List(out));
         }
-        expr_of(span, Type::list(common.unwrap_or(Type::Error)), ExprKind::List(out))
+        let common = common.unwrap_or(Type::Error);
+        let out = out.into_iter().map(|e| in_dimensions(e, &common)).collect();
+        expr_of(span, Type::list(common), ExprKind::List(out))
     }
 
     /// Checks a comprehension.
@@ -148,7 +150,8 @@ impl<'a> Checker<'a> {
                 }
             },
         };
-        let kind = ExprKind::Range { from: Box::new(a), to: Box::new(b) };
+        let [a, b] = [a, b].map(|end| Box::new(in_dimensions(end, &element)));
+        let kind = ExprKind::Range { from: a, to: b };
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 

@@ -62,7 +62,7 @@ impl<'a> Checker<'a> {
     fn holds(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> Option<Expr> {
         let got = self.expr(scope, e, None);
         match &got.ty {
-            Type::Quantity(Dimension::FORCE | Dimension::TORQUE) => Some(got),
+            Type::Quantity(d) if [Dimension::FORCE, Dimension::TORQUE].contains(d) => Some(got),
             Type::Error => None,
             _ => {
                 self.coerce(got, &Type::Quantity(Dimension::FORCE), Role::Place("`holds`"));

@@ -1,7 +1,7 @@
 //! Operators: the types of their operands, and the type of their result.
 
 use super::checker::Checker;
-use super::expr::{Role, error_expr, expr_of};
+use super::expr::{Role, error_expr, expr_of, in_dimensions};
 use super::hints::angle_hint;
 use super::scope::Scope;
 use super::typed::{BinaryOp, Expr, ExprKind, UnaryOp};
@@ -76,7 +76,10 @@ impl<'a> Checker<'a> {
         }
         match self.binary_type(op, &left.ty, &right.ty) {
             Some(ty) => {
-                expr_of(span, ty, ExprKind::Binary { op, left: Box::new(left), right: Box::new(right) })
+                // The elements of both lists are those of one.
+                let side = |e: Expr| Box::new(if op == BinaryOp::Join { in_dimensions(e, &ty) } else { e });
+                let (left, right) = (side(left), side(right));
+                expr_of(span, ty, ExprKind::Binary { op, left, right })
             }
             None => {
                 self.bad_operands(op, op_span, &left, &right);
@@ -167,7 +170,7 @@ impl<'a> Checker<'a> {
     fn power(&mut self, span: Span, left: Expr, right: Expr) -> Expr {
         let ty = match (&left.ty, &right.ty) {
             (Type::Int, Type::Int) => Some(if is_negative(&right) { Type::NUMBER } else { Type::Int }),
-            (Type::Quantity(Dimension::NUMBER), Type::Int) => Some(Type::NUMBER),
+            (number, Type::Int) if *number == Type::NUMBER => Some(Type::NUMBER),
             (Type::Quantity(d), Type::Int) => {
                 literal(&right).and_then(|n| d.power(n.into())).map(Type::Quantity)
             }

@@ -231,7 +231,8 @@ impl<'a> Checker<'a> {
                 Type::Range(Arc::new(inner))
             }
             ("Vec3", Type::Quantity(_) | Type::QuantityParam { .. }) => Type::Vec3(Arc::new(inner)),
-            ("Joint", Type::Quantity(Dimension::ANGLE | Dimension::LENGTH) | Type::QuantityParam { .. }) => {
+            ("Joint", Type::QuantityParam { .. }) => Type::Joint(Arc::new(inner)),
+            ("Joint", Type::Quantity(d)) if [Dimension::ANGLE, Dimension::LENGTH].contains(d) => {
                 Type::Joint(Arc::new(inner))
             }
             ("Signal", Type::Quantity(_) | Type::QuantityParam { .. } | Type::Bool) => {
@@ -301,10 +302,10 @@ impl<'a> Checker<'a> {
             return Some(if a.is_error() { b.clone() } else { a.clone() });
         }
         if self.fits(a, b) {
-            return Some(b.clone());
+            return Some(b.shown_beside(a));
         }
         if self.fits(b, a) {
-            return Some(a.clone());
+            return Some(a.shown_beside(b));
         }
         match (a, b) {
             (Type::Optional(x), y) | (y, Type::Optional(x)) => {

@@ -223,8 +223,9 @@ pub enum ExprKind {
         /// The behaviour that follows if the time runs out.
         otherwise: Box<Expr>,
     },
-    /// A quantity whose radians are dropped, so that its dimension is that of `ty`; the number stays.
-    DropRadians(Box<Expr>),
+    /// A value whose quantities get the dimensions of `ty`, those in lists, vectors and ranges, too: radians are
+    /// dropped, and an energy becomes a torque or a torque an energy; the numbers stay.
+    SetDimension(Box<Expr>),
     /// An element of a list or a vector: `object[index]`.
     Index {
         /// The list or vector.

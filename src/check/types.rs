@@ -135,6 +135,39 @@ impl Type {
         }
     }
 
+    /// Returns the type, which fits `want`, with the dimensions of `want`: without the radians that are dropped there, and
+    /// with energies and torques as they are there. `None` if nothing changes.
+    pub(super) fn in_dimensions_of(&self, want: &Type) -> Option<Type> {
+        let inner = |a: &Type, b: &Type| a.in_dimensions_of(b).map(Arc::new);
+        match (self, want) {
+            (Type::Quantity(a), Type::Quantity(b)) => (!a.is_shown_as(*b)).then_some(Type::Quantity(*b)),
+            (Type::List(a), Type::List(b)) => inner(a, b).map(Type::List),
+            (Type::Vec3(a), Type::Vec3(b)) => inner(a, b).map(Type::Vec3),
+            (Type::Range(a), Type::Range(b)) => inner(a, b).map(Type::Range),
+            (Type::Optional(a), Type::Optional(b)) => inner(a, b).map(Type::Optional),
+            (_, Type::Optional(b)) => self.in_dimensions_of(b),
+            (_, Type::Choice(choice)) => match choice.types.as_slice() {
+                [one] => self.in_dimensions_of(one),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Returns the type, which `other` fits, for values of both: an energy only where both are energies.
+    pub(super) fn shown_beside(&self, other: &Type) -> Type {
+        let inner = |a: &Type, b: &Type| Arc::new(a.shown_beside(b));
+        match (self, other) {
+            (Type::Quantity(a), Type::Quantity(b)) => Type::Quantity(a.common(*b).unwrap_or(*a)),
+            (Type::List(a), Type::List(b)) => Type::List(inner(a, b)),
+            (Type::Vec3(a), Type::Vec3(b)) => Type::Vec3(inner(a, b)),
+            (Type::Range(a), Type::Range(b)) => Type::Range(inner(a, b)),
+            (Type::Optional(a), Type::Optional(b)) => Type::Optional(inner(a, b)),
+            (Type::Optional(a), b) => Type::Optional(inner(a, b)),
+            _ => self.clone(),
+        }
+    }
+
     /// Returns true if the type stands for a reported mistake.
     pub fn is_error(&self) -> bool {
         *self == Type::Error

@@ -92,10 +92,8 @@ impl Interpreter<'_> {
     fn holds(&mut self, declared: &ConnectorDef, connector: &mut Connector, frame: &mut Frame) -> Eval<()> {
         for holds in &declared.holds {
             let amount = self.positive(holds, "what a connector holds", frame)?;
-            let slot = match holds.ty.dimension() {
-                Some(Dimension::FORCE) => &mut connector.holds_force,
-                _ => &mut connector.holds_moment,
-            };
+            let is_force = holds.ty.dimension() == Some(Dimension::FORCE);
+            let slot = if is_force { &mut connector.holds_force } else { &mut connector.holds_moment };
             if slot.replace(amount).is_some() {
                 let message = "what the connector holds is stated twice";
                 return Err(fault(code::BAD_CONNECTOR, holds.span, message, "stated before"));

@@ -5,6 +5,7 @@ use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Callable, Lazy, Value};
+use crate::check::Type;
 use crate::check::family::Instantiable;
 use crate::check::typed::{Clause, DefId, DefKind, Expr, ExprKind, Local, MemberId, StmtKind};
 use crate::source::{Diagnostic, Span, code};
@@ -146,10 +147,7 @@ impl Interpreter<'_> {
                 let otherwise = self.eval(otherwise, frame)?;
                 self.timeout_else(&action, &otherwise, span)
             }
-            ExprKind::DropRadians(inner) => match (self.eval(inner, frame)?, expr.ty.dimension()) {
-                (Value::Quantity(x, _), Some(dimension)) => Ok(Value::Quantity(x, dimension)),
-                (value, _) => Ok(value),
-            },
+            ExprKind::SetDimension(inner) => Ok(in_dimensions(self.eval(inner, frame)?, &expr.ty)),
             ExprKind::Index { object, index } => self.eval_index(object, index, span, frame),
             ExprKind::If { condition, then, otherwise } => match self.eval(condition, frame)? {
                 Value::Bool(true) => self.eval(then, frame),
@@ -551,6 +549,23 @@ fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) 
     match value {
         Value::Instance(instance) => ask(instance).unwrap_or(Value::Unknown),
         _ => Value::Unknown,
+    }
+}
+
+/// Returns a value with its quantities in the dimensions of a type.
+fn in_dimensions(value: Value, ty: &Type) -> Value {
+    match (value, ty) {
+        (value, Type::Optional(inner)) => in_dimensions(value, inner),
+        (Value::Quantity(x, _), Type::Quantity(dimension)) => Value::Quantity(x, *dimension),
+        (Value::Vec3(v, d), Type::Vec3(inner)) => Value::Vec3(v, inner.dimension().unwrap_or(d)),
+        (Value::List(elements), Type::List(inner)) => {
+            Value::list(elements.iter().map(|element| in_dimensions(element.clone(), inner)).collect())
+        }
+        (Value::Range(ends), Type::Range(inner)) => {
+            let [from, to] = [&ends.0, &ends.1].map(|end| in_dimensions(end.clone(), inner));
+            Value::Range(Rc::new((from, to)))
+        }
+        (value, _) => value,
     }
 }
 

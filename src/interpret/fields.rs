@@ -115,7 +115,7 @@ const REPORT: &[Field<Rc<Verdict>>] = &[
     ("heading", |verdict| Value::Quantity(verdict.heading, Dimension::ANGLE)),
     ("slip", |verdict| Value::length(verdict.slip.as_ref().map_or(0.0, |w| w.value))),
     ("duration", |verdict| Value::time(verdict.duration)),
-    ("energy", |verdict| Value::Quantity(verdict.energy, Dimension::TORQUE)),
+    ("energy", |verdict| Value::Quantity(verdict.energy, Dimension::ENERGY)),
     ("samples", |verdict| Value::count(verdict.samples)),
     ("failures", |verdict| texts(verdict.failures.iter().map(verdicts::failure_line))),
     ("checks", |verdict| texts(verdict.checks.iter().map(verdicts::check_line))),

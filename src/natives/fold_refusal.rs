@@ -95,7 +95,7 @@ fn best(BestPattern { minimise, reached, bound, gap }: &BestPattern) -> String {
         Minimise::PeakTorque => "needs a torque of",
         Minimise::Energy | Minimise::Steps => "spends",
     };
-    let [reached, bound] = [*reached, *bound].map(|torque| quantity(torque, Dimension::TORQUE));
+    let [reached, bound] = [*reached, *bound].map(|value| quantity(value, minimise.dimension()));
     let open = number(100.0 * gap);
     format!(
         "the best flat pattern {what} {reached} with the leaves folded first, and none less than \

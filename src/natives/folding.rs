@@ -9,16 +9,14 @@ use crate::robot::JointOwner;
 use crate::units::Dimension;
 use std::rc::Rc;
 
-const ENERGY: Dimension = Dimension::TORQUE;
-
 impl ReportFields for Report {
     const FIELDS: &'static [ReportField<Report>] = &[
         ("plan", |_, plan, _| Value::Record(Rc::new(Record::Plan(plan.clone())))),
         ("layout", |_, plan, _| Value::Record(Rc::new(Record::Native(Rc::new(LayoutValue(plan.clone())))))),
         ("layouts", |_, _, report| Value::whole(report.layouts.clone())),
-        ("energy", |_, _, report| Value::Quantity(report.effort.energy, ENERGY)),
-        ("peak_torque", |_, _, report| Value::Quantity(report.effort.peak, ENERGY)),
-        ("bound", |_, _, report| Value::Quantity(report.bound, ENERGY)),
+        ("energy", |_, _, report| Value::Quantity(report.effort.energy, Dimension::ENERGY)),
+        ("peak_torque", |_, _, report| Value::Quantity(report.effort.peak, Dimension::TORQUE)),
+        ("bound", |_, _, report| Value::Quantity(report.bound, report.minimise.dimension())),
         ("gap", |_, _, report| Value::number(report.gap())),
         ("fewest_steps", |_, _, report| Value::count(report.fewest_steps)),
         ("optimal", |_, _, report| Value::Bool(report.optimal)),
@@ -27,8 +25,8 @@ impl ReportFields for Report {
         ("tied", |_, _, report| Value::whole(report.tied.into())),
         ("root", |_, _, report| Value::count(report.layout.root)),
         ("order", |_, _, report| Value::list(report.steps.iter().map(|step| numbers(step)).collect())),
-        ("lifting", |_, _, report| Value::Quantity(report.lifting, ENERGY)),
-        ("lifting_bound", |_, _, report| Value::Quantity(report.lifting_bound, ENERGY)),
+        ("lifting", |_, _, report| Value::Quantity(report.lifting, Dimension::ENERGY)),
+        ("lifting_bound", |_, _, report| Value::Quantity(report.lifting_bound, Dimension::ENERGY)),
         ("too_thick", |_, _, report| numbers(&report.too_thick)),
         ("robot", |_, plan, _| Value::Instance(plan.instance())),
         ("hinges", |_, plan, report| hinges(plan, report)),
@@ -58,9 +56,9 @@ pub struct OrderSample(pub Sample);
 const ORDER_SAMPLE: &[Field<Sample>] = &[
     ("orders", |sample| Value::whole(sample.orders.into())),
     ("worse", |sample| Value::number(sample.worse as f64 / sample.orders as f64)),
-    ("least", |sample| Value::Quantity(sample.least, ENERGY)),
-    ("mean", |sample| Value::Quantity(sample.mean, ENERGY)),
-    ("greatest", |sample| Value::Quantity(sample.greatest, ENERGY)),
+    ("least", |sample| Value::Quantity(sample.least, Dimension::ENERGY)),
+    ("mean", |sample| Value::Quantity(sample.mean, Dimension::ENERGY)),
+    ("greatest", |sample| Value::Quantity(sample.greatest, Dimension::ENERGY)),
 ];
 
 impl NativeRecord for OrderSample {

@@ -196,7 +196,7 @@ impl Interpreter<'_> {
             ExprKind::Field { field, .. } => Some(field.to_string()),
             ExprKind::Global(def) => Some(self.shared.program.def(*def).name.to_string()),
             ExprKind::Local(_) => Some(self.words_of(e)),
-            ExprKind::Comprehension { body, .. } | ExprKind::DropRadians(body) => self.quantity_name(body),
+            ExprKind::Comprehension { body, .. } | ExprKind::SetDimension(body) => self.quantity_name(body),
             ExprKind::OrElse { value, .. } => self.quantity_name(value),
             ExprKind::Index { object, .. } => self.quantity_name(object),
             ExprKind::List(elements) => {

@@ -47,7 +47,7 @@ impl ReportFields for Report {
         ("becomes", |_, _, report| {
             Value::list(report.becomes.iter().map(|face| Value::count(*face)).collect())
         }),
-        ("energy", |_, _, report| Value::Quantity(report.energy, Dimension::TORQUE)),
+        ("energy", |_, _, report| Value::Quantity(report.energy, Dimension::ENERGY)),
     ];
 }
 

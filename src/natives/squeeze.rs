@@ -165,7 +165,7 @@ impl ReportFields for Report {
         }),
         ("peak_force", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_force, Dimension::FORCE)),
         ("peak_speed", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_speed, Dimension::SPEED)),
-        ("peak_energy", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_energy, Dimension::TORQUE)),
+        ("peak_energy", |i, plan, _| Value::Quantity(dynamics(i, plan).peak_energy, Dimension::ENERGY)),
         ("angular_momentum", |i, plan, _| {
             Value::Quantity(dynamics(i, plan).angular_momentum, Dimension::ANGULAR_MOMENTUM)
         }),

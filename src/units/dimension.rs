@@ -2,7 +2,10 @@
 
 /// A product of powers of metre, kilogram, second and radian. Angle is a dimension of its own, so
 /// that degrees never meet plain numbers silently.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
+///
+/// Dimensions are equal if their exponents are: an energy and a torque are one dimension, and only shown in other
+/// units.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Dimension {
     /// Exponent of the metre.
     pub length: i8,
@@ -15,14 +18,25 @@ pub struct Dimension {
     /// Exponent of the dimension parameter of the function whose body is being checked, of which nothing else is
     /// known; 0 everywhere else, and in every value.
     pub param: i8,
+    /// True for what was declared an energy, or written in joules: it has the dimension of a torque, and is shown in
+    /// joules. Sums of energies and their products with plain numbers are energies; any other result is shown by its
+    /// exponents alone.
+    pub energy: bool,
 }
+
+impl PartialEq for Dimension {
+    fn eq(&self, other: &Dimension) -> bool {
+        self.exponents() == other.exponents()
+    }
+}
+
+impl Eq for Dimension {}
 
 const fn dim(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
-    Dimension { length, mass, time, angle, param: 0 }
+    Dimension { length, mass, time, angle, param: 0, energy: false }
 }
 
-/// The dimensions with a name that programs can write. Torque and energy are one dimension under two names; the
-/// first name that fits is the one shown.
+/// The dimensions with a name that programs can write. Torque and energy are one dimension under two names.
 pub const NAMED: &[(&str, Dimension)] = &[
     ("Number", Dimension::NUMBER),
     ("Length", Dimension::LENGTH),
@@ -34,8 +48,8 @@ pub const NAMED: &[(&str, Dimension)] = &[
     ("Acceleration", dim(1, 0, -2, 0)),
     ("AngularAcceleration", dim(0, 0, -2, 1)),
     ("Force", dim(1, 1, -2, 0)),
-    ("Torque", dim(2, 1, -2, 0)),
-    ("Energy", dim(2, 1, -2, 0)),
+    ("Torque", Dimension::TORQUE),
+    ("Energy", Dimension::ENERGY),
     ("Power", dim(2, 1, -3, 0)),
     ("Area", dim(2, 0, 0, 0)),
     ("Volume", dim(3, 0, 0, 0)),
@@ -65,8 +79,10 @@ impl Dimension {
     pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
     /// Force, N.
     pub const FORCE: Dimension = dim(1, 1, -2, 0);
-    /// Torque, N·m, or energy, J.
+    /// Torque, N·m, or an energy that nothing names so.
     pub const TORQUE: Dimension = dim(2, 1, -2, 0);
+    /// Energy, J: the dimension of a torque, shown in joules.
+    pub const ENERGY: Dimension = Dimension { energy: true, ..Dimension::TORQUE };
     /// Angular momentum, N·m·s.
     pub const ANGULAR_MOMENTUM: Dimension = dim(2, 1, -1, 0);
     /// Frequency, Hz.
@@ -77,19 +93,29 @@ impl Dimension {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
 
-    /// Returns the name of this dimension, the first of [`NAMED`] that fits; `None` if it has none.
+    /// Returns the name of this dimension, `Energy` only for one that is shown so; `None` if it has none.
     pub fn name(self) -> Option<&'static str> {
-        NAMED.iter().find(|(_, d)| *d == self).map(|(n, _)| *n)
+        NAMED.iter().find(|(_, d)| d.is_shown_as(self)).map(|(n, _)| *n)
     }
 
-    /// Returns the dimension of a product; `None` when an exponent leaves -128..=127.
+    /// Returns true if both are the same dimension and shown in the same units.
+    pub fn is_shown_as(self, other: Dimension) -> bool {
+        self == other && self.energy == other.energy
+    }
+
+    /// Returns the dimension of a product, an energy if one factor is and the other is a plain number; `None` when an
+    /// exponent leaves -128..=127.
     pub fn times(self, other: Dimension) -> Option<Dimension> {
-        self.combine(other, i8::checked_add)
+        let energy =
+            (self.energy && other == Dimension::NUMBER) || (other.energy && self == Dimension::NUMBER);
+        Some(Dimension { energy, ..self.combine(other, i8::checked_add)? })
     }
 
-    /// Returns the dimension of a quotient; `None` when an exponent leaves -128..=127.
+    /// Returns the dimension of a quotient, an energy if that is divided by a plain number; `None` when an exponent
+    /// leaves -128..=127.
     pub fn over(self, other: Dimension) -> Option<Dimension> {
-        self.combine(other, i8::checked_sub)
+        let energy = self.energy && other == Dimension::NUMBER;
+        Some(Dimension { energy, ..self.combine(other, i8::checked_sub)? })
     }
 
     /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
@@ -101,19 +127,25 @@ impl Dimension {
             time: scaled(self.time)?,
             angle: scaled(self.angle)?,
             param: scaled(self.param)?,
+            energy: self.energy && n == 1,
         })
     }
 
     /// Returns the dimension of a square root, half of every exponent; `None` when one is odd.
     pub fn root(self) -> Option<Dimension> {
-        let all = [self.length, self.mass, self.time, self.angle, self.param];
-        all.iter().all(|e| e % 2 == 0).then_some(Dimension {
+        self.exponents().iter().all(|e| e % 2 == 0).then_some(Dimension {
             length: self.length / 2,
             mass: self.mass / 2,
             time: self.time / 2,
             angle: self.angle / 2,
             param: self.param / 2,
+            energy: false,
         })
+    }
+
+    /// Returns the exponents, which say what dimension it is.
+    fn exponents(self) -> [i8; 5] {
+        [self.length, self.mass, self.time, self.angle, self.param]
     }
 
     fn combine(self, o: Dimension, op: fn(i8, i8) -> Option<i8>) -> Option<Dimension> {
@@ -123,6 +155,7 @@ impl Dimension {
             time: op(self.time, o.time)?,
             angle: op(self.angle, o.angle)?,
             param: op(self.param, o.param)?,
+            energy: false,
         })
     }
 
@@ -139,12 +172,13 @@ impl Dimension {
                 && Dimension { angle: 0, ..self } == wanted)
     }
 
-    /// Returns the dimension that both fit; `None` if there is none.
+    /// Returns the dimension that both fit, an energy only if both are; `None` if there is none.
     pub fn common(self, other: Dimension) -> Option<Dimension> {
+        let energy = self.energy && other.energy;
         if self.fits(other) {
-            Some(other)
+            Some(Dimension { energy, ..other })
         } else if other.fits(self) {
-            Some(self)
+            Some(Dimension { energy, ..self })
         } else {
             None
         }

@@ -91,6 +91,7 @@ pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
         Some("AngularSpeed") => &[("rad/s", 1.0)],
         Some("Force") => &[("N", 1.0)],
         Some("Torque") => &[("N*m", 1.0)],
+        Some("Energy") => &[("J", 1.0)],
         Some("Power") => &[("W", 1.0)],
         Some("Frequency") => &[("Hz", 1.0)],
         _ => return (base_units(dimension), 1.0),

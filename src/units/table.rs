@@ -17,7 +17,7 @@ const fn u(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
     Unit { name, dimension, factor }
 }
 
-const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0, param: 0 };
+const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0, param: 0, energy: false };
 
 /// Every unit of the language. Values are converted by [`to_si`], so that `76mm` is exactly `76 / 1000` rounded
 /// once.
@@ -43,8 +43,8 @@ pub const UNITS: &[Unit] = &[
     u("N", Dimension::FORCE, 1.0),
     u("mN", Dimension::FORCE, 1e-3),
     u("kN", Dimension::FORCE, 1e3),
-    u("J", Dimension::TORQUE, 1.0),
-    u("mJ", Dimension::TORQUE, 1e-3),
+    u("J", Dimension::ENERGY, 1.0),
+    u("mJ", Dimension::ENERGY, 1e-3),
     u("W", POWER, 1.0),
     u("Hz", Dimension::FREQUENCY, 1.0),
 ];

@@ -89,9 +89,9 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.seed.map(|seed| ("seed", seed.to_string())));
     facts.extend(made.budget.map(|budget| ("budget", budget.to_string())));
     facts.push(("duration", time(plan.body.duration())));
-    let torque = |ObjectiveValue::FoldingEnergy(value)| quantity(value, Dimension::TORQUE);
-    facts.extend(made.reached.map(|reached| ("folding energy", torque(reached))));
-    facts.extend(made.bound.map(|bound| ("lower bound", format!("no folding is below {}", torque(bound)))));
+    let energy = |ObjectiveValue::FoldingEnergy(value)| quantity(value, Dimension::ENERGY);
+    facts.extend(made.reached.map(|reached| ("folding energy", energy(reached))));
+    facts.extend(made.bound.map(|bound| ("lower bound", format!("no folding is below {}", energy(bound)))));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", headline(plan, verdict)));
         facts.push(("energy", format!("{}J", units::number(libm::round(verdict.energy * 1e3) / 1e3))));

@@ -52,6 +52,17 @@ fn a_table_has_units_in_its_head_and_reads_back() {
 }
 
 #[test]
+fn heads_tell_energies_from_torques() {
+    let text = "record A { work: Energy, load: Torque }\nlet as = [A(work: 3N*m, load: 4J)]\n\
+                save(as, \"a.csv\")\nsave(as, \"a.json\")";
+    let desk = run_clean(text);
+    assert_eq!(desk.text("a.csv"), "work [J],load [N*m]\r\n3,4\r\n");
+    let saved: Value = serde_json::from_str(desk.text("a.json")).expect("JSON");
+    let dimension = |column: usize| saved["columns"][column]["dimension"].clone();
+    assert_eq!([dimension(0), dimension(1)], ["Energy", "Torque"]);
+}
+
+#[test]
 fn what_has_a_round_number_in_a_unit_is_saved_so() {
     let text = "record A { a: Angle, b: Length, t: Time }\n\
                 save([A(a: 30deg, b: 76mm, t: 20ms), A(a: 45.5deg, b: 0.1mm, t: 0.5ms)], \"a.csv\")";

@@ -16,6 +16,7 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::{QUINTIC, Weights};
 use crate::geometry::Vec3;
+use crate::units::Dimension;
 
 /// The peak speed of the quintic law over one unit in one second.
 const QUINTIC_SPEED: f64 = QUINTIC / 2.0;
@@ -42,6 +43,16 @@ pub enum Minimise {
     PeakTorque,
     /// The number of steps; of equal ones the least energy.
     Steps,
+}
+
+impl Minimise {
+    /// Returns the dimension of the quantity that lower bounds are about, as [`Effort::minimised`] gives it.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Minimise::PeakTorque => Dimension::TORQUE,
+            Minimise::Energy | Minimise::Steps => Dimension::ENERGY,
+        }
+    }
 }
 
 /// The conventions under which torques and energy are computed, as far as the paper leaves them open.

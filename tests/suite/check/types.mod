@@ -46,6 +46,14 @@ let w: AngularSpeed = 1m/s / 45mm
 let f: Frequency = 2rad/s
 //                 ^^^^^^ E0201 a frequency (Hz) | an angular speed
 
+--- energies and torques stand for each other, and errors name the one that is wanted
+let e: Energy = 3N*m
+let t: Torque = e
+let late: Energy = 3s
+//                 ^^ E0201 `late` wants an energy (J); `3s` is a time
+let long: Torque = 3m
+//                 ^^ E0201 `long` wants a torque or energy (N*m)
+
 --- a stiffness is no torque
 let t: Torque = 3N*m/rad
 //              ^^^^^^^^ E0201 a torque

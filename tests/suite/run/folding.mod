@@ -11,6 +11,20 @@ print(octa.layouts, octa.steps, octa.duration, octa.optimal, octa.layout.panels,
 print(count(octa.robot), mass(octa.robot), [norm(octa.end.com)], verify(octa.plan).ok, verify(reverse(octa)).ok)
 //> 8 208g [32.6599mm] true true
 
+--- the energies of a folding are in joules, its torques in newton metres
+use std.mori.Mori
+use std.shapes.tetrahedron
+fn unit(shown: Text) -> Text = join([c for c in characters(shown) if not contains(characters("-.0123456789e"), c)], with: "")
+let plain = fold(tetrahedron(edge: 80mm), module: Mori)
+let sample = random_orders(plain, orders: 2)
+print([unit("{e}") for e in [plain.energy, plain.bound, plain.lifting, plain.lifting_bound, verify(plain).energy]])
+print([unit("{e}") for e in [sample.least, sample.mean, sample.greatest]], unit("{plain.peak_torque}"))
+//> [J, J, J, J, J]
+//> [J, J, J] N*m
+let peak = fold(tetrahedron(edge: 80mm), module: Mori, minimise: peak_torque)
+print(unit("{peak.energy}"), unit("{peak.bound}"), unit("{peak.peak_torque}"))
+//> J N*m N*m
+
 --- a heuristic and other roots are no better than what is proved
 use std.mori.Mori
 use std.shapes.{octahedron, quadruped18}

@@ -16,6 +16,45 @@ print(sqrt(3m * 12m), 30deg + 1turn, 1kg * 9.81m/s^2 * 2m)
 print(sin(30deg), atan2(1mm, -1mm), round(2.5), floor(-1.5))
 //> 0.5 135deg 3 -2
 
+--- what is declared an energy is shown in joules, through lets, parameters, fields and results
+record Lift { name: Text, work: Energy, load: Torque }
+fn lifting(m: Mass, by: Length) -> Energy = m * 9.81m/s^2 * by
+fn moment(m: Mass, arm: Length) = m * 9.81m/s^2 * arm
+fn as_energy(x: Energy) = x
+let e: Energy = 2kg * 9.81m/s^2 * 1m
+let t: Torque = e
+let lift = Lift(name: "a", work: 3N*m, load: 4J)
+print(e, t, lifting(2kg, by: 1m), moment(2kg, arm: 1m), as_energy(3N*m), 5J, 3mJ, 2N*m)
+//> 19.62J 19.62N*m 19.62J 19.62N*m 3J 5J 0.003J 2N*m
+print("{e} {t} {lift}", lift with { work: 7N*m }, lift.work, lift.load)
+//> 19.62J 19.62N*m Lift(name: "a", work: 3J, load: 4N*m) Lift(name: "a", work: 7J, load: 4N*m) 3J 4N*m
+print([lift, lift with { work: 30N*m }])
+//> name  work [J]  load [N*m]
+//> a            3           4
+//> a           30           4
+let maybe: Energy? = 3N*m
+print(maybe, maybe else 1N*m, e == t, e < t + 1J, "{e in mJ:.1} {t in J}")
+//> 3J 3J true true 19620.0mJ 19.62J
+
+--- lists of energies are energies, and a list with a torque is one of torques
+let e: Energy = 20J
+let t = 10N*m
+let torques = [1N*m, 2N*m]
+let energies: List<Energy> = torques
+fn mean<D: Dimension>(list: List<Quantity<D>>) -> Quantity<D> = sum(list) / len(list)
+print(torques, energies, energies[0], [x for x in energies], first(energies), mean(energies), mean(torques))
+//> [1N*m, 2N*m] [1J, 2J] 1J [1J, 2J] 1J 1.5J 1.5N*m
+print([e, t], [e, e], [e] ++ [t], max(e, t), max(t, e), max(e, 2 * e), if true { e } else { t }, 1J..2J)
+//> [20N*m, 10N*m] [20J, 20J] [20N*m, 10N*m] 20N*m 20N*m 40J 20N*m 1J..2J
+
+--- sums of energies and their multiples are energies, other results are known by their dimension alone
+let e: Energy = 20J
+let t = 10N*m
+print(e + e, e - 5J, 2 * e, e / 4, -e, e^1, abs(-e), 2.5 * e, e % 15J)
+//> 40J 15J 40J 5J -20J 20J 20J 50J 5J
+print(e + t, t - e, e / 2s, e * 2s, e / 4m, e / t, 2N * 3m, e^2 / 1J)
+//> 30N*m -10N*m 10W 40kg*m^2/s 5N 2 6N*m 400N*m
+
 --- a plain number has powers of any exponent
 print(2.0^200, 1.0^-3_000_000_000)
 //> 1.60694e60 1
