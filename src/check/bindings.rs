@@ -100,9 +100,9 @@ impl<'a> Checker<'a> {
                 bindings.types[*i as usize] = Some(joined);
                 true
             }
-            (Type::QuantityParam { param, power }, _) => {
+            (Type::QuantityParam { param, power, times }, _) => {
                 let Some(d) = got.dimension() else { return false };
-                let base = if *power == 2 { d.root() } else { Some(d) };
+                let base = d.over(*times).and_then(|rest| rest.root(*power));
                 let slot = &mut bindings.dimensions[*param as usize];
                 match (base, &*slot) {
                     (None, _) => false,
@@ -169,8 +169,11 @@ impl Bindings {
         let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
         match ty {
             Type::Param(i) => self.types[*i as usize].clone().unwrap_or_else(|| ty.clone()),
-            Type::QuantityParam { param, power } => match self.dimensions[*param as usize] {
-                Some(d) => d.power(i64::from(*power)).map_or(Type::Error, Type::Quantity),
+            Type::QuantityParam { param, power, times } => match self.dimensions[*param as usize] {
+                Some(d) => {
+                    let whole = d.power(i64::from(*power)).and_then(|d| d.times(*times));
+                    whole.map_or(Type::Error, Type::Quantity)
+                }
                 None => ty.clone(),
             },
             Type::List(t) => Type::List(inner(t)),

@@ -88,18 +88,18 @@ impl<'a> Checker<'a> {
         self.family(id).is_some() || matches!(self.def(id).item, DefItem::Record(_) | DefItem::ExternType(_))
     }
 
-    /// Checks a quantity type `Quantity<m/s>`, or one of a dimension parameter.
+    /// Checks a quantity type `Quantity<m/s>`, or one with a dimension parameter, `Quantity<D/s>`.
     fn quantity_type(&mut self, scope: &Scope, unit: &ast::UnitExpr) -> Type {
-        if let [(name, power)] = unit.factors.as_slice()
-            && let Some(param) = scope.type_params.iter().position(|p| p.name == name.text)
-        {
-            let ty = Type::QuantityParam { param: param as u8, power: *power as i8 };
-            return if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty };
-        }
-        match self.unit(unit) {
-            Some((dimension, _)) => Type::Quantity(dimension),
-            None => Type::Error,
-        }
+        let param = |(name, _): &(ast::Name, i32)| scope.type_params.iter().position(|p| p.name == name.text);
+        let mut units = unit.clone();
+        let own = units.factors.iter().position(|factor| param(factor).is_some());
+        let own = own.map(|at| units.factors.remove(at));
+        let Some((times, _)) = self.unit(&units) else { return Type::Error };
+        let Some(own) = own else { return Type::Quantity(times) };
+        let index = param(&own).expect("it was found by that");
+        let power = i8::try_from(own.1).expect("the grammar keeps powers within 99");
+        let ty = Type::QuantityParam { param: index as u8, power, times };
+        if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty }
     }
 
     /// Returns the dimension of a unit and its factors to SI, each with its exponent; `None` (and a diagnostic)
@@ -149,7 +149,9 @@ impl<'a> Checker<'a> {
         if let [name] = path {
             if let Some(index) = scope.type_params.iter().position(|p| p.name == name.text) {
                 let ty = match scope.type_params[index].bound {
-                    Bound::Dimension => Type::QuantityParam { param: index as u8, power: 1 },
+                    Bound::Dimension => {
+                        Type::QuantityParam { param: index as u8, power: 1, times: Dimension::NUMBER }
+                    }
                     _ => Type::Param(index as u8),
                 };
                 return if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty };
@@ -235,9 +237,16 @@ impl<'a> Checker<'a> {
             ("Joint", Type::Quantity(d)) if [Dimension::ANGLE, Dimension::LENGTH].contains(d) => {
                 Type::Joint(Arc::new(inner))
             }
-            ("Signal", Type::Quantity(_) | Type::QuantityParam { .. } | Type::Bool) => {
-                Type::Signal(Arc::new(inner))
-            }
+            (
+                "Signal",
+                Type::Quantity(_)
+                | Type::QuantityParam { .. }
+                | Type::Vec3(_)
+                | Type::Pose
+                | Type::Bool
+                | Type::Param(_)
+                | Type::Opaque(..),
+            ) => Type::Signal(Arc::new(inner)),
             ("Quantity", Type::Quantity(_)) => inner,
             _ => {
                 let message = format!("`{}` takes no {}", name.text, self.name(&inner));

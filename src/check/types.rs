@@ -72,12 +72,15 @@ pub enum Type {
     Param(u8),
     /// A type parameter in the body of its function, a type of which nothing is known: its index and name.
     Opaque(u8, Symbol),
-    /// A quantity in a dimension parameter raised to a power: `Quantity<D>`, `Quantity<D^2>`.
+    /// A quantity in a power of a dimension parameter, times a dimension that is known: `Quantity<D>`,
+    /// `Quantity<D^2>`, `Quantity<D/s>`.
     QuantityParam {
         /// The index of the type parameter, from 0.
         param: u8,
-        /// The power; only 1 and 2 occur in the library.
+        /// The power.
         power: i8,
+        /// The other factor; [`Dimension::NUMBER`] where there is none.
+        times: Dimension,
     },
 }
 

@@ -6,13 +6,14 @@ use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop, fault};
-use crate::interpret::value::Value;
+use crate::interpret::value::{Measure, SignalValue, Value};
 use crate::source::code;
 use crate::units::Dimension;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
+use std::rc::Rc;
 
 /// The natives of this file.
 pub(super) const TABLE: &[Native] = &[
@@ -43,13 +44,25 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("norm", parameters![v: Vec3], norm),
     Native::pure("dot", parameters![a: Vec3, b: Vec3], dot),
     Native::pure("cross", parameters![a: Vec3, b: Vec3], cross),
-    Native::pure("position", parameters![pose: Pose], |_, call| {
-        Ok(Value::Vec3(call.get::<Pose>("pose")?.translation.vector, Dimension::LENGTH))
-    }),
+    Native::pure("position", parameters![pose: &Value], position),
     Native::pure("direction", parameters![pose: Pose, axis: Vec3], |_, call| {
         Ok(Value::Vec3(call.get::<Pose>("pose")?.rotation * call.get::<Vec3>("axis")?, Dimension::NUMBER))
     }),
 ];
+
+fn position(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    Ok(match call.get::<&Value>("pose")? {
+        Value::Pose(pose) => Value::Vec3(pose.translation.vector, Dimension::LENGTH),
+        Value::Signal(signal) => {
+            let Measure::Pose(frame) = signal.measure else {
+                unreachable!("no other signal is one of poses")
+            };
+            let (robot, measure) = (signal.robot.clone(), Measure::Position(frame));
+            Value::Signal(Rc::new(SignalValue { robot, measure }))
+        }
+        _ => unreachable!("`check` lets only poses and their signals through"),
+    })
+}
 
 fn angle(x: f64) -> Value {
     Value::Quantity(x, Dimension::ANGLE)
@@ -128,7 +141,7 @@ fn clamp(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn sqrt(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let x = call.get::<f64>("x")?;
-    let dimension = call.arg("x").as_dimension().and_then(Dimension::root);
+    let dimension = call.arg("x").as_dimension().and_then(|d| d.root(2));
     match dimension {
         Some(dimension) if x >= 0.0 => Ok(Value::Quantity(libm::sqrt(x), dimension)),
         Some(_) => Err(call.refuse("x", "a negative number has no square root")),

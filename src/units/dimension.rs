@@ -131,15 +131,17 @@ impl Dimension {
         })
     }
 
-    /// Returns the dimension of a square root, half of every exponent; `None` when one is odd.
-    pub fn root(self) -> Option<Dimension> {
-        self.exponents().iter().all(|e| e % 2 == 0).then_some(Dimension {
-            length: self.length / 2,
-            mass: self.mass / 2,
-            time: self.time / 2,
-            angle: self.angle / 2,
-            param: self.param / 2,
-            energy: false,
+    /// Returns the dimension whose `n`th power this is: every exponent divided by `n`; `None` where one is no
+    /// multiple of it, or `n` is 0.
+    pub fn root(self, n: i8) -> Option<Dimension> {
+        let part = |exponent: i8| (exponent.checked_rem(n)? == 0).then(|| exponent.checked_div(n))?;
+        Some(Dimension {
+            length: part(self.length)?,
+            mass: part(self.mass)?,
+            time: part(self.time)?,
+            angle: part(self.angle)?,
+            param: part(self.param)?,
+            energy: self.energy && n == 1,
         })
     }
 

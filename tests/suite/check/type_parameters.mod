@@ -11,6 +11,14 @@ let b: Angle = mean([1m, 2m])
 let c: Area = area(mean([1m, 2m])) + area(spread([1m, 2m]), times: 3)
 let d: Leg = second([Leg(length: 1m), Leg(length: 2m)])
 let e: Speed = both(1m, 2s, (x, y) => x / y)
+fn rate<D: Dimension>(x: Quantity<D>, t: Time) -> Quantity<D/s> = x / t
+fn gain<D: Dimension>(rate: Quantity<D/s>) -> Quantity<D> = rate * 1s
+let turning: AngularSpeed = rate(90deg, 2s)
+let way: Length = gain(rate(3m, 2s))
+let slow: Length = rate(3m, 2s)
+//                 ^^^^^^^^^^^^ E0201 `slow` wants a length
+fn lost<D: Dimension>(x: Quantity<D>) -> Quantity<D/s> = x
+//                                                       ^ E0201 `x` is a quantity in D
 let f: Time = both(1m, 2s, (x, y) => x / y)
 //            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0201 `f` wants a time
 let g: List<Length> = second([[1m], [2m]])
