@@ -209,14 +209,17 @@ extern fn dot<D: Dimension>(a: Vec3<Quantity<D>>, b: Vec3<Quantity<D>>) -> Quant
 /// ```
 extern fn cross<D: Dimension>(a: Vec3<Quantity<D>>, b: Vec3<Quantity<D>>) -> Vec3<Quantity<D^2>>
 
-/// Where the origin of a pose is.
+/// Where the origin of a pose is; of a signal of poses, for `series`, over time.
 ///
 /// Example:
 /// ```modl
-/// use std.smores.Smores
+/// use std.smores.{Chain3, Smores}
 /// print(position(pose(Smores().top)))
+/// let c = Chain3()
+/// let p = plan(move(c.m[1].tilt, to: 30deg))
+/// print(max([at.z for at in p.series(position(pose(c.m[2])), step: 100ms)]))
 /// ```
-extern fn position(pose: Pose) -> Vec3<Length>
+extern fn position(pose: Pose | Signal<Pose>) -> Vec3<Length> | Signal<Vec3<Length>>
 
 /// Where an axis points after it was turned by a pose: in the frame in which the pose is given.
 ///
@@ -663,12 +666,17 @@ extern fn same(a: Config, b: Config) -> Bool
 
 /// Where a port or a module's body is in the start pose, in the frame of the base module.
 ///
+/// Where a signal is wanted, as in `series`, it is the pose over time, in the world.
+///
 /// Example:
 /// ```modl
 /// use std.smores.Chain3
-/// print(pose(Chain3().head))
+/// let c = Chain3()
+/// print(pose(c.head))
+/// let p = plan(move(c.m[1].tilt, to: 30deg))
+/// print(last(p.series(pose(c.head), step: 100ms)))
 /// ```
-extern fn pose(of: Port | Module) -> Pose
+extern fn pose(of: Port | Module) -> Pose | Signal<Pose>
 
 /// How far two ports or modules are apart in the start pose, from origin to origin.
 ///
@@ -1299,7 +1307,7 @@ extern fn abort(message: Text) -> Behavior
 
 // Signals and conditions.
 
-/// The position of a joint as the robot senses it.
+/// The position of a joint that turns, as the robot senses it.
 ///
 /// Example:
 /// ```modl
@@ -1312,7 +1320,23 @@ extern fn abort(message: Text) -> Behavior
 /// ```
 extern fn angle(joint: Joint<Angle>) -> Signal<Angle>
 
-/// The speed of a joint as the robot senses it.
+/// The position of a joint that slides, as the robot senses it.
+///
+/// Example:
+/// ```modl
+/// module Slider {
+///   mass 2kg
+///   link rail = box(300mm, 40mm, 40mm)
+///   link cart = box(60mm, 60mm, 20mm) at [0mm, 0mm, 30mm]
+///   joint slide : rail -> cart = prismatic(axis: X, range: -80mm..80mm, max_speed: 50mm/s, max_force: 100N)
+/// }
+/// let slider = Slider()
+/// let p = plan(move(slider.slide, to: 50mm, until: displacement(slider.slide) > 30mm))
+/// print(p.series(displacement(slider.slide), step: 500ms))
+/// ```
+extern fn displacement(joint: Joint<Length>) -> Signal<Length>
+
+/// The speed of a joint as the robot senses it: an angular speed where the joint turns, a speed where it slides.
 ///
 /// Example:
 /// ```modl
@@ -1323,7 +1347,7 @@ extern fn angle(joint: Joint<Angle>) -> Signal<Angle>
 /// }
 /// print(plan(Bump().bump()).duration)
 /// ```
-extern fn speed(joint: Joint<Angle>) -> Signal<AngularSpeed>
+extern fn speed<D: Dimension>(joint: Joint<D>) -> Signal<Quantity<D/s>>
 
 /// The time since the action began.
 ///
@@ -1352,6 +1376,23 @@ extern fn elapsed() -> Signal<Time>
 /// print("at most", max(lift.series(torque(c.m[2].tilt), step: 100ms)))
 /// ```
 extern fn torque(joint: Joint<Angle>) -> Signal<Torque>
+
+/// The force that the motor of a joint that slides supplies in the joint's positive direction, as the judge works it
+/// out; for `series`, with what `torque` says of the forces of the ground.
+///
+/// Example:
+/// ```modl
+/// module Lift {
+///   mass 3kg
+///   link base = box(300mm, 300mm, 40mm, mass: 2kg)
+///   link table = box(100mm, 100mm, 20mm, mass: 1kg) at [0mm, 0mm, 60mm]
+///   joint up : base -> table = prismatic(axis: Z, range: 0mm..80mm, max_speed: 50mm/s, max_force: 20N)
+/// }
+/// let l = Lift()
+/// let p = plan(move(l.up, to: 50mm))
+/// print(max(p.series(force(l.up), step: 100ms)))
+/// ```
+extern fn force(joint: Joint<Length>) -> Signal<Force>
 
 /// How far the centre of mass is inside the area that the robot stands on, negative outside, as the judge works
 /// it out; for `series`.
@@ -1553,12 +1594,16 @@ extern type State {
   margin: Length?
   /// The least distance between links that may not touch; missing where no two such links are.
   clearance: Length?
-  /// The position of a joint.
+  /// The position of a joint that turns.
   fn angle(joint: Joint<Angle>) -> Angle
+  /// The position of a joint that slides.
+  fn displacement(joint: Joint<Length>) -> Length
   /// The speed of a joint.
-  fn speed(joint: Joint<Angle>) -> AngularSpeed
+  fn speed<D: Dimension>(joint: Joint<D>) -> Quantity<D/s>
   /// The torque that a joint's motor supplies, as `torque` says; missing where the judge knows none.
   fn torque(joint: Joint<Angle>) -> Torque?
+  /// The force that the motor of a joint that slides supplies, as `force` says; missing where the judge knows none.
+  fn force(joint: Joint<Length>) -> Force?
   /// The normal force of the ground on a module or a part, as `ground_force` says; missing where the judge knows
   /// none.
   fn ground_force(on: Config) -> Force?
@@ -1598,10 +1643,10 @@ extern type Plan {
   fn slice(times: Range<Time>) -> Plan
   /// Evenly spaced times from 0 to `duration`, both included, no further apart than `step`.
   fn times(step: Time = 10ms) -> List<Time>
-  /// The values of a signal at `times(step)`: `p.series(angle(j))`.
+  /// The values of a signal at `times(step)`: `p.series(angle(j))`, `p.series(pose(port))`.
   ///
   /// A value that the judge does not know at one of these times is refused; `states` tells what is known.
-  fn series<D: Dimension>(of: Signal<Quantity<D>>, step: Time = 10ms) -> List<Quantity<D>>
+  fn series<T>(of: Signal<T>, step: Time = 10ms) -> List<T>
   /// The states at `times(step)`: `[s.com for s in p.states()]`.
   fn states(step: Time = 10ms) -> List<State>
 }

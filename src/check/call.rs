@@ -2,11 +2,12 @@
 
 use super::bindings::Bindings;
 use super::checker::{Checker, DefItem, Entity, ParamInfo, Signature};
-use super::expr::{Role, error_expr, expr_of, has_params, in_dimensions};
+use super::expr::{Role, alternatives, error_expr, expr_of, has_params, in_dimensions};
+use super::hints::for_other_joints;
 use super::lists::list_element;
 use super::scope::Scope;
 use super::typed::{DefId, Expr, ExprKind};
-use super::types::Type;
+use super::types::{Choice, Type};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, Span, Symbol, code, foreign};
 use crate::syntax::ast;
@@ -211,7 +212,7 @@ impl<'a> Checker<'a> {
         args: &'a [ast::Arg],
         want: Option<&Type>,
     ) -> Expr {
-        let signature = self.signature(id);
+        let signature = self.reading(id, want);
         let name = self.def(id).name;
         let (args, bindings) = self.arguments(scope, span, name, &signature, object, args);
         let result = match &signature.result {
@@ -221,6 +222,36 @@ impl<'a> Checker<'a> {
         // A type parameter that no argument binds is inferred from the expected type.
         let result = if has_params(&result) { want.cloned().unwrap_or(Type::Error) } else { result };
         expr_of(span, result, ExprKind::Call { def: id, args })
+    }
+
+    /// Returns the signature with which a declaration is called. A built-in may give a value or a signal, as
+    /// `pose(of: Port | Module) -> Pose | Signal<Pose>` does: it gives the signal where `want` is one, otherwise the
+    /// value, and what its parameters may be is told apart likewise.
+    pub(super) fn reading(&mut self, id: DefId, want: Option<&Type>) -> Rc<Signature> {
+        let signature = self.signature(id);
+        let either = |ty: &Type| alternatives(ty).len() > 1 && alternatives(ty).into_iter().any(is_signal);
+        let native = matches!(self.def(id).item, DefItem::Native(_) | DefItem::Method(..));
+        if !native || !signature.result.as_ref().is_some_and(either) {
+            return signature;
+        }
+        let wanted = want.is_some_and(is_signal);
+        let read = |ty: &Type| match ty {
+            Type::Choice(choice) if either(ty) => {
+                let types = choice.types.iter().filter(|ty| is_signal(ty) == wanted).cloned();
+                let types: Vec<Type> = types.collect();
+                match <[Type; 1]>::try_from(types) {
+                    Ok([one]) => one,
+                    Err(types) => Type::Choice(Arc::new(Choice { words: choice.words.clone(), types })),
+                }
+            }
+            _ => ty.clone(),
+        };
+        let param = |param: &ParamInfo| ParamInfo { ty: read(&param.ty), ..param.clone() };
+        Rc::new(Signature {
+            params: signature.params.iter().map(param).collect(),
+            result: signature.result.as_ref().map(read),
+            ..(*signature).clone()
+        })
     }
 
     /// Checks a call of a function value.
@@ -350,7 +381,7 @@ impl<'a> Checker<'a> {
                 lambdas.push((index, &arg.value));
                 continue;
             }
-            out[index] = Some(self.argument(scope, &arg.value, &params[index], &mut bindings));
+            out[index] = Some(self.argument(scope, name, &arg.value, &params[index], &mut bindings));
         }
         if let Some(variadic) = params.iter().position(|p| p.variadic)
             && out[variadic].is_none()
@@ -420,16 +451,24 @@ impl<'a> Checker<'a> {
         self.report(if names.is_empty() { d } else { d.hint(format!("it takes {}", names.join(", "))) });
     }
 
-    /// Checks one argument against the type of its parameter.
+    /// Checks one argument of a function against the type of its parameter.
     fn argument(
         &mut self,
         scope: &mut Scope,
+        function: Symbol,
         e: &'a ast::Expr,
         param: &ParamInfo,
         bindings: &mut Bindings,
     ) -> Expr {
         if !has_params(&param.ty) {
-            return self.expect(scope, e, &param.ty, Role::Param(param.name));
+            let got = self.expr(scope, e, Some(&param.ty));
+            let hint = for_other_joints(function, &got.ty, &param.ty);
+            let known = self.diagnostics.len();
+            let got = self.coerce(got, &param.ty, Role::Param(param.name));
+            if let (Some(hint), [mismatch]) = (hint, &mut self.diagnostics[known..]) {
+                mismatch.hints.push(hint);
+            }
+            return got;
         }
         let want = bindings.apply(&param.ty);
         let got = self.expr(scope, e, Some(&want));
@@ -519,4 +558,9 @@ fn in_bound_dimensions(args: &mut [Option<Expr>], params: &[ParamInfo], bindings
         let ty = if param.variadic { Type::list(ty) } else { ty };
         *arg = arg.take().map(|arg| in_dimensions(arg, &ty));
     }
+}
+
+/// Returns true for the type of a signal.
+fn is_signal(ty: &Type) -> bool {
+    matches!(ty, Type::Signal(_))
 }

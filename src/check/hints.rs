@@ -45,6 +45,9 @@ impl Checker<'_> {
             (Type::Quantity(_), Type::Int) => {
                 Some(format!("`floor({written})` and `round({written})` are whole; so is `div(a, b)`"))
             }
+            (Type::Pose, Type::Signal(_)) => {
+                Some("a signal is asked for where it is wanted: `series(pose(port))`".into())
+            }
             (Type::Condition, Type::Bool) => {
                 Some("a condition is watched while the robot moves; it has no value yet".into())
             }
@@ -126,6 +129,23 @@ impl Checker<'_> {
             _ => return Some("three coordinates make a vector where one is expected: `[x, y, z]`".into()),
         };
         Some(format!("say so where it is declared: `let {name}: {ty} = ...`"))
+    }
+}
+
+/// The built-ins for joints that turn, each with what does the same for joints that slide.
+const BY_JOINT: &[(&str, &str)] = &[("angle", "displacement"), ("torque", "force"), ("spin", "move")];
+
+/// Returns the hint that names what does for a joint of the other kind what `function` does; `None` where nothing
+/// does, or the joint is no joint of the other kind.
+pub(super) fn for_other_joints(function: Symbol, got: &Type, want: &Type) -> Option<String> {
+    let (Type::Joint(got), Type::Joint(want)) = (got, want) else { return None };
+    let slides = |joint: &Type| joint.dimension() == Some(Dimension::LENGTH);
+    let function = function.as_str();
+    let found = BY_JOINT.iter().find(|(turns, slides)| *turns == function || *slides == function)?;
+    match (slides(got), slides(want)) {
+        (true, false) => Some(format!("this joint slides: `{}` is for such joints", found.1)),
+        (false, true) => Some(format!("this joint turns: `{}` is for such joints", found.0)),
+        _ => None,
     }
 }
 

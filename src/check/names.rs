@@ -147,7 +147,7 @@ impl<'a> Checker<'a> {
                 expr_of(span, ty, ExprKind::Global(id))
             }
             DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => {
-                let signature = self.signature(id);
+                let signature = self.reading(id, None);
                 if !signature.type_params.is_empty() || signature.params.iter().any(|p| p.variadic) {
                     let name = self.def(id).name;
                     self.report(
@@ -157,7 +157,10 @@ impl<'a> Checker<'a> {
                     );
                     return error_expr(span);
                 }
-                let result = self.result_type(id, Some(span));
+                let result = match &signature.result {
+                    Some(result) => result.clone(),
+                    None => self.result_type(id, Some(span)),
+                };
                 let params = signature.params.iter().map(|p| p.ty.clone()).collect();
                 expr_of(span, Type::Fn(Arc::new(FnType { params, result })), ExprKind::FnValue(id))
             }

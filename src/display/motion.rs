@@ -9,7 +9,7 @@ use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
 use crate::plan::{self, Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
-use crate::robot::{Assembly, JointId, JointKind, JointOwner};
+use crate::robot::{Assembly, JointId};
 use crate::units::{Dimension, quantity};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -149,13 +149,8 @@ struct Names {
 impl Names {
     fn of(robot: &Robot) -> Names {
         let assembly = &robot.assembly;
-        let slides = |owner| match owner {
-            JointOwner::Module { module, joint } => {
-                assembly.module_type(module).joints[joint].kind == JointKind::Prismatic
-            }
-            JointOwner::Bond(_) => false,
-        };
-        let joints = assembly.joints().map(|owner| (assembly.joint_name(owner), slides(owner))).collect();
+        let joints =
+            assembly.joints().map(|owner| (assembly.joint_name(owner), assembly.slides(owner))).collect();
         Names { robot: assembly.clone(), joints }
     }
 

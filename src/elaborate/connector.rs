@@ -1,5 +1,6 @@
 //! Connectors: what mates with what, at which turns.
 
+use crate::check::Type;
 use crate::check::typed::{ConnectorDef, DefId, DefKind, Expr};
 use crate::interpret::design::ConnectorDesign;
 use crate::interpret::eval::Frame;
@@ -106,7 +107,9 @@ impl Interpreter<'_> {
     /// unknown.
     fn hinge(&mut self, span: Span, args: &[Option<Expr>], frame: &mut Frame) -> Eval<Option<Hinge>> {
         let Some(revolute) = self.native_named("revolute") else { return Ok(None) };
-        let Value::JointKind(spec) = self.call_def(revolute, args, span, frame)? else { return Ok(None) };
+        let Value::JointKind(spec) = self.call_def(revolute, args, &Type::JointKind, span, frame)? else {
+            return Ok(None);
+        };
         let JointSpec { axis, limits, .. } = *spec;
         Ok(Some(Hinge { axis: axis.normalize(), limits }))
     }

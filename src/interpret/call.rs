@@ -11,10 +11,21 @@ use super::record::{DeclaredRecord, Record};
 use super::routines::Args;
 use super::stop::{Eval, fault};
 use super::value::{Behavior, BehaviorCall, Callable, Value};
+use crate::check::Type;
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param, RecordDef};
+
 use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
+
+/// A call of a declaration as it is written; empty where the declaration is called as a value.
+#[derive(Default)]
+struct Written<'e> {
+    /// The arguments, in the order of the parameters.
+    exprs: &'e [Option<Expr>],
+    /// True if the type of the call is that of a signal.
+    signal: bool,
+}
 
 impl Interpreter<'_> {
     /// Evaluates the arguments of a call, which are in the order of the parameters; `None` stays `None`.
@@ -32,16 +43,17 @@ impl Interpreter<'_> {
     }
 
     /// Calls a declared function or a built-in with arguments in the order of the parameters; unknown for other
-    /// declarations.
+    /// declarations. `ty` is the type of the call.
     pub fn call_def(
         &mut self,
         def: DefId,
         args: &[Option<Expr>],
+        ty: &Type,
         span: Span,
         frame: &mut Frame,
     ) -> Eval<Value> {
         let values = self.eval_args(args, span, frame)?;
-        self.apply_def(def, values, args, span)
+        self.apply_def(def, values, Written { exprs: args, signal: matches!(ty, Type::Signal(_)) }, span)
     }
 
     /// Builds a record of its fields; unknown where one of them is.
@@ -118,19 +130,19 @@ impl Interpreter<'_> {
                 }
                 self.with_call(span, Symbol::new("=>"), |this| this.eval(body, &mut inner))
             }
-            Callable::Def(def) => self.apply_def(*def, Args::plain(values, span), &[], span),
+            Callable::Def(def) => self.apply_def(*def, Args::plain(values, span), Written::default(), span),
             Callable::Behavior { object, behavior } => {
                 self.apply_behavior(object, *behavior, Args::plain(values, span), span)
             }
         }
     }
 
-    /// Calls a declared function or a built-in; `exprs` are the arguments as they are written, if they are.
-    fn apply_def(&mut self, def: DefId, args: Args, exprs: &[Option<Expr>], span: Span) -> Eval<Value> {
+    /// Calls a declared function or a built-in.
+    fn apply_def(&mut self, def: DefId, args: Args, written: Written, span: Span) -> Eval<Value> {
         let program = self.shared.program;
         match &program.def(def).kind {
             DefKind::Fn(function) => self.call_fn(function, program.def(def).name, args, span),
-            DefKind::Native(native) => self.call_native(native, args, exprs, span),
+            DefKind::Native(native) => self.call_native(native, args, written, span),
             _ => Ok(Value::Unknown),
         }
     }
@@ -166,13 +178,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn call_native(
-        &mut self,
-        native: &NativeDef,
-        args: Args,
-        exprs: &[Option<Expr>],
-        span: Span,
-    ) -> Eval<Value> {
+    fn call_native(&mut self, native: &NativeDef, args: Args, written: Written, span: Span) -> Eval<Value> {
         let spans =
             (0..native.params.len()).map(|i| args.spans.get(i).copied().unwrap_or(span)).collect::<Vec<_>>();
         let mut frame = Frame::new(native.frame.max(native.params.len()), None);
@@ -188,7 +194,8 @@ impl Interpreter<'_> {
             return Ok(Value::Unknown);
         }
         let (params, spans) = (&native.params, &spans);
-        (entry.body)(self, &Call { span, native: entry, params, args: values, spans, exprs })
+        let Written { exprs, signal } = written;
+        (entry.body)(self, &Call { span, native: entry, params, args: values, spans, exprs, signal })
     }
 
     /// Checks the behaviours among the arguments, as far as that is possible without a run.

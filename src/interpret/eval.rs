@@ -175,7 +175,7 @@ impl Interpreter<'_> {
                     this: frame.this.clone(),
                 })))
             }
-            ExprKind::Call { def, args } => self.call_def(*def, args, span, frame),
+            ExprKind::Call { def, args } => self.call_def(*def, args, &expr.ty, span, frame),
             ExprKind::CallValue { callee, args } => self.eval_call_value(callee, args, span, frame),
             ExprKind::CallBehavior { object, behavior, args } => {
                 match self.eval(object, frame)? {

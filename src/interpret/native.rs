@@ -59,6 +59,8 @@ pub struct Call<'c> {
     /// The arguments as they are written, in the order of the declaration; none where the built-in is called as a
     /// value.
     pub exprs: &'c [Option<Expr>],
+    /// True if a built-in that gives a value or a signal is to give the signal.
+    pub signal: bool,
 }
 
 impl<'c> Call<'c> {

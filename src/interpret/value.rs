@@ -207,6 +207,19 @@ pub enum Measure {
     GroundForce(Range<usize>),
     /// The distance of two ports, m.
     Separation(PortRef, PortRef),
+    /// The pose of a port or a module's body in the world.
+    Pose(MovingFrame),
+    /// The origin of that pose, m.
+    Position(MovingFrame),
+}
+
+/// A frame that moves with a robot.
+#[derive(Clone, Copy, Debug)]
+pub enum MovingFrame {
+    /// The frame of the body of a module, by its index in the whole robot.
+    Module(usize),
+    /// The frame of a port.
+    Port(PortRef),
 }
 
 /// A condition, with the robot that it is about.

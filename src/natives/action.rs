@@ -35,6 +35,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("undock", parameters![port: &PortValue], undock),
     Native::pure("abort", parameters![message: &str], abort),
     Native::pure("angle", parameters![joint: &JointValue], |i, call| signal(i, call, Signal::Angle)),
+    Native::pure("displacement", parameters![joint: &JointValue], |i, call| signal(i, call, Signal::Angle)),
     Native::pure("speed", parameters![joint: &JointValue], |i, call| signal(i, call, Signal::Speed)),
     Native::pure("elapsed", parameters![], |_, _| Ok(signal_value(None, Signal::Elapsed))),
     Native::pure("docked", parameters![port: &PortValue], docked),

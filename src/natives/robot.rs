@@ -3,13 +3,13 @@
 use super::Native;
 use crate::geometry::{Pose, Vec3};
 use crate::interpret::argument::parameters;
-use crate::interpret::design::{Design, DesignKind, Instance};
+use crate::interpret::design::{Design, DesignKind, Instance, Subject, port_ref};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::record::{DeclaredRecord, Record, StateValue};
 use crate::interpret::robot::Robot;
 use crate::interpret::stop::Eval;
-use crate::interpret::value::{JointValue, PortValue, Value};
+use crate::interpret::value::{JointValue, Measure, MovingFrame, PortValue, SignalValue, Value};
 use crate::plan::TOLERANCES;
 use crate::robot::{Bond, PortRef, matching};
 use crate::units::Dimension;
@@ -38,7 +38,8 @@ pub(super) const TABLE: &[Native] = &[
         Ok(truss(call)?.map_or(Value::Unknown, |t| Value::count(t.struts.len())))
     }),
     Native::pure("rigidity", parameters![of: &Rc<Instance>], rigidity),
-    Native::on_run("State.angle", parameters![self: &StateValue, joint: &JointValue], state_angle),
+    Native::on_run("State.angle", parameters![self: &StateValue, joint: &JointValue], state_position),
+    Native::on_run("State.displacement", parameters![self: &StateValue, joint: &JointValue], state_position),
     Native::on_run("State.pose", parameters![self: &StateValue, of: &Value], state_pose),
 ];
 
@@ -184,6 +185,10 @@ fn pose_of(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Optio
 }
 
 fn pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    if call.signal {
+        let (robot, frame) = frame(call.arg("of"));
+        return Ok(Value::Signal(Rc::new(SignalValue { robot: Some(robot), measure: Measure::Pose(frame) })));
+    }
     Ok(pose_of(interpreter, call, "of")?.map_or(Value::Unknown, |(_, pose)| Value::Pose(Rc::new(pose))))
 }
 
@@ -206,27 +211,34 @@ fn rigidity(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Record(Rc::new(Record::Rigidity(call.get::<&Rc<Instance>>("of")?.design.clone()))))
 }
 
-fn state_angle(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn state_position(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
     let id = state.body.joint(joint);
     Ok(Value::Quantity(state.state.joints[id.0 as usize], joint.dimension))
 }
 
+/// Returns the robot that a port or a module belongs to, and its frame there.
+fn frame(of: &Value) -> (Subject, MovingFrame) {
+    match of {
+        Value::Instance(module) => (module.robot.clone(), MovingFrame::Module(module.offset)),
+        Value::Port(port) => (port.robot.clone(), MovingFrame::Port(port_ref(port))),
+        _ => unreachable!("`check` lets only modules and ports through"),
+    }
+}
+
+/// Returns the pose of a frame in the world in a state of its robot.
+pub(super) fn pose_in(state: &StateValue, frame: MovingFrame) -> Pose {
+    let kinematics = &state.body.kinematics;
+    match frame {
+        MovingFrame::Module(module) => kinematics.module_pose(module, &state.poses()),
+        MovingFrame::Port(port) => kinematics.port_pose(&state.body.assembly, port, &state.poses()),
+    }
+}
+
 fn state_pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let state = call.get::<&StateValue>("self")?;
-    let kinematics = &state.body.kinematics;
-    let pose = match call.get::<&Value>("of")? {
-        Value::Instance(module) => {
-            interpreter.common_robot(Some(&state.robot), Some(&module.robot), call.span)?;
-            kinematics.module_pose(module.offset, &state.poses())
-        }
-        Value::Port(port) => {
-            interpreter.common_robot(Some(&state.robot), Some(&port.robot), call.span)?;
-            let port = PortRef { module: port.module, port: port.port };
-            kinematics.port_pose(&state.body.assembly, port, &state.poses())
-        }
-        _ => unreachable!("`check` lets only modules and ports through"),
-    };
-    Ok(Value::Pose(Rc::new(pose)))
+    let (robot, frame) = frame(call.get::<&Value>("of")?);
+    interpreter.common_robot(Some(&state.robot), Some(&robot), call.span)?;
+    Ok(Value::Pose(Rc::new(pose_in(state, frame))))
 }

@@ -1,6 +1,7 @@
 //! Time series of plans: values of signals, and states.
 
 use super::Native;
+use super::robot::pose_in;
 use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::design::{Instance, Subject, port_ref};
 use crate::interpret::interpreter::Interpreter;
@@ -21,7 +22,8 @@ use std::rc::Rc;
 
 /// The natives of this file.
 pub(super) const TABLE: &[Native] = &[
-    Native::pure("torque", parameters![joint: &JointValue], torque),
+    Native::pure("torque", parameters![joint: &JointValue], effort),
+    Native::pure("force", parameters![joint: &JointValue], effort),
     Native::pure("margin", parameters![], |_, _| Ok(signal(None, Measure::Margin))),
     Native::pure("clearance", parameters![], |_, _| Ok(signal(None, Measure::Clearance))),
     Native::pure("ground_force", parameters![on: &Rc<Instance>], ground_force),
@@ -30,7 +32,8 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("Plan.series", parameters![self: &Value, of: &Value, step: Positive], plan_series),
     Native::on_run("Plan.states", parameters![self: &Value, step: Positive], plan_states),
     Native::on_run("State.speed", parameters![self: &StateValue, joint: &JointValue], state_speed),
-    Native::on_run("State.torque", parameters![self: &StateValue, joint: &JointValue], state_torque),
+    Native::on_run("State.torque", parameters![self: &StateValue, joint: &JointValue], state_effort),
+    Native::on_run("State.force", parameters![self: &StateValue, joint: &JointValue], state_effort),
     Native::on_run(
         "State.ground_force",
         parameters![self: &StateValue, on: &Rc<Instance>],
@@ -46,7 +49,7 @@ fn signal(robot: Option<Subject>, measure: Measure) -> Value {
     Value::Signal(Rc::new(SignalValue { robot, measure }))
 }
 
-fn torque(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let joint: &JointValue = call.get("joint")?;
     let Some(robot) = interpreter.robot_at(&joint.robot, call.at("joint"))? else {
         return Ok(Value::Unknown);
@@ -98,9 +101,18 @@ fn plan_states(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     interpreter.require_joints(&plan, call.at("self"))?;
     let times = times(interpreter, call, &plan)?;
     let known = instants(call, &plan, &times, Detail::Stance)?;
-    let state = |own: usize| state_value(&plan, &times, own, OnceCell::from(known[own].base));
-    let states = (0..times.len()).filter_map(state);
+    let states = states(&plan, &times, &known);
     Ok(Value::list(states.map(|state| Value::Record(Rc::new(Record::State(state)))).collect()))
+}
+
+/// Returns the states of a plan's robot at these times (s), with the poses of its base that the judge knows; none for
+/// plans of lattices and trusses.
+fn states<'p>(
+    plan: &'p Rc<PlanValue>,
+    times: &'p Rc<Vec<f64>>,
+    known: &'p [Instant],
+) -> impl Iterator<Item = StateValue> + 'p {
+    (0..times.len()).filter_map(|own| state_value(plan, times, own, OnceCell::from(known[own].base)))
 }
 
 /// Returns what the judge knows at these times (s) of a plan, one for each.
@@ -151,8 +163,19 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             };
             (times.iter().map(at).collect(), Dimension::LENGTH)
         }
+        Measure::Pose(frame) | Measure::Position(frame) => {
+            let known = instants(call, &plan, &times, Detail::Stance)?;
+            let whole = matches!(signal.measure, Measure::Pose(_));
+            let value = |state: StateValue| match pose_in(&state, *frame) {
+                pose if whole => Value::Pose(Rc::new(pose)),
+                pose => Value::Vec3(pose.translation.vector, Dimension::LENGTH),
+            };
+            return Ok(Value::list(states(&plan, &times, &known).map(value).collect()));
+        }
         Measure::Clearance => (plan.clearances(&times).to_vec(), Dimension::LENGTH),
-        Measure::Effort(_) => (judged(Detail::Loads, effort)?, Dimension::TORQUE),
+        Measure::Effort(joint) => {
+            (judged(Detail::Loads, effort_of)?, effort_dimension(position_dimension(tracks, *joint)))
+        }
         Measure::Margin => (judged(Detail::Stance, |known, _| known.margin)?, Dimension::LENGTH),
         Measure::GroundForce(_) => (judged(Detail::Loads, normal_force)?, Dimension::FORCE),
     };
@@ -168,18 +191,37 @@ fn sensed_over(tracks: &Tracks, signal: Signal) -> (Box<dyn Fn(f64) -> f64 + '_>
         Signal::Angle(joint) => {
             let start = tracks.start.joints[joint.0 as usize];
             let position = move |time| tracks.track(joint).map_or(start, |track| track.position(start, time));
-            (Box::new(position), Dimension::ANGLE)
+            (Box::new(position), position_dimension(tracks, joint))
         }
-        Signal::Speed(joint) => (Box::new(move |time| speed(tracks, joint, time)), Dimension::ANGULAR_SPEED),
+        Signal::Speed(joint) => {
+            let dimension = speed_dimension(position_dimension(tracks, joint));
+            (Box::new(move |time| speed(tracks, joint, time)), dimension)
+        }
         Signal::Elapsed => (Box::new(|time| time), Dimension::TIME),
     }
+}
+
+/// Returns the dimension of a joint's position: a length where it is prismatic, otherwise an angle.
+fn position_dimension(tracks: &Tracks, joint: JointId) -> Dimension {
+    let owner =
+        tracks.robot.joints().nth(joint.0 as usize).expect("signals are of joints of the plan's robot");
+    if tracks.robot.slides(owner) { Dimension::LENGTH } else { Dimension::ANGLE }
+}
+
+fn speed_dimension(position: Dimension) -> Dimension {
+    position.over(Dimension::TIME).expect("exponents of positions are 0 and 1")
+}
+
+/// Returns the dimension of what moves a joint with positions of this dimension: a force or a torque.
+fn effort_dimension(position: Dimension) -> Dimension {
+    if position == Dimension::LENGTH { Dimension::FORCE } else { Dimension::TORQUE }
 }
 
 fn speed(tracks: &Tracks, joint: JointId, time: f64) -> f64 {
     tracks.track(joint).map_or(0.0, |track| track.velocity(time))
 }
 
-fn effort(known: &Instant, measure: &Measure) -> Option<f64> {
+fn effort_of(known: &Instant, measure: &Measure) -> Option<f64> {
     let Measure::Effort(joint) = measure else { return None };
     known.efforts[joint.0 as usize]
 }
@@ -223,15 +265,16 @@ fn state_speed(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
     let tracks = state.planned.plan.body.tracks().expect("a state is one of a robot");
     let speed = speed(tracks, state.body.joint(joint), state.time);
-    Ok(Value::Quantity(speed, Dimension::ANGULAR_SPEED))
+    Ok(Value::Quantity(speed, speed_dimension(joint.dimension)))
 }
 
-fn state_torque(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn state_effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    let dimension = effort_dimension(joint.dimension);
     let joint = Measure::Effort(state.body.joint(joint));
-    let known = state.judged(Detail::Loads, |known| effort(known, &joint)).flatten();
-    Ok(Value::optional(known.map(|torque| Value::Quantity(torque, Dimension::TORQUE))))
+    let known = state.judged(Detail::Loads, |known| effort_of(known, &joint)).flatten();
+    Ok(Value::optional(known.map(|effort| Value::Quantity(effort, dimension))))
 }
 
 fn state_ground_force(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

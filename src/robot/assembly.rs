@@ -4,7 +4,7 @@
 //! A configuration is a tree of parts to a person; here it is a list of modules with path names and a list of bonds
 //! between their ports.
 
-use super::library::{Hinge, Library, ModuleType};
+use super::library::{Hinge, JointKind, Library, ModuleType};
 use crate::geometry::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -110,6 +110,17 @@ impl Assembly {
         });
         let of_bonds = (0..self.bonds.len()).filter(|&b| self.hinge(b).is_some()).map(JointOwner::Bond);
         of_modules.chain(of_bonds)
+    }
+
+    /// Returns true if a joint is prismatic, so that its positions are in metres; those of all others, hinges of bonds
+    /// included, are in radians. Panics if there is no such joint.
+    pub fn slides(&self, owner: JointOwner) -> bool {
+        match owner {
+            JointOwner::Module { module, joint } => {
+                self.module_type(module).joints[joint].kind == JointKind::Prismatic
+            }
+            JointOwner::Bond(_) => false,
+        }
     }
 
     /// Returns the hinge of a bond, given by its index: that of the connector at its first port; `None` for a bond

@@ -5,7 +5,7 @@ use super::colour::{PALETTE, groups};
 use super::drawing::{Drawing, INK, LETTER, PAPER, SOFT};
 use super::input::RenderInput;
 use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
-use crate::robot::{Assembly, JointId, JointKind, JointOwner};
+use crate::robot::{Assembly, JointId, JointOwner};
 use crate::units::{Dimension, quantity};
 
 /// The most actions drawn; an ellipsis stands for those beyond.
@@ -72,14 +72,11 @@ struct Drawer<'a> {
 
 /// Returns the name, the module and true if it is prismatic, of each joint.
 fn names(robot: &Assembly) -> Vec<(String, Option<usize>, bool)> {
-    let name = |owner| match owner {
-        JointOwner::Module { module, joint } => {
-            let slides = robot.module_type(module).joints[joint].kind == JointKind::Prismatic;
-            (robot.joint_name(owner), Some(module), slides)
-        }
-        JointOwner::Bond(_) => (robot.joint_name(owner), None, false),
+    let module = |owner| match owner {
+        JointOwner::Module { module, .. } => Some(module),
+        JointOwner::Bond(_) => None,
     };
-    robot.joints().map(name).collect()
+    robot.joints().map(|owner| (robot.joint_name(owner), module(owner), robot.slides(owner))).collect()
 }
 
 /// Returns an action's label, as wide as its text.

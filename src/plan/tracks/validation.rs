@@ -94,14 +94,8 @@ impl Tracks {
         }
         check_pose(&self.start.base).map_err(|fault| PlanFault::Pose { of: "the base", fault })?;
         let owners: Vec<JointOwner> = self.robot.joints().collect();
-        let farthest = |owner: JointOwner| match owner {
-            JointOwner::Module { module, joint }
-                if self.robot.module_type(module).joints[joint].kind == JointKind::Prismatic =>
-            {
-                MODULE_EXTENT_MAX
-            }
-            JointOwner::Module { .. } | JointOwner::Bond(_) => POSITION_MAX,
-        };
+        let farthest =
+            |owner: JointOwner| if self.robot.slides(owner) { MODULE_EXTENT_MAX } else { POSITION_MAX };
         for (&position, &owner) in self.start.joints.iter().zip(&owners) {
             need_bounded(position, farthest(owner), "the start position of a joint")?;
         }
