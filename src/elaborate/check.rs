@@ -9,6 +9,9 @@ use std::rc::Rc;
 
 impl Interpreter<'_> {
     /// Elaborates a declaration with its defaults, evaluates all that its body declares, and checks its links.
+    ///
+    /// # Errors
+    /// [`Stop::Halt`](crate::interpret::stop::Stop::Halt); faults are reported.
     pub(super) fn elaborate_with_defaults(&mut self, def: DefId) -> Eval<()> {
         let program = self.shared.program;
         let declared = program.def(def);

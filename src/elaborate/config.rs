@@ -18,13 +18,16 @@ use std::rc::Rc;
 pub(super) struct Deferred<'d> {
     /// The clause.
     pub require: &'d Require,
-    /// The variables of the body.
+    /// The variables of the body at the clause.
     pub frame: Frame,
 }
 
 impl Interpreter<'_> {
-    /// Elaborates the body of a configuration into its design, which already stands in memory so that a body
-    /// that needs itself is found. Faults are reported; where parts are unknown the design is marked as broken.
+    /// Elaborates the body of a configuration into its design, which already stands in memory so that a body that
+    /// needs itself is found. Where parts are unknown the design is marked as broken.
+    ///
+    /// # Errors
+    /// A fault of the body that ends it, or a halt; other faults are reported.
     pub(super) fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let config = design.config().expect("made as a configuration");
         let this = self.whole(design);
@@ -321,7 +324,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Reports the requirements whose conditions are false.
+    /// Reports the requirements whose conditions are false, in their order.
+    ///
+    /// # Errors
+    /// A halt while a condition or message is evaluated.
     pub(super) fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
         for Deferred { require, mut frame } in requirements {
             self.check_requirement(require, &mut frame)?;
@@ -329,7 +335,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Reports a requirement whose condition is false.
+    /// Reports a requirement if its condition is false; one that is unknown was reported.
+    ///
+    /// # Errors
+    /// A halt while the condition or the message is evaluated.
     pub(super) fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
         if !matches!(self.eval(&require.condition, frame)?, Value::Bool(false)) {
             return Ok(());
@@ -355,13 +364,15 @@ fn inherited(part: &str, inside: &str) -> Rc<str> {
     }
 }
 
-/// Returns the message that a joint can't be at a position (rad or m), with its range.
+/// Returns the message that a joint can't be at a position, with its range, both in SI units of `dimension` (rad or
+/// m).
 pub(crate) fn outside(joint: &str, position: f64, (low, high): (f64, f64), dimension: Dimension) -> String {
     let [position, low, high] = [position, low, high].map(|x| quantity(x, dimension));
     format!("{joint} can't be at {position}: its range is {low} to {high}")
 }
 
-/// Returns the fault of a start position that the joint does not reach.
+/// Returns the fault, at `span`, of a start position that the joint does not reach; position and range in SI units of
+/// `dimension` (rad or m).
 pub(super) fn out_of_range(
     joint: &str,
     position: f64,

@@ -15,11 +15,12 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Adds the connection `connect a -- b turn t`; none where one of them is unknown.
+    /// Adds the connection `connect a -- b turn t` to the configuration; none where one of the three is unknown.
+    /// `turn`: `None` for turn 0; `span`: the clause.
     ///
     /// # Errors
-    /// A fault where a port is taken, the two are one, the connectors do not mate, the turn is not allowed, or
-    /// the connection closes a loop in a configuration that is not `closed`.
+    /// A fault where a port is taken, the two are one, the connectors do not mate, the turn is not allowed, or the
+    /// connection closes a loop in a configuration that is not `closed`.
     pub(super) fn connect(
         &mut self,
         config: &ConfigDesign,
@@ -95,7 +96,10 @@ impl Interpreter<'_> {
         Err(diagnostic.into())
     }
 
-    /// Returns the connector at a port; `None` where it is broken.
+    /// Returns the connector at a port; `None` where it is broken, which has been reported.
+    ///
+    /// # Errors
+    /// A halt while the connector is elaborated.
     pub(super) fn connector_at(&mut self, port: &PortValue) -> Eval<Option<Rc<ConnectorDesign>>> {
         let design = port.robot.module_at(port.module);
         let module = design.module().expect("only modules have ports of their own");
@@ -164,6 +168,9 @@ impl Interpreter<'_> {
     }
 
     /// Reports modules that are not connected with the first, by their parts.
+    ///
+    /// # Errors
+    /// None of its own.
     pub(super) fn check_connected(
         &mut self,
         def: &ConfigDef,
@@ -201,6 +208,9 @@ impl Interpreter<'_> {
     }
 
     /// Reports connections whose ports do not meet in the start state, in a configuration that is `closed`.
+    ///
+    /// # Errors
+    /// A fault or halt while the robot is assembled.
     pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
         if design.broken.get() || design.module_count() == 0 {
@@ -285,7 +295,7 @@ fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usi
     Some(path)
 }
 
-/// Returns the names of the free ports of a module of a robot, in the order of the module's ports.
+/// Returns the names of the free ports of the module of this index of a robot, in the order of the module's ports.
 pub(crate) fn free_ports<'c>(
     config: &'c ConfigDesign,
     robot: &Rc<Design>,

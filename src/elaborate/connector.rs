@@ -17,7 +17,11 @@ use std::rc::Rc;
 const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
 impl Interpreter<'_> {
-    /// Returns the connector of a declaration, elaborated once; `None` where it is broken.
+    /// Returns the connector of a declaration, elaborated once; `None` where it is broken, which has been reported,
+    /// and for a declaration that is no connector.
+    ///
+    /// # Errors
+    /// A halt.
     pub(super) fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
         let index = def.0 as usize;
         if let Some(known) = &self.memory.connectors[index] {
@@ -114,7 +118,7 @@ impl Interpreter<'_> {
         Ok(Some(Hinge { axis: axis.normalize(), limits }))
     }
 
-    /// Returns the built-in with this key; `None` if the program has none.
+    /// Returns the declaration of the built-in with this key, such as `move`; `None` if the program has none.
     pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
         let index = self.shared.program.defs.iter().position(|def| is_it(&def.kind))?;

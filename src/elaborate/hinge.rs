@@ -37,8 +37,11 @@ impl Interpreter<'_> {
         Ok(Value::Joint(JointValue { robot: port.robot.clone(), owner, dimension: Dimension::ANGLE }))
     }
 
-    /// Returns the limits of the joint that a connection makes; none where its connector is broken or has no
-    /// hinge.
+    /// Returns the limits of the joint that the bond of this index makes (rad, rad/s, rad/s², N·m); none where its
+    /// connector is broken or has no hinge.
+    ///
+    /// # Errors
+    /// A halt while the connector is elaborated.
     pub(super) fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
         let connector = self.connector_of(robot, bond)?;
         let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));

@@ -13,8 +13,11 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns an instance of a declaration with these arguments, such as `Walker(bend: 35deg)`; unknown where
-    /// the declaration is broken.
+    /// Returns an instance of a declaration with these arguments, such as `Walker(bend: 35deg)`; [`Value::Unknown`]
+    /// where the declaration is broken or an argument is unknown.
+    ///
+    /// # Errors
+    /// As [`design_of`](Self::design_of).
     pub(super) fn make_instance(&mut self, def: DefId, args: Args, span: Span) -> Eval<Value> {
         Ok(match self.design_of(def, args, span)? {
             Some(design) if !design.broken.get() => Value::Instance(self.whole(&design)),
@@ -22,11 +25,11 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the design of a declaration with these arguments, elaborated once; it may be broken. `None`
-    /// where an argument is unknown, the declaration has no instances, or `check` found mistakes in it.
+    /// Returns the design of a declaration with these arguments, elaborated once; it may be broken. `None` where an
+    /// argument is unknown, the declaration has no instances, or `check` found mistakes in it.
     ///
     /// # Errors
-    /// A fault at `span` where the declaration needs itself.
+    /// A fault at `span` where the declaration needs itself, or a halt.
     pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
         if self.shared.faulty[def.0 as usize] {
             return Ok(None);
@@ -97,8 +100,8 @@ impl Interpreter<'_> {
         self.eval(default, &mut frame)
     }
 
-    /// Returns an instance that has arguments and nothing else: the expressions of a body are evaluated in it
-    /// before there is a body.
+    /// Returns an instance that has arguments, one for each parameter in order, and nothing else: the expressions of a
+    /// body are evaluated in it before there is a body.
     pub(super) fn shell(&self, def: DefId, args: Vec<Value>) -> Rc<Instance> {
         let design = Design {
             def,
@@ -169,8 +172,11 @@ impl Interpreter<'_> {
         design
     }
 
-    /// Returns the design of a declaration with its defaults; `None` where a parameter has none, and as
-    /// [`design_of`](Self::design_of).
+    /// Returns the design of a declaration with the defaults of all its parameters, elaborated once; it may be broken.
+    /// `None` where a parameter has no default, the declaration has no instances, or `check` found mistakes in it.
+    ///
+    /// # Errors
+    /// A fault at the declaration where it needs itself, or a halt.
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
         let declared = self.shared.program.def(def);
         let Some(Instantiable { params, .. }) = declared.kind.instantiable() else { return Ok(None) };

@@ -12,6 +12,9 @@ use std::rc::Rc;
 impl Interpreter<'_> {
     /// Returns the design of a lattice; `None` where it is unknown, empty or not connected, which has been
     /// reported.
+    ///
+    /// # Errors
+    /// A halt, or a fault of the kind of cells; faults of the lattice itself are reported.
     pub(super) fn elaborate_lattice(
         &mut self,
         lattice: &LatticeDef,

@@ -29,7 +29,11 @@ struct Draft<'d> {
 }
 
 impl Interpreter<'_> {
-    /// Returns the design of a module; `None` where it is broken, which has been reported.
+    /// Returns the design of a module; `None` where it is broken, which has been reported. `title`: the name with its
+    /// arguments.
+    ///
+    /// # Errors
+    /// A halt; faults are reported.
     pub(super) fn elaborate_module(
         &mut self,
         def: &ModuleDef,
@@ -128,8 +132,8 @@ impl Interpreter<'_> {
         Ok((solid, built))
     }
 
-    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`, of which each turn is about an axis of the frame
-    /// turned so far; the identity for `None`.
+    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`, position in m, of which each turn is about an axis of the
+    /// frame turned so far, in the order written; the identity for `None`.
     ///
     /// # Errors
     /// A fault where the position is farther than 1 km along an axis, or an axis is zero.

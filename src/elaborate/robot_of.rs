@@ -110,8 +110,11 @@ impl Interpreter<'_> {
         Ok(candidates)
     }
 
-    /// Returns the module types and connectors of a robot, and the index of the type of each module; `None`
-    /// where a connector is broken.
+    /// Returns the module types and connectors of a robot, and for each of its modules, in order, the index of its
+    /// type in that library; `None` where a connector is broken.
+    ///
+    /// # Errors
+    /// A halt while a connector is elaborated.
     pub(crate) fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
         let mut types: Vec<Rc<Design>> = Vec::new();
         let mut kinds = Vec::new();

@@ -9,8 +9,11 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Warns of links that are thinner than the `touch` of their module: the judge lets two such links pass
-    /// through each other.
+    /// Warns of links that are thinner than the `touch` of their module: the judge lets two such links pass through
+    /// each other. Other designs than modules give no warning.
+    ///
+    /// # Errors
+    /// None of its own.
     pub(super) fn check_thickness(&mut self, def: DefId, design: &Rc<Design>) -> Eval<()> {
         let program = self.shared.program;
         let (DefKind::Module(declared), Some(module)) = (&program.def(def).kind, design.module()) else {

@@ -38,6 +38,9 @@ struct Draft {
 impl Interpreter<'_> {
     /// Returns the design of a truss; `None` where it is unknown, has a fault, or is not rigid, which has been
     /// reported.
+    ///
+    /// # Errors
+    /// A halt, or a fault of the kind of struts; faults of the truss itself are reported.
     pub(super) fn elaborate_truss(
         &mut self,
         def: &TrussDef,

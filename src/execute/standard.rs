@@ -23,8 +23,8 @@ const TOL_ARGUMENT: f64 = 2e-5;
 pub struct Standard {
     /// Its path in programs: `std.smores.Smores`.
     pub path: String,
-    /// The declaration with the arguments of the name: as a module type, cell or strut the first of its kind,
-    /// with the connectors that it needs. `None` where it does not take these arguments.
+    /// The declaration with the arguments of the name: as a module type, cell or strut the first of its kind (index
+    /// 0), with the connectors that it needs. `None` where it does not take these arguments.
     pub library: Option<Library>,
     /// The relative tolerance with which numbers of a declaration of this name agree: the rounding of arguments
     /// in the name; 0 without arguments.

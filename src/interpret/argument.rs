@@ -141,7 +141,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// The type to compare with the declared one.
     pub kind: Kind,
-    /// The name of the Rust type, to compare with the type that is read.
+    /// The function that returns the name of the Rust type, to compare with the type that is read.
     pub rust_type: fn() -> &'static str,
 }
 

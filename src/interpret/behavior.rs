@@ -18,7 +18,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl Interpreter<'_> {
-    /// Returns the one robot that two things belong to; `None` if neither belongs to one.
+    /// Returns the one robot that two things belong to, `None` standing for a thing of no robot; `None` if neither
+    /// belongs to one.
     ///
     /// # Errors
     /// A fault at `span` where they belong to two robots.
@@ -34,11 +35,11 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the one robot that parts of a behaviour move or sense; `None` if neither names one. Equal robots
-    /// are one; but where the program holds them under two names, it means two.
+    /// Returns the one robot that parts of a behaviour move or sense; `None` if neither names one. Equal robots are
+    /// one; but where the program holds them under two names, it means two.
     ///
     /// # Errors
-    /// A fault where there are two robots, or two names.
+    /// A fault at `span` where there are two robots, or two names.
     pub fn common_subject(
         &self,
         a: Option<&Subject>,

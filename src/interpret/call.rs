@@ -28,7 +28,8 @@ struct Written<'e> {
 }
 
 impl Interpreter<'_> {
-    /// Evaluates the arguments of a call, which are in the order of the parameters; `None` stays `None`.
+    /// Evaluates the arguments of a call, which are in the order of the parameters; `None` (the default is wanted)
+    /// stays `None`. `span`: that of the call, which stands for the arguments left out.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
@@ -42,8 +43,11 @@ impl Interpreter<'_> {
         Ok(Args { values, spans })
     }
 
-    /// Calls a declared function or a built-in with arguments in the order of the parameters; unknown for other
-    /// declarations. `ty` is the type of the call.
+    /// Calls a declared function or a built-in with arguments in the order of the parameters, `None` where the default
+    /// is wanted; [`Value::Unknown`] for other declarations. `ty` is the type of the call.
+    ///
+    /// # Errors
+    /// A fault of the function or of the built-in, or a halt.
     pub fn call_def(
         &mut self,
         def: DefId,
@@ -56,7 +60,11 @@ impl Interpreter<'_> {
         self.apply_def(def, values, Written { exprs: args, signal: matches!(ty, Type::Signal(_)) }, span)
     }
 
-    /// Builds a record of its fields; unknown where one of them is.
+    /// Builds a record of its fields, in the order of the declaration, `None` where the default is wanted;
+    /// [`Value::Unknown`] where one of them is.
+    ///
+    /// # Errors
+    /// A fault of a default, or a halt.
     pub fn build_record(
         &mut self,
         def: DefId,
@@ -77,7 +85,11 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns a copy of a record with other values for some of its fields; unknown where one is.
+    /// Returns a copy of a record with other values for some of its fields, given by their indices in the declaration;
+    /// [`Value::Unknown`] where one is.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
     pub fn changed_record(
         &mut self,
         object: &Expr,
@@ -99,7 +111,10 @@ impl Interpreter<'_> {
         Ok(declared_record(*def, fields))
     }
 
-    /// Evaluates a function value and its arguments, and calls it; unknown where the function is.
+    /// Evaluates a function value and its arguments, and calls it; [`Value::Unknown`] where the function is.
+    ///
+    /// # Errors
+    /// As [`apply`](Self::apply).
     pub fn eval_call_value(
         &mut self,
         callee: &Expr,
@@ -115,8 +130,10 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Calls a function value with its arguments, in the order of the parameters and one for each; returns its
-    /// result.
+    /// Calls a function value with its arguments, in the order of the parameters and one for each; returns its result.
+    ///
+    /// # Errors
+    /// A fault of the function or of the built-in, or a halt.
     pub fn apply(&mut self, callable: &Callable, values: Vec<Value>, span: Span) -> Eval<Value> {
         match callable {
             Callable::Lambda { body, captured, frame, this } => {
@@ -208,8 +225,12 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Calls a behaviour of an instance, by its index in the declaration; unknown if the instance is of no
-    /// configuration or has no such behaviour.
+    /// Calls a behaviour of an instance, by its index in the declaration, with arguments in the order of the
+    /// parameters, `None` where the default is wanted; [`Value::Unknown`] if the instance is of no configuration or
+    /// has no such behaviour.
+    ///
+    /// # Errors
+    /// A fault of the behaviour, or a halt.
     pub fn call_behavior(
         &mut self,
         object: &Rc<Instance>,
@@ -276,8 +297,10 @@ impl Interpreter<'_> {
         self.exempt(&behavior, &declared.allows, &mut frame)
     }
 
-    /// Returns the behaviour that a declaration gives with all its defaults; `None` where a parameter has
-    /// none.
+    /// Returns the behaviour that a declaration gives with all its defaults; `None` where a parameter has none.
+    ///
+    /// # Errors
+    /// A fault of the behaviour, or a halt.
     pub fn default_behavior(&mut self, object: &Rc<Instance>, behavior: &BehaviorDef) -> Eval<Option<Value>> {
         if behavior.params.iter().any(|p| p.default.is_none() && !p.variadic) {
             return Ok(None);

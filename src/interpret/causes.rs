@@ -62,7 +62,7 @@ impl Causes {
 /// The causes of one plan, in order of first mention.
 #[derive(Default)]
 pub struct PlanCauses {
-    /// The run's number of each cause, by the plan's number.
+    /// The run's number of each cause; the index here, from 0, is the plan's number.
     pub ids: Vec<CauseId>,
     known: HashMap<CauseId, CauseId>,
 }
@@ -125,8 +125,8 @@ impl PlanCauses {
         action
     }
 
-    /// Returns the table that goes into the plan: each of its causes, by the plan's number, as file, line and
-    /// text.
+    /// Returns the table that goes into the plan: each of its causes, in the order of the plan's numbers, as file,
+    /// line and text.
     pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
         self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
     }

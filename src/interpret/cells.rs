@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, VecDeque};
 /// the order in which the cells are numbered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
-    /// The whole coordinates of each cell, in the order of the numbers.
+    /// The whole coordinates x, y, z of each cell, in cell sizes; the index here, from 0, is the number of the cell.
     pub positions: Vec<[i64; 3]>,
 }
 
@@ -21,8 +21,8 @@ pub struct BadCell {
     pub offset: usize,
 }
 
-/// Returns the cells of one layer, at height `z`, from text: `#` is a cell, `.` and a blank are not. The last
-/// line is at y = 0, the first character of a line at x = 0; the cells are in the order of the text.
+/// Returns the cells of one layer, x, y and the height `z` in cell sizes, from text: `#` is a cell, `.` and a blank
+/// are not. The last line is at y = 0, the first character of a line at x = 0; the cells are in the order of the text.
 ///
 /// # Errors
 /// The first character that is none of these.
@@ -54,8 +54,8 @@ impl Cells {
         Cells { positions }
     }
 
-    /// Returns the number of cells of each connected component (over faces), in order of their first cell;
-    /// one component for a connected arrangement.
+    /// Returns the number of cells of each connected component (over faces), in the order of their first cells; one
+    /// entry for a connected arrangement.
     pub fn pieces(&self) -> Vec<usize> {
         let index: BTreeMap<[i64; 3], usize> =
             self.positions.iter().enumerate().map(|(i, place)| (*place, i)).collect();

@@ -27,7 +27,7 @@ pub struct Design {
     pub def: DefId,
     /// The name, with the arguments where they differ from the defaults: `Walker(bend: 35deg)`.
     pub name: String,
-    /// One value for every parameter, in order.
+    /// One value for every parameter, in the order of the declaration.
     pub args: Vec<Value>,
     /// The kind of declaration, with what it declares.
     pub kind: DesignKind,
@@ -55,12 +55,12 @@ pub enum DesignKind {
 pub struct ModuleDesign {
     /// The module; its ports' connectors are indices into `connectors` here, not into a library.
     pub module: Rc<ModuleType>,
-    /// The declarations of its connectors.
+    /// The declarations of its connectors; the index here is the connector of a port in `module`.
     pub connectors: Vec<DefId>,
-    /// The index of the first port in `module`, and the number of ports, of each entry of
-    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports).
+    /// For each entry of [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports), in order, the index of its first
+    /// port in `module`, and the number of its ports.
     pub port_groups: Vec<(usize, usize)>,
-    /// The dimension of each joint's position, by joint of `module`.
+    /// The dimension of the position of each joint of `module`, in their order.
     pub joint_dimensions: Vec<Dimension>,
     /// The robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
@@ -72,11 +72,11 @@ pub struct ModuleDesign {
 pub struct ConfigDesign {
     /// The parts, in the order of [`ConfigDef::parts`](crate::check::typed::ConfigDef::parts).
     pub parts: OnceCell<Vec<PartGroup>>,
-    /// All modules, those of the parts in order; other indices of modules count in this list.
+    /// All modules, those of the parts in order; indices of modules elsewhere count in this list, from 0.
     pub modules: OnceCell<Vec<FlatModule>>,
     /// The connections, in the order of the clauses.
     pub bonds: RefCell<Vec<BondRecord>>,
-    /// The index of the bond at each port (module, port) that has one.
+    /// The index in `bonds` of the bond at each port, given as (index of the module, index of the port), that has one.
     pub taken: RefCell<HashMap<(usize, usize), usize>>,
     /// The connected components of modules so far.
     pub groups: RefCell<Groups>,
@@ -124,15 +124,16 @@ pub struct FlatModule {
 /// A connection (`connect`), with its position in the source.
 #[derive(Clone)]
 pub struct BondRecord {
-    /// The indices of module and port of the first end.
+    /// The first end, as (index of the module, index of the port).
     pub a: (usize, usize),
-    /// The indices of module and port of the second end.
+    /// The second end, as (index of the module, index of the port).
     pub b: (usize, usize),
-    /// The turn of the second connector about their common normal, in steps of 360° divided by `turns`.
+    /// The turn of the second connector about their common normal, 0 to `turns` - 1, in steps of 360° divided by the
+    /// connector's `turns`.
     pub turn: u32,
     /// The clause.
     pub span: Span,
-    /// The spans of the two paths.
+    /// The spans of the two paths, first and second end.
     pub ends: (Span, Span),
     /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
     /// empty.
@@ -157,7 +158,7 @@ pub struct SetRecord {
 pub struct LatticeDesign {
     /// The cell.
     pub of: Rc<Design>,
-    /// The positions of the cells.
+    /// The positions of the cells on the grid.
     pub cells: Rc<Cells>,
 }
 
@@ -187,7 +188,8 @@ pub struct Node {
 }
 
 impl TrussDesign {
-    /// Returns the name of a strut: those of its two nodes, `a -- b`. Panics if there is no such strut.
+    /// Returns the name of the strut of this index: those of its two nodes, `a -- b`. Panics if there is no such
+    /// strut.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
@@ -454,7 +456,7 @@ pub struct Instance {
     pub path: Rc<str>,
     /// The parts as values, by part group; made when they are first asked for.
     parts: OnceCell<Vec<Value>>,
-    /// The lets and ports of the body that were asked for, by index of the member.
+    /// The lets and ports of the body that were asked for, by their index among the members of the declaration.
     pub lazy: RefCell<HashMap<usize, Lazy>>,
 }
 
@@ -503,7 +505,7 @@ impl Instance {
         })
     }
 
-    /// Returns a joint of a module instance, by its index in the module; `None` for an instance that is no
+    /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is no
     /// module, or if there is no such joint.
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
@@ -580,12 +582,12 @@ pub fn shorten(names: &[String]) -> String {
 }
 
 impl Robot {
-    /// Returns the number of a joint among those of the assembly. Panics if the robot has no such joint.
+    /// Returns the number of a joint among those of the assembly, from 0. Panics if the robot has no such joint.
     pub fn joint(&self, joint: &JointValue) -> JointId {
         self.joint_of(joint.owner)
     }
 
-    /// Returns the pose of a port in the start state, in the frame of the base module's body.
+    /// Returns the pose of a port in the start state, in the frame of the base module's body, m.
     pub fn port_pose(&self, port: &PortValue) -> Pose {
         self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
     }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The variables of a body, and the instance whose body it is.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// The values, by slot; unknown where none was put yet.
+    /// The values, by the slot of the variable; unknown where none was put yet.
     pub slots: Vec<Value>,
     /// The instance whose body is evaluated; `None` outside of declarations with instances.
     pub this: Option<Rc<Instance>>,
@@ -381,10 +381,10 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the value of a top-level `let`; it is evaluated once. Unknown for other declarations.
+    /// Returns the value of a top-level `let`; it is evaluated once. [`Value::Unknown`] for other declarations.
     ///
     /// # Errors
-    /// A fault where the value needs itself.
+    /// A fault at `span` where the value needs itself, or a halt.
     pub fn global(&mut self, def: DefId, span: Span) -> Eval<Value> {
         let index = def.0 as usize;
         match &self.memory.globals[index] {

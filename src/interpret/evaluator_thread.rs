@@ -18,7 +18,8 @@ const NESTING_MAX: usize = 80_000;
 /// optimisation a level takes more.
 const LEVEL_BYTES: usize = if cfg!(debug_assertions) { 24 << 10 } else { 6 << 10 };
 
-/// The size of the stack for what is no evaluation: elaborating, planning, judging, and dropping values.
+/// The size of the part of the stack, bytes, that is left for work besides evaluation: elaborating, planning, judging,
+/// and dropping values.
 pub(super) const REST_BYTES: usize = 16 << 20;
 
 /// The size of the stack that is asked for; pages that are never touched cost nothing.

@@ -180,7 +180,7 @@ const RIGIDITY: &[Field<TrussDesign>] = &[
     ("free_motions", |truss| texts(truss.free_motions())),
 ];
 
-/// Returns the records that no native's file defines, each with the names of its fields in order, to be
+/// Returns the records that no native's file defines, each as its name with the names of its fields in order, to be
 /// compared with the declarations.
 pub fn fields() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![

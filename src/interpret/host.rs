@@ -63,7 +63,7 @@ pub struct Options {
     pub pages: bool,
     /// The command that runs the program again, for the pages that it draws; may be empty.
     pub command: String,
-    /// The width and height of still pictures, pixels; `None`: their natural size.
+    /// The width and the height of still pictures, pixels; `None`: their natural size.
     pub picture: Option<(usize, usize)>,
     /// Bounds on what the program may use.
     pub limits: Limits,
@@ -119,9 +119,9 @@ pub struct TestResult {
 pub struct Outcome {
     /// The diagnostics: errors first, then warnings, then notes; else as they were found.
     pub diagnostics: Vec<Diagnostic>,
-    /// The tests that were run, in order; empty but in [`Mode::Test`].
+    /// The tests that were run, in the order of the text; empty but in [`Mode::Test`].
     pub tests: Vec<TestResult>,
-    /// The paths written, in order, as the host showed them.
+    /// The paths written, in the order of writing, as the host showed them.
     pub written: Vec<String>,
     /// True if the user ended the run.
     pub cancelled: bool,

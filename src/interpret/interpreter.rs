@@ -35,8 +35,8 @@ pub struct Interpreter<'a> {
     pub reported: Reported,
     /// The values of declarations, and what they refer to.
     pub memory: Memory,
-    /// The members of instances, by index, that were computed in this run, for a session that has to forget
-    /// those that failed.
+    /// The members of instances that were computed in this run, each by its index among the members of the
+    /// declaration, for a session that has to forget those that failed.
     pub computed: Vec<(Rc<Instance>, usize)>,
     /// The position of evaluation: calls and bindings.
     pub stack: Stack,
@@ -56,7 +56,8 @@ pub struct Shared<'a> {
     pub mode: Mode,
     /// The access to files and terminal.
     pub host: HostProxy,
-    /// True, by declaration, if `check` found mistakes in it. Values that depend on it are unknown.
+    /// For each declaration, by its [`DefId`], true if `check` found mistakes in it. Values that depend on it are
+    /// unknown.
     pub faulty: Vec<bool>,
 }
 
@@ -71,7 +72,7 @@ pub struct Reported {
     known: HashSet<(Code, Option<Span>, Option<String>)>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
-    /// The tests that were run, in order.
+    /// The results of the tests that were run, in order.
     pub tests: Vec<TestResult>,
     /// True if a condition of the present test is unknown because of an error reported before.
     pub unjudged: bool,
@@ -82,12 +83,12 @@ pub struct Reported {
 /// The computed values that stay: for the rest of the run, and in a session for the next entries.
 #[derive(Clone, Default)]
 pub struct Memory {
-    /// The values of top-level lets, by declaration; others stay [`Lazy::Waiting`].
+    /// The values of top-level lets, by the declaration's [`DefId`]; others stay [`Lazy::Waiting`].
     pub globals: Vec<Lazy>,
-    /// The designs by declaration: one for each list of arguments.
+    /// The designs, by the declaration's [`DefId`]: one for each list of arguments.
     pub designs: Vec<Vec<Rc<Design>>>,
-    /// The connectors, by declaration; `None` for those not elaborated yet, `Some(None)` for those that are
-    /// broken.
+    /// The connectors, by the declaration's [`DefId`]; `None` for those not elaborated yet, `Some(None)` for those
+    /// that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
     /// The behaviours that calls gave.
     pub recalled: Recalled<BehaviorCall, Rc<Behavior>>,
@@ -278,7 +279,7 @@ impl<'a> Interpreter<'a> {
         self.halt(diagnostic.hint(CALLS_HINT))
     }
 
-    /// Runs `body` with a loop variable, which errors reported in it name.
+    /// Runs `body` with a loop variable, which errors reported in it name, and returns its result.
     pub fn with_binding<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
         self.stack.binders.push(Binder { name, value: value.clone() });
         let result = body(self);

@@ -54,7 +54,7 @@ pub struct Call<'c> {
     pub params: &'c [Param],
     /// The arguments, one for each of `params`; defaults are filled in, and none is unknown.
     pub args: &'c [Value],
-    /// The spans of the arguments; that of the whole call for those left out.
+    /// The spans of the arguments, in the order of `params`; that of the whole call for those left out.
     pub spans: &'c [Span],
     /// The arguments as they are written, in the order of the declaration; none where the built-in is called as a
     /// value.
@@ -64,10 +64,11 @@ pub struct Call<'c> {
 }
 
 impl<'c> Call<'c> {
-    /// Returns the argument of a parameter as a `T`, the type in the table of the native, which is asserted.
+    /// Returns the argument of a parameter as a `T`, the type in the table of the native. Panics if the native has no
+    /// parameter `name` of this type.
     ///
     /// # Errors
-    /// A fault where the value is out of range.
+    /// A fault at the argument where the value is out of range.
     pub fn get<T: Argument<'c>>(&self, name: &str) -> Eval<T> {
         self.get_named(name, name)
     }
@@ -119,7 +120,7 @@ impl<'c> Call<'c> {
         self.get_named(name, what).map(|Positive(x)| x)
     }
 
-    /// Returns a number above zero, in SI units, that may be missing; messages call it `what`.
+    /// Returns a number above zero, in SI units, that may be missing; `None` if it is. Messages call it `what`.
     ///
     /// # Errors
     /// A fault where there is a number that is not above zero.

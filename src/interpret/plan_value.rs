@@ -18,7 +18,7 @@ pub struct PlanValue {
     pub body: Option<Rc<Robot>>,
     /// The plan itself.
     pub plan: Plan,
-    /// The run's number of each cause of the plan, by the plan's number.
+    /// The run's number of each cause of the plan; the index here is the plan's number.
     pub causes: Vec<CauseId>,
     /// The number of actions that the plan carries out; 0 for a lattice or a truss.
     pub actions: u64,
@@ -131,8 +131,8 @@ impl PlanValue {
         self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
     }
 
-    /// Returns what the judge knows at these times (s), one for each; fewer where it took all samples that are
-    /// allowed before the last. Kept for the next who asks the same.
+    /// Returns the judge's quantities at these times (s, ascending), one instant for each; fewer where it took all
+    /// samples that are allowed before the last. Kept for the next call with the same times.
     pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
         let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
         if kept.0 != *times {
@@ -141,8 +141,8 @@ impl PlanValue {
         kept.1.clone()
     }
 
-    /// Returns the least distance of links that may not touch at each of these times (s), m; `None` where no two such
-    /// links are. Kept for the next who asks the same.
+    /// Returns the least signed distance of links that may not touch at each of these times (s), m; `None` where there
+    /// are no two such links. Kept for the next call with the same times.
     pub fn clearances(&self, times: &Rc<Vec<f64>>) -> Rc<Vec<Option<f64>>> {
         let mut kept = self.clearances.borrow_mut();
         if kept.0 != *times {
@@ -152,13 +152,13 @@ impl PlanValue {
         kept.1.clone()
     }
 
-    /// Returns the number of actions, as far as a machine word holds it.
+    /// Returns the number of actions; the greatest `usize` if it is larger.
     pub fn actions(&self) -> usize {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }
 
-    /// Returns the number of intervals between the instants at which the law of motion changes, begin and end
-    /// included.
+    /// Returns the number of intervals between the instants at which the law of motion changes, begin and end of the
+    /// plan included.
     pub fn steps(&self) -> usize {
         self.plan.body.instants().len().saturating_sub(1)
     }

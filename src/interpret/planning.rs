@@ -106,8 +106,8 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    /// Returns the plan of a scheduled behaviour, with the actions that are too fast for the joints' limits;
-    /// their causes have the plan's numbers.
+    /// Returns the plan of a scheduled behaviour, and the actions that are too fast for the joints' limits; their
+    /// causes have the plan's numbers.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,
@@ -153,8 +153,8 @@ impl Interpreter<'_> {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's
-    /// number of each cause, by the plan's number.
+    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's number of
+    /// each cause, indexed by the plan's number.
     pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
@@ -219,8 +219,8 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the provenance of a plan of this run: the names and hashes of all texts, sorted by name, the
-    /// seed and the version of modl. No planner is named.
+    /// Returns the provenance of a plan of this run: the names and hashes of all texts, ascending by name, the seed
+    /// and the version of modl. No planner is named.
     pub fn provenance(&self) -> Provenance {
         let mut sources: Vec<(String, String)> = self
             .shared
@@ -272,8 +272,8 @@ impl Interpreter<'_> {
         Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
     }
 
-    /// Returns the verdict on a plan under these settings, and under `world` if it is given, otherwise under
-    /// the plan's own worlds. A verdict is computed once and kept with the plan.
+    /// Returns the verdict on a plan under these settings, and from its start on under `world` if it is given,
+    /// otherwise under the plan's own worlds. A verdict is computed once and kept with the plan.
     pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
         let worlds = match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
@@ -339,8 +339,9 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the state of a plan's robot at one of these times within the plan, s; `None` for plans of lattices and
-/// trusses. `base` is the pose of its base, if it is known already.
+/// Returns the state of a plan's robot at `times[own]`, a time (s) within the plan; `None` for plans of lattices and
+/// trusses. `times`: those of all states that are made together; `base`: the pose of its base in the world, if it is
+/// known already.
 pub fn state_value(
     planned: &Rc<PlanValue>,
     times: &Rc<Vec<f64>>,
@@ -354,8 +355,8 @@ pub fn state_value(
     Some(StateValue { robot, body, state, time, planned, base, among })
 }
 
-/// Returns the corners of the support polygon of a robot that stands at rest in its start state, m, in the
-/// frame of its base.
+/// Returns the corners of the support polygon of a robot that stands at rest in its start state, counter-clockwise
+/// from above, m, in the frame of its base module's body; fewer than three if the contacts span no area.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
     crate::plan::verify::articulated::area(&robot.assembly, &robot.start)
 }

@@ -20,7 +20,8 @@ pub struct Recalled<C, B> {
     steps: u64,
 }
 
-/// The address of an object, which its calls keep alive, and the index of its behaviour.
+/// The key of a call: the address of the object, which the kept call keeps alive, and the index of its behaviour in
+/// the declaration.
 pub type CallKey = (usize, usize);
 
 impl<C, B> Default for Recalled<C, B> {
@@ -37,7 +38,7 @@ impl<C, B: Clone> Recalled<C, B> {
         known.iter().find(|(call, _)| is_same(call)).map(|(_, behavior)| behavior.clone())
     }
 
-    /// Remembers the behaviour that a call gave in so many evaluation steps; of one key at most 64 calls.
+    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key at most 64 calls.
     pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {

@@ -27,7 +27,7 @@ pub enum Record {
     State(StateValue),
     /// The assumptions about the surroundings, `World`.
     World(World),
-    /// A `Frame`: the positions of nodes, m, and struts by the indices of their nodes.
+    /// A `Frame`: the positions of nodes, m, and struts as pairs of indices of these.
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
     /// The `Rigidity` of a truss, given by its design.
     Rigidity(Rc<Design>),
@@ -102,7 +102,7 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    /// Returns the world poses of all links, by index in the kinematic tree.
+    /// Returns the world poses of all links, by their numbers in the kinematics.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
@@ -111,14 +111,14 @@ impl StateValue {
         poses
     }
 
-    /// Returns what the judge knows of this time; `None` where it did not get there. States that were made together
-    /// are asked for together.
+    /// Returns what `read` makes of the judge's quantities at this time; `None` where the judge did not get there.
+    /// States that were made together are computed together.
     pub fn judged<T>(&self, detail: Detail, read: impl FnOnce(&Instant) -> T) -> Option<T> {
         let (times, own) = &self.among;
         self.planned.instants(times, detail).get(*own).map(read)
     }
 
-    /// Returns the least distance of links that may not touch, m; `None` where no two such links are.
+    /// Returns the least signed distance of links that may not touch, m; `None` where there are no two such links.
     pub fn clearance(&self) -> Option<f64> {
         let (times, own) = &self.among;
         self.planned.clearances(times).get(*own).copied().flatten()
@@ -141,8 +141,8 @@ impl StateValue {
 /// Nodes, and struts by pairs of nodes.
 type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
 
-/// Returns the positions of the nodes (m) of a `Frame`, and its struts by the indices of their nodes; `None`
-/// for other values.
+/// Returns the positions of the nodes (m) of a `Frame`, and its struts as pairs of indices of these; `None` for other
+/// values.
 pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
     match value {
         Value::Record(record) => match &**record {

@@ -12,12 +12,13 @@ pub struct Robot {
     pub start: State,
     /// The kinematic tree of the links.
     pub kinematics: Kinematics,
-    /// The poses of all links in the start state, in the frame of the base module's body.
+    /// The poses of all links in the start state, by their numbers in the kinematics, in the frame of the base
+    /// module's body.
     pub poses: Vec<Pose>,
 }
 
 impl Robot {
-    /// Returns the number of the joint of a module or a bond. Panics if there is none.
+    /// Returns the number of the joint of a module or a bond among those of the assembly. Panics if there is none.
     pub fn joint_of(&self, owner: JointOwner) -> JointId {
         let index = joint_index(&self.kinematics, owner);
         JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
@@ -29,7 +30,8 @@ impl Robot {
         owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
     }
 
-    /// Returns the residual of each bond that closes a loop, in the start state; empty for a kinematic tree.
+    /// Returns the closure error of each bond that closes a loop, ascending by bond, in the start state; empty for a
+    /// kinematic tree.
     pub fn residuals(&self) -> Vec<Residual> {
         self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
     }
@@ -41,7 +43,8 @@ impl Robot {
     }
 }
 
-/// Returns the index of a joint among those of the kinematic tree. Panics if there is no such joint.
+/// Returns the number of a joint, from 0, among those of the assembly, as in a [`JointId`]. Panics if there is no such
+/// joint.
 pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
     match owner {
         JointOwner::Module { module, joint } => kinematics.joint(module, joint),

@@ -16,9 +16,9 @@ use std::rc::Rc;
 
 /// The arguments in the order of the parameters; `None`: the default is wanted.
 pub struct Args {
-    /// The arguments.
+    /// The arguments, in the order of the parameters; `None` where the default is wanted.
     pub values: Vec<Option<Value>>,
-    /// The span of each argument; that of the whole call for those left out.
+    /// The span of each argument, in the same order; that of the whole call for those left out.
     pub spans: Vec<Span>,
 }
 

@@ -21,7 +21,7 @@ pub struct Table {
 pub struct Column {
     /// The name of the field; that of a field of a record in a record is `outer.inner`, of a vector `field.x`.
     pub name: String,
-    /// The values, one for each record.
+    /// The values, one for each record in their order.
     pub cells: Vec<Value>,
 }
 
@@ -82,7 +82,8 @@ fn declared(value: &Value) -> Option<&DeclaredRecord> {
 }
 
 impl Column {
-    /// Returns the dimension of the column's quantities; `None` where it holds something else, or nothing.
+    /// Returns the dimension of the column's quantities, missing ones left out; `None` where it holds something else,
+    /// or nothing.
     pub fn dimension(&self) -> Option<Dimension> {
         let other = |cell: &Value| !matches!(cell, Value::Missing) && cell.as_dimension().is_none();
         if self.cells.iter().any(other) {
@@ -101,7 +102,8 @@ impl Column {
     }
 
     /// Returns the unit in which files hold the column, with its factor to SI: the one that suits it, if every value
-    /// comes back from its decimals exactly; else the base units.
+    /// comes back from its decimals exactly; else the base units. `None` for numbers and for other values, as
+    /// [`unit`](Self::unit).
     pub fn exact_unit(&self) -> Option<(String, f64)> {
         let (unit, factor) = self.unit()?;
         let mut finite = self.cells.iter().filter_map(Value::as_number).filter(|x| x.is_finite());
@@ -112,8 +114,8 @@ impl Column {
     }
 }
 
-/// Returns the number that gives a value in SI back when it is read in a unit of this factor: the shortest, if there is
-/// one of ten digits.
+/// Returns the number that gives `value` (SI) back to the bit when it is read in a unit of this factor to SI: the
+/// shortest, if there is one of ten digits; `None` if none of those near it does.
 pub fn in_unit(value: f64, factor: f64) -> Option<f64> {
     if factor == 1.0 {
         return Some(value);

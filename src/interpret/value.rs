@@ -46,7 +46,7 @@ pub enum Value {
     List(Rc<Vec<Value>>),
     /// A vector in SI units, with the one dimension of its components.
     Vec3(Vec3, Dimension),
-    /// A pose: position (m) and orientation.
+    /// A pose: position (m) and orientation, in the frame of the context.
     Pose(Rc<Pose>),
     /// A range `from..to` of two values.
     Range(Rc<(Value, Value)>),
@@ -99,7 +99,7 @@ pub enum Callable {
     Lambda {
         /// The body.
         body: Arc<Expr>,
-        /// The slots of the lambda's frame with their values from outside.
+        /// The variables of the lambda's frame that come from outside, each with its value.
         captured: Vec<(Local, Value)>,
         /// The number of slots of its frame.
         frame: usize,
@@ -129,14 +129,15 @@ pub struct JointValue {
     pub dimension: Dimension,
 }
 
-/// A port of a robot, the outermost one.
+/// A port of a robot, given by its module and its index. The robot is the outermost one, so that a port of a part is a
+/// port of the whole: `leg[2].m[0].top`.
 #[derive(Clone, Debug)]
 pub struct PortValue {
     /// The robot that has it.
     pub robot: Subject,
-    /// The index of the module in the robot.
+    /// The index of the module, from 0, among the modules of that robot in the order in which its parts list them.
     pub module: usize,
-    /// The index of the port in the module.
+    /// The index of the port, from 0, among the ports of the module's type, in the order of the declaration.
     pub port: usize,
 }
 
@@ -154,7 +155,7 @@ pub struct Behavior {
 pub struct BehaviorCall {
     /// The object that it is called of.
     pub object: Rc<Instance>,
-    /// The index of the behaviour in the declaration.
+    /// The index of the behaviour among those of the declaration, from 0.
     pub behavior: usize,
     /// The arguments; `None` where the default is wanted.
     pub args: Vec<Option<Value>>,
@@ -203,7 +204,7 @@ pub enum Measure {
     Margin,
     /// The least distance of links that may not touch, m.
     Clearance,
-    /// The normal force of the ground on these modules, N.
+    /// The normal force of the ground on the modules of these indices, N.
     GroundForce(Range<usize>),
     /// The distance of two ports, m.
     Separation(PortRef, PortRef),
@@ -379,9 +380,9 @@ impl Value {
         }
     }
 
-    /// Returns true if two values are equal, as `==` says; `None` where one is unknown, or where values of
-    /// these types can't be compared. Elements of lists and fields of records that can't be compared count as
-    /// different.
+    /// Returns true if two values are equal, as `==` says, false if they are not; `None` where one is unknown, or
+    /// where values of these types can't be compared. Elements of lists and fields of records that can't be compared
+    /// count as different.
     pub fn same(&self, other: &Value) -> Option<bool> {
         Comparison::default().same(self, other)
     }

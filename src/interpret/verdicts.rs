@@ -30,7 +30,8 @@ pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
 
-/// Returns a line for each worst value that there is, with its time and the bodies or joints concerned.
+/// Returns a line for each worst value that there is, in the order of the verdict's table, with its time and the
+/// bodies or joints concerned.
 pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     let line = |(kind, worst): (WorstKind, &Worst)| {
         let value = match kind.measure {
@@ -219,8 +220,8 @@ fn add_label(mut diagnostic: Diagnostic, span: Span, text: String) -> Diagnostic
     diagnostic
 }
 
-/// Returns the fault of a behaviour that gives no plan, at the action to blame if there is one, and at `span`.
-/// `ids`: the run's number of each cause, by the plan's number.
+/// Returns the fault of a behaviour that gives no plan, at the action to blame if there is one, and at `span`. `ids`:
+/// the run's number of each cause, indexed by the plan's number.
 pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], span: Span) -> Stop {
     let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
     let diagnostic = match refusal.cause {

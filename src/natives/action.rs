@@ -17,7 +17,7 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure(
         "move",

@@ -15,7 +15,7 @@ use crate::source::{Span, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("row", parameters![n: usize], |i, call| {
         block(i, call, [call.count("n", "a number of cells")?, 1, 1])

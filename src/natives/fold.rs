@@ -34,7 +34,7 @@ pub(super) const SEQUENCE: &str = "sequence";
 /// The parameter for a given layout.
 pub(super) const HINGES: &str = "hinges";
 
-/// The built-ins of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("fold", Arguments::PARAMETERS, fold),
     Native::on_run("random_orders", parameters![of: &Value, orders: usize, seed: usize], random_orders),

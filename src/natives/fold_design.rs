@@ -16,14 +16,15 @@ pub(super) struct Joined<'t> {
     pub target: &'t Target,
     /// The flat pattern.
     pub layout: &'t Layout,
-    /// The panels, by face.
+    /// The panels, by face: entry k is that of face k of the target.
     pub designs: &'t [Rc<Design>],
     /// The call that joins them.
     pub span: Span,
 }
 
 impl Joined<'_> {
-    /// Returns the configuration and its robot, whose own state is the folded one.
+    /// Returns the configuration and its robot, whose own state is the folded one. `panels`: those that the planner
+    /// was given.
     pub(super) fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
         let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
         let start = sheet.folded(self.target, self.layout);

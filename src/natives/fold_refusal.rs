@@ -10,7 +10,8 @@ use crate::source::{Diagnostic, code};
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
-/// Returns the fault of a refusal of `fold`; `causes`: the run's number of each cause of the plan.
+/// Returns the fault of a refusal of `fold`, at the arguments that it is about; `causes`: the run's number of each
+/// cause, indexed by the plan's number.
 pub(super) fn diagnostic(
     interpreter: &Interpreter,
     call: &Call,

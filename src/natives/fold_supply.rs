@@ -84,7 +84,8 @@ impl<'c> Supply<'c> {
         Err(self.call.refuse(self.module, why))
     }
 
-    /// Returns the panel of a face of the shape in argument `shape`; faces of equal sides share one.
+    /// Returns the panel of the face of this index of the target, the shape in argument `shape`; faces of equal sides
+    /// share one.
     ///
     /// # Errors
     /// A fault where the module can't be made with the sides of the face, or has other ones.
@@ -208,14 +209,15 @@ fn panel_of(
 
 /// The panels of all faces, as designs and as data of the planner.
 pub(super) struct Sheet {
-    /// The design of each panel, by face.
+    /// The design of each panel, by face: entry k is that of face k of the target.
     pub designs: Vec<Rc<Design>>,
     /// The panels as data of the planner.
     pub panels: Panels,
 }
 
 impl Sheet {
-    /// Returns the sheet of panels that are given by face; `key`: the argument that they came from.
+    /// Returns the sheet of panels that are given by face, in the order of the target's faces; `key`: the argument
+    /// that they came from.
     ///
     /// # Errors
     /// A fault where a module is broken, or the planner refuses the panels.
@@ -251,7 +253,7 @@ fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
 
 /// The faces that are made of a module without motors, so that two of them share no hinge.
 pub(super) struct Passive<'c> {
-    /// The numbers of the faces, the argument `passive`.
+    /// The indices of the faces, from 0: the argument `passive`.
     pub(super) faces: &'c [Value],
     /// The module, the argument `passive_module`; `None` if it is left out.
     pub(super) module: Option<&'c Rc<Instance>>,

@@ -7,7 +7,7 @@ use crate::interpret::value::Value;
 use crate::planners::fold::{Target, Unfoldable};
 use crate::source::{Diagnostic, code};
 
-/// Returns the shape in argument `key` as the surface of a folding.
+/// Returns the shape in argument `key` as the surface of a folding, m.
 ///
 /// # Errors
 /// A fault where it is no surface of triangles, or one that does not fold.

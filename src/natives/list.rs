@@ -9,7 +9,7 @@ use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use std::cmp::Ordering;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("len", parameters![list: &[Value]], |_, call| {
         Ok(Value::count(call.get::<&[Value]>("list")?.len()))

@@ -15,7 +15,7 @@ use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("abs", parameters![x: &Value], abs),
     Native::pure("sign", parameters![x: f64], sign),
@@ -121,7 +121,8 @@ fn extreme(call: &Call, wanted: Ordering) -> Eval<Value> {
     best.cloned().ok_or_else(|| call.refuse("values", "an empty list has neither least nor greatest"))
 }
 
-/// Returns the order of two numbers, exactly among whole numbers; `None` for other values, and for NaN.
+/// Returns the order of two numbers, in SI units if they are quantities, exactly among whole numbers; `None` for other
+/// values, and for NaN.
 pub(super) fn order(a: &Value, b: &Value) -> Option<Ordering> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Some(x.cmp(y)),

@@ -22,7 +22,7 @@ use crate::view;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("print", parameters![values: &[Value]], print),
     Native::on_run(
@@ -247,7 +247,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the path below the output folder that an argument names, and the name as it is written.
+/// Returns the path below the output folder that an argument names, and then the name as it is written.
 ///
 /// # Errors
 /// A fault where it leads out of the output folder, or names no file.

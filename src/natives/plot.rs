@@ -12,7 +12,7 @@ use crate::units::Dimension;
 use crate::view::plot::{self, Plot, PlotAxis, PlotKind, PlotSeries};
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[Native::pure(
     "plot",
     parameters![

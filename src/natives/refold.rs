@@ -37,7 +37,7 @@ arguments! {
     }
 }
 
-/// The built-ins of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub const TABLE: &[Native] = &[Native::on_run("refold", Arguments::PARAMETERS, refold)];
 
 impl ReportFields for Report {

@@ -16,7 +16,7 @@ use crate::units::Dimension;
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("order", parameters![of: &Rc<Instance>], |_, call| {
         Ok(Value::count(call.get::<&Rc<Instance>>("of")?.design.order()))

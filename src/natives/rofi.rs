@@ -19,7 +19,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("load", parameters![file: &str], load),
     Native::pure("tangle", parameters![n: usize, actions: usize, seed: usize], tangle),
@@ -252,8 +252,8 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     });
 }
 
-/// Returns the robot in the argument `what` as the data of a RoFI file; `None` if it can't be assembled, which
-/// has been reported.
+/// Returns the robot in the argument `what` as the data of a RoFI file, each module's id its index from 0; `None` if
+/// it can't be assembled, which has been reported.
 ///
 /// # Errors
 /// A fault where a module is no RoFI module.

@@ -17,7 +17,7 @@ use crate::planners::fold::{Net, Report};
 use crate::source::{Diagnostic, code};
 use crate::view::Side;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
 /// Runs `save`: writes a robot or a folding in the format that the ending of the name asks for.

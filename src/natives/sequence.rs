@@ -13,7 +13,7 @@ use crate::source::{Diagnostic, code};
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("reduce", parameters![list: &[Value], f: &Rc<Callable>, from: &Value], reduce),
     Native::pure("scan", parameters![list: &[Value], f: &Rc<Callable>, from: &Value], scan),

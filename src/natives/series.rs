@@ -20,7 +20,7 @@ use std::cell::OnceCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("torque", parameters![joint: &JointValue], effort),
     Native::pure("force", parameters![joint: &JointValue], effort),

@@ -20,7 +20,7 @@ macro_rules! solid_parameters {
     };
 }
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("box", solid_parameters![x: f64, y: f64, z: f64], cuboid),
     Native::pure("cylinder", solid_parameters![radius: f64, length: f64, axis: Vec3], cylinder),
@@ -134,7 +134,7 @@ fn axis(call: &Call, name: &str) -> Eval<Vec3> {
     axis.try_normalize(0.0).ok_or_else(|| call.refuse(name, "the axis must not be zero"))
 }
 
-/// Returns the points of the list in the argument `name`.
+/// Returns the points of the list in the argument `name`, in its order, m.
 ///
 /// # Errors
 /// A fault where something else is in the list.

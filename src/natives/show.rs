@@ -27,7 +27,7 @@ use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[Native::on_run(
     "show",
     parameters![
@@ -76,7 +76,7 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the plot that a value is, if it is one.
+/// Returns the plot that a value is; `None` for any other value.
 pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
     let Value::Record(record) = value else { return None };
     let Record::Native(record) = &**record else { return None };
@@ -84,7 +84,7 @@ pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
     record.downcast_ref::<PlotValue>().map(PlotValue::plot)
 }
 
-/// Returns a plot as a picture; `None` in a form that plots do not have.
+/// Returns a plot as a picture, the bytes of a file; `None` in a form that plots do not have ([`Form::Page`]).
 pub(super) fn picture_of(interpreter: &Interpreter, plot: &Plot, form: Form) -> Option<Vec<u8>> {
     match form {
         Form::Page => None,
@@ -156,6 +156,9 @@ impl Interpreter<'_> {
 
     /// Draws every configuration, lattice and truss of the project's own files, with its defaults, for a
     /// program that draws nothing itself. Faults are reported.
+    ///
+    /// # Errors
+    /// A halt.
     pub(super) fn draw_declarations(&mut self) -> Eval<()> {
         let program = self.shared.program;
         for &def in &program.own {

@@ -20,7 +20,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub const TABLE: &[Native] = &[Native::on_run("squeeze", SqueezeArguments::PARAMETERS, squeeze)];
 
 arguments! {

@@ -24,7 +24,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The natives of this file.
+/// The built-ins whose bodies stand in this file; their order means nothing.
 pub const TABLE: &[Native] = &[
     Native::on_run("morph", MorphArguments::PARAMETERS, morph),
     Native::on_run("locomote", LocomoteArguments::PARAMETERS, locomote),

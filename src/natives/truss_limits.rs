@@ -21,7 +21,7 @@ arguments! {
     }
 }
 
-/// Returns the limits of the arguments, with struts by their indices.
+/// Returns the limits of the arguments, with struts by their indices in the truss.
 ///
 /// # Errors
 /// A fault where the truss has no strut of a name, or a strut is named twice.
