@@ -19,19 +19,20 @@ const WIDENED_MAX: usize = 1_000;
 /// The first words of the error that a lambda's result is of another type.
 const RESULT_WANTS: &str = "the function's result wants";
 
-/// The types and dimensions bound to the type parameters of a built-in in one call.
+/// The types and dimensions bound to the type parameters of a function in one call. Its three lists have one entry for
+/// each type parameter, in order.
 #[derive(Clone, Default)]
 pub(super) struct Bindings {
-    /// The type of each parameter, once bound.
+    /// The type of each parameter; `None` until one is bound, and for a dimension parameter.
     pub(super) types: Vec<Option<Type>>,
-    /// The dimension of each parameter, once bound.
+    /// The dimension of each parameter; `None` until one is bound, and for a parameter that is a type.
     pub(super) dimensions: Vec<Option<Dimension>>,
-    /// The bound of each parameter.
+    /// The bound of each parameter: the types that it may stand for.
     pub(super) bounds: Vec<Bound>,
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a lambda against a type with type parameters, and binds them.
+    /// Checks a lambda against the type of a parameter, which has type parameters, and binds them.
     ///
     /// Its result may not fit what the arguments before it have bound, as in `reduce(list, (a, x) => a + x, from: 0)`
     /// over numbers: then the parameter is bound anew to what both fit, and the lambda is checked again with it.
@@ -79,7 +80,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does.
+    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does. After false some
+    /// parameters may be bound anew.
     pub(super) fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
         match (pattern, got) {
             (_, Type::Error) => true,
@@ -164,7 +166,8 @@ impl Bindings {
         bindings
     }
 
-    /// Returns a type with the bound parameters substituted.
+    /// Returns a type with the bound parameters substituted; unbound ones stay. [`Type::Error`] stands for a quantity
+    /// whose power of a dimension is too large.
     pub(super) fn apply(&self, ty: &Type) -> Type {
         let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
         match ty {

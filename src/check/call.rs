@@ -29,7 +29,7 @@ enum Callee {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a call.
+    /// Checks a call, and returns it typed; `want` is the type expected of its result, `None` if any will do.
     pub(super) fn call(
         &mut self,
         scope: &mut Scope,
@@ -156,8 +156,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the item `gaits.caterpillar` of an imported file. `None` if the object is no file name;
-    /// [`Entity::Error`] if the file has no such item (reported).
+    /// Returns the item `gaits.caterpillar` of an imported file; [`Entity::Error`] if the file has no such item
+    /// (reported). `None` if the object is no name of an imported file.
     pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
@@ -296,7 +296,8 @@ impl<'a> Checker<'a> {
         expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed })
     }
 
-    /// Returns checked arguments in the order of the parameters; `None` for one that is left out.
+    /// Returns checked arguments in the order of the parameters of `signature`; `None` for one that is left out.
+    /// Reports mistakes under the name of the function, `name`.
     pub(super) fn arguments_of(
         &mut self,
         scope: &mut Scope,
@@ -425,7 +426,7 @@ impl<'a> Checker<'a> {
         (out, bindings)
     }
 
-    /// Reports an argument whose name is that of no parameter.
+    /// Reports an argument of `function` whose name is that of no parameter.
     pub(super) fn no_parameter(&mut self, function: Symbol, name: ast::Name, signature: &Signature) {
         let names: Vec<&str> = signature.params.iter().map(|p| p.name.as_str()).collect();
         let what = if signature.fields { "field" } else { "parameter" };
@@ -475,7 +476,8 @@ impl<'a> Checker<'a> {
         self.bind_argument(got, &param.ty, param.name, bindings)
     }
 
-    /// Checks that an argument fits a type with type parameters, and binds them.
+    /// Checks that an argument fits the type `pattern` of the parameter `name`, and binds the type parameters in it.
+    /// Returns the argument, as an error if it does not fit (reported).
     pub(super) fn bind_argument(
         &mut self,
         got: Expr,
@@ -550,8 +552,8 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Gives the arguments of parameters with type parameters the dimensions that these were bound to in the end: an argument
-/// may have been checked before a later one bound them anew.
+/// Gives the arguments of parameters with type parameters the dimensions that these were bound to in the end: an
+/// argument may have been checked before a later one bound them anew.
 fn in_bound_dimensions(args: &mut [Option<Expr>], params: &[ParamInfo], bindings: &Bindings) {
     for (arg, param) in args.iter_mut().zip(params).filter(|(_, param)| has_params(&param.ty)) {
         let ty = bindings.apply(&param.ty);

@@ -32,17 +32,27 @@ pub(super) enum Entity {
 pub(super) enum DefItem<'a> {
     /// A constant: `let`.
     Let(&'a ast::Let),
+    /// A function: `fn`.
     Fn(&'a ast::Fn),
+    /// A built-in function: `extern fn`.
     Native(&'a ast::ExternFn),
-    /// A method of the record.
+    /// A method: an `extern fn` in an `extern type`, the record whose identity is the second.
     Method(&'a ast::ExternFn, DefId),
+    /// A record: `record`.
     Record(&'a ast::Record),
+    /// A record type of the standard library: `extern type`.
     ExternType(&'a ast::ExternType),
+    /// A connector: `connector`.
     Connector(&'a ast::Connector),
+    /// A module: `module`.
     Module(&'a ast::Module),
+    /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
     Facts(&'a ast::Facts),
+    /// A configuration: `config`.
     Config(&'a ast::Config),
+    /// A lattice: `lattice`.
     Lattice(&'a ast::Lattice),
+    /// A truss: `truss`.
     Truss(&'a ast::Truss),
     /// A vacant definition, reserved for a later declaration.
     Vacant,
@@ -56,19 +66,19 @@ pub(super) struct DefInfo<'a> {
     pub span: Span,
     /// The span of the whole declaration.
     pub whole: Span,
-    /// Its file, an index into the loaded files.
+    /// Its file, an index into [`Loaded::files`](super::load::Loaded::files).
     pub file: usize,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
     /// Its tree.
     pub item: DefItem<'a>,
-    /// Its signature, once computed.
+    /// Its signature; `None` until it is computed.
     pub signature: Option<Rc<Signature>>,
-    /// Its members, once computed.
+    /// Its members; `None` until they are computed.
     pub members: Option<Rc<Members<'a>>>,
-    /// Its typed body, once computed.
+    /// Its typed body; `None` until it is checked.
     pub typed: Option<DefKind>,
-    /// The type of a `let`, or the inferred result of a `fn`, once computed.
+    /// The type of a `let`, or the inferred result of a `fn`; `None` until it is computed.
     pub inferred: Option<Type>,
     /// True while its body is being checked; needing it then is a cycle.
     pub busy: bool,
@@ -77,18 +87,18 @@ pub(super) struct DefInfo<'a> {
 /// The signature of a declaration that can be called.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Signature {
-    /// The parameters, in order.
+    /// The parameters, in order; of a method the object comes first.
     pub params: Vec<ParamInfo>,
     /// The declared result, [`Type::Nothing`] for an `extern fn` without one; `None` if it is inferred from the
     /// body.
     pub result: Option<Type>,
-    /// The type parameters of an `extern fn`.
+    /// The type parameters, in order; empty for what is no function.
     pub type_params: Vec<TypeParam>,
     /// True if the parameters are the fields of a record, which are given by name.
     pub fields: bool,
 }
 
-/// A type parameter of an `extern fn`.
+/// A type parameter of a function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TypeParam {
     /// Its name.
@@ -137,17 +147,17 @@ impl ParamInfo {
 pub(super) struct Members<'a> {
     /// All members by [`MemberId`].
     pub list: Vec<MemberInfo<'a>>,
-    /// The members by name.
+    /// The members by name; a member's name is in it once.
     pub index: HashMap<Symbol, MemberId>,
-    /// The joints; modules only.
+    /// The joints, in the order of the text; modules only.
     pub joints: Vec<JointInfo<'a>>,
-    /// Joints by name, aliases included.
+    /// The indices in `joints` by name, aliases included.
     pub joint_index: HashMap<Symbol, usize>,
-    /// The ports, arrays as one; modules only.
+    /// The ports, in the order of the text, an array as one; modules only.
     pub ports: Vec<PortInfo>,
-    /// Ports by name, aliases included.
+    /// The indices in `ports` by name, aliases included.
     pub port_index: HashMap<Symbol, usize>,
-    /// The behaviours; configurations only.
+    /// The behaviours, in the order of the text; configurations only.
     pub behaviors: Vec<BehaviorInfo<'a>>,
 }
 
@@ -195,7 +205,7 @@ pub(super) struct JointInfo<'a> {
     pub clause: &'a ast::ModuleClauseKind,
     /// A further clause `joint b = -a` by which a joint between links follows others; `None` if there is none.
     pub follows: Option<&'a ast::ModuleClauseKind>,
-    /// The dimension of its position.
+    /// The dimension of its position: an angle or a length.
     pub dimension: crate::units::Dimension,
 }
 
@@ -227,13 +237,13 @@ pub(super) struct Checker<'a> {
     pub loaded: &'a Loaded,
     /// The texts.
     pub sources: &'a Sources,
-    /// All declarations, by [`DefId`].
+    /// All declarations, by [`DefId`]: the index is the number in it.
     pub defs: Vec<DefInfo<'a>>,
     /// The scope of each file; entries of a session use that of the first entry.
     scopes: Vec<HashMap<Symbol, Entity>>,
     /// The index of the file whose scope the entries of a session share; `None` outside of a session.
     shared: Option<usize>,
-    /// The spans at which declarations are named.
+    /// The spans at which declarations are named, each with the declaration, in the order of checking.
     pub uses: RefCell<Vec<(Span, DefId)>>,
     /// The values of members' `let`s, once checked; `None` while one is being checked.
     pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
@@ -243,7 +253,8 @@ pub(super) struct Checker<'a> {
     pub diagnostics: Vec<Diagnostic>,
     /// The number of declarations being checked, each needed by the one before.
     pub open_declarations: usize,
-    /// The number of lambdas within each other that are being checked for a wider binding of a type parameter.
+    /// The number of lambdas within each other, now open, that are being checked for a wider binding of a type
+    /// parameter.
     pub widening: u8,
 }
 
@@ -265,12 +276,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the state of a declaration.
+    /// Returns the state of a declaration. Panics if the identity is of another program.
     pub(super) fn def(&self, id: DefId) -> &DefInfo<'a> {
         &self.defs[id.0 as usize]
     }
 
-    /// Returns the state of a declaration, to change it.
+    /// Returns the state of a declaration, to change it. Panics if the identity is of another program.
     pub(super) fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
         &mut self.defs[id.0 as usize]
     }
@@ -280,7 +291,8 @@ impl<'a> Checker<'a> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Returns the entity of a name at the top of a file, the prelude included; `None` for an unknown name.
+    /// Returns the entity of a name at the top of a file (an index into the loaded files), the prelude included;
+    /// `None` for an unknown name.
     pub(super) fn entity(&self, file: usize, name: Symbol) -> Option<Entity> {
         let own = self.top(file).get(&name).copied();
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
@@ -296,7 +308,7 @@ impl<'a> Checker<'a> {
         found
     }
 
-    /// Returns the names at the top of a file, without the prelude.
+    /// Returns the names at the top of a file, without the prelude, with their entities.
     pub(super) fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
         &self.scopes[self.scope_index(file)]
     }
@@ -320,7 +332,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the names visible at the top of a file.
+    /// Returns the names visible at the top of a file, the prelude's included, in no order.
     pub(super) fn visible_names(&self, file: usize) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
         if let Some(prelude) = self.loaded.prelude {
@@ -425,7 +437,7 @@ impl<'a> Checker<'a> {
         DefId(self.defs.len() as u32 - 1)
     }
 
-    /// Reports a name declared twice.
+    /// Reports a name declared at both spans.
     pub(super) fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
         self.report(
             Diagnostic::error(code::DECLARED_TWICE, format!("`{name}` is declared twice"))
@@ -514,7 +526,8 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns the typed program and the diagnostics, once every declaration has been checked.
+    /// Returns the typed program and the diagnostics in the order of discovery, once every declaration has been
+    /// checked; one that has not is an error in it.
     pub(super) fn finish(
         self,
         statements: typed::Body,

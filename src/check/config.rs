@@ -287,7 +287,8 @@ impl<'a> Checker<'a> {
         self.coerce(port, &Type::Port, Role::Place("`connect`"))
     }
 
-    /// Returns `body.side[i]` as an expression; every prefix has its own span.
+    /// Returns `body.side[i]` as a checked expression; every prefix has its own span. `want` is the type expected of
+    /// the whole.
     pub(super) fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
         let last = path.steps.len();
         let root_want = if last == 0 { want } else { None };
@@ -335,7 +336,8 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, name, chosen.as_ref().or(want))
     }
 
-    /// Returns a `port` clause of a configuration as a member.
+    /// Returns a `port` clause of a configuration as a member; `array` is true where the clause names an array. Panics
+    /// on another clause.
     pub(super) fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
         let ConfigClauseKind::Port { name, count, value } = clause else {
             unreachable!("only port clauses are ports")

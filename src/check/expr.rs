@@ -50,14 +50,16 @@ pub(super) fn error_expr(span: Span) -> Expr {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks an expression that must fit the type `want`; reports a mismatch.
+    /// Checks an expression that must fit the type `want`, in a context that messages name by `role`; reports a
+    /// mismatch, and returns an error.
     pub(super) fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
         let got = self.expr(scope, e, Some(want));
         self.coerce(got, want, role)
     }
 
-    /// Returns an expression as one of the type `want`: drops radians, and shows energies and torques as `want` does;
-    /// reports a mismatch.
+    /// Returns an expression as one of the type `want`, in a context that messages name by `role`: drops the radians
+    /// of a quantity where `want` has none, and shows energies and torques as `want` does. Reports a mismatch, and
+    /// returns an error.
     pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
@@ -106,7 +108,8 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks an expression; `want` is the expected type, which decides words, optional values and lists.
+    /// Checks an expression, and returns it typed, or as an error after a report. `want` is the expected type, which
+    /// decides words, optional values and lists; `None` if any will do.
     pub(super) fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
         use ast::ExprKind as K;
         let span = e.span;

@@ -13,7 +13,7 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a `cell` or `strut`.
+    /// Checks a `cell` or `strut`: each fact of its family is stated, once, with a value of its dimension.
     pub(super) fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
         let known = Family::from(facts.family).facts();
         let signature = self.signature(id);

@@ -102,8 +102,7 @@ impl Family {
         }
     }
 
-    /// Returns the facts that its declarations state, in a fixed order; none for families with a body of
-    /// clauses.
+    /// Returns the facts that its declarations state, in a fixed order; empty for families with a body of clauses.
     pub fn facts(self) -> &'static [Fact] {
         match self {
             Family::Cell => CELL,
@@ -126,9 +125,9 @@ impl From<FactsFamily> for Family {
 pub struct Instantiable<'p> {
     /// The family.
     pub family: Family,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: &'p [Param],
-    /// The parameters, and what the body names.
+    /// The parameters, and what the body names; a [`MemberId`](super::typed::MemberId) is an index into them.
     pub members: &'p [Member],
     /// The number of slots of the frame in which the expressions of the body and of defaults run.
     pub frame: usize,

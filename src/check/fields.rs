@@ -13,8 +13,8 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Returns the member, joint or port that a bare name stands for in the body of `this`; `None` if it names
-    /// none.
+    /// Returns the member, joint or port that a bare name stands for in the body of `this`; `want` decides between a
+    /// joint and a port of one name. `None` if it names none.
     pub(super) fn own_member(
         &mut self,
         this: DefId,
@@ -33,7 +33,7 @@ impl<'a> Checker<'a> {
         Some(self.field_of(span, object, ast::Name { text: name, span }, want))
     }
 
-    /// Checks `object.name`.
+    /// Checks `object.name`; `want` decides between a joint and a port of one name.
     pub(super) fn field(
         &mut self,
         scope: &mut Scope,
@@ -77,7 +77,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the field of a checked object, by the type of the object.
+    /// Returns the field of a checked object, by the type of the object; reports a field that it does not have, and
+    /// returns an error.
     pub(super) fn field_of(
         &mut self,
         span: Span,
@@ -258,7 +259,8 @@ impl<'a> Checker<'a> {
         self.prelude_def("plan").and(self.prelude_def("Plan"))
     }
 
-    /// Returns the expression `plan(behavior)`.
+    /// Returns the expression `plan(behavior)`. Panics if the prelude could not be read; [`Checker::plan_record`]
+    /// tells.
     pub(super) fn planned(&mut self, behavior: Expr) -> Expr {
         let def = self.prelude_def("plan").expect("the prelude declares what its record comes from");
         let record = self.prelude_def("Plan").expect("the prelude declares what `plan` gives");

@@ -111,7 +111,8 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
-    /// Returns the parameters with their defaults; binds each as a local if the body has no members.
+    /// Returns the parameters `infos` with their defaults, written in `asts`: of a method, whose object is the first
+    /// parameter, `asts` has one fewer. Each is bound as a local if `bind` is true, for a body without members.
     pub(super) fn typed_params(
         &mut self,
         scope: &mut Scope,
@@ -135,7 +136,8 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Returns the type of a top-level `let`; `at` is the span that needs it.
+    /// Returns the type of a top-level `let`; `at` is the span that needs it, `None` if it is not needed by another
+    /// declaration. A cycle of needs is reported.
     pub(super) fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
             let scope = Scope::new(self.def(id).file, None);
@@ -148,7 +150,8 @@ impl<'a> Checker<'a> {
         self.inferred_by_body(id, at)
     }
 
-    /// Returns the result type of a function; `at` is the span that needs it.
+    /// Returns the result type of a function; `at` is the span that needs it, `None` if it is not needed by another
+    /// declaration. A cycle of needs is reported.
     pub(super) fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         match self.signature(id).result.clone() {
             Some(ty) => ty,
@@ -195,7 +198,7 @@ impl<'a> Checker<'a> {
         self.def(id).inferred.clone().unwrap_or(Type::Error)
     }
 
-    /// Checks the body of a declaration, once.
+    /// Checks the body of a declaration, once: does nothing if that is done, or going on.
     pub(super) fn check_def(&mut self, id: DefId) {
         if self.def(id).typed.is_some() || self.def(id).busy {
             return;
@@ -343,7 +346,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks statements in the current scope.
+    /// Checks statements in the current scope, and returns those that can be run, in order.
     pub(super) fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
         let mark = scope.open();
         statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
@@ -416,7 +419,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks the statements and tests of the file that is run.
+    /// Checks the statements and tests of the file that is run (an index into the loaded files), and returns both in
+    /// order.
     pub(super) fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
         let mut scope = Scope::new(file, None);
         let mut statements = Vec::new();
@@ -439,7 +443,7 @@ impl<'a> Checker<'a> {
         (Body { statements, frame: scope.frame() }, tests)
     }
 
-    /// Returns the typed members of a declaration with instances.
+    /// Returns the typed members of a declaration with instances, by [`MemberId`].
     pub(super) fn typed_members(&mut self, id: DefId) -> Vec<super::typed::Member> {
         use super::checker::MemberInfoKind as I;
         use super::typed::MemberKind as M;

@@ -10,7 +10,7 @@ use crate::syntax::ast;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a list, or a vector where one is expected.
+    /// Checks a list, or a vector of three where `want` expects one.
     pub(super) fn list(
         &mut self,
         scope: &mut Scope,
@@ -70,7 +70,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::list(common), ExprKind::List(out))
     }
 
-    /// Checks a comprehension.
+    /// Checks a comprehension; `want` is the type expected of the list.
     pub(super) fn comprehension(
         &mut self,
         scope: &mut Scope,
@@ -125,7 +125,7 @@ impl<'a> Checker<'a> {
         (got, element)
     }
 
-    /// Checks a range.
+    /// Checks a range: its ends are two whole numbers, or two quantities of one dimension.
     pub(super) fn range(
         &mut self,
         scope: &mut Scope,
@@ -155,7 +155,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 
-    /// Checks an index expression.
+    /// Checks an index expression; `want` is the type expected of the element.
     pub(super) fn index(
         &mut self,
         scope: &mut Scope,
@@ -170,7 +170,7 @@ impl<'a> Checker<'a> {
         self.index_of(span, object, index)
     }
 
-    /// Returns `object[index]` for checked operands.
+    /// Returns `object[index]` for checked operands; reports an object without elements.
     pub(super) fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
         let element = match &object.ty {
             Type::List(t) => (**t).clone(),

@@ -11,7 +11,7 @@ use crate::units::Dimension;
 use crate::units::to_si;
 
 impl<'a> Checker<'a> {
-    /// Checks a number with its unit, and returns it in SI.
+    /// Checks a number with its unit, and returns it in SI units.
     pub(super) fn number(
         &mut self,
         scope: &Scope,
@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns a number without unit.
+    /// Returns a number without unit: whole without point and exponent, else a `Number`.
     pub(super) fn plain_number(&mut self, span: Span, text: &str) -> Expr {
         if !text.contains(['.', 'e', 'E']) {
             return match text.parse::<i64>() {
@@ -80,7 +80,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a number that is too large.
+    /// Reports a number that is too large, and returns an error.
     pub(super) fn bad_number(&mut self, span: Span) -> Expr {
         self.report(
             Diagnostic::error(code::BAD_NUMBER, "this number is too large")
@@ -179,7 +179,7 @@ fn shown_dimension(ty: &Type) -> Option<Dimension> {
     }
 }
 
-/// Returns a value times unit factors, each raised to its power.
+/// Returns a value in SI units: times the factors of its units, each as (factor to SI, power).
 pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     factors.iter().fold(value, |value, (factor, power)| {
         let times = power.unsigned_abs();
@@ -187,7 +187,7 @@ pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     })
 }
 
-/// Returns the unit vector of an axis.
+/// Returns the unit vector of an axis, three plain numbers.
 pub(super) fn direction(span: Span, axis: ast::Axis) -> Expr {
     let one = |on: bool| expr_of(span, Type::NUMBER, ExprKind::Number(if on { 1.0 } else { 0.0 }));
     let parts = [ast::Axis::X, ast::Axis::Y, ast::Axis::Z].map(|a| one(a == axis));

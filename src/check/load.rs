@@ -15,8 +15,8 @@ pub(super) struct LoadedFile {
     pub imports: Vec<Import>,
     /// True for an entry of a session: all entries have one scope.
     pub entry: bool,
-    /// The declaration that `_` stands for in an entry: the value of the last expression before it, if there is
-    /// one.
+    /// The name of the declaration that `_` stands for in an entry: the value of the last expression before it. `None`
+    /// in files, and if there is no such value.
     pub last: Option<Symbol>,
 }
 
@@ -34,9 +34,9 @@ pub(super) struct Import {
 /// The target of an import.
 #[derive(Clone, Copy)]
 pub(super) enum ImportTarget {
-    /// Everything in a file, by `name.item`.
+    /// Everything in a file, by `name.item`: an index into [`Loaded::files`].
     File(usize),
-    /// One item of a file; the span is that of the item's name in the `use`.
+    /// One item of a file, an index into [`Loaded::files`]; the span is that of the item's name in the `use`.
     Item { file: usize, item: Symbol, span: Span },
     /// A failed import that has been reported.
     Error,
@@ -64,7 +64,7 @@ pub struct Entry {
     pub name: String,
     /// Its text.
     pub text: String,
-    /// The line of a longer input at which it begins; 1 if there is none.
+    /// The line, from 1, of a longer input at which it begins; 1 if it is the whole input.
     pub first_line: usize,
     /// The name under which the value of its last expression is declared; `None` if it is not.
     pub value: Option<Symbol>,
@@ -109,7 +109,8 @@ impl FilePlace {
     }
 }
 
-/// Loads `root` with all that it imports, and the prelude.
+/// Loads `root`, a path of the project, with all that it imports, and the prelude. Returns the files with their texts
+/// and the diagnostics; what cannot be read is reported.
 pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();
@@ -123,7 +124,8 @@ pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagn
     loader.finish(root, prelude)
 }
 
-/// Loads the entries of a session with all that they import, and the prelude.
+/// Loads the entries of a session, in order, with all that they import, and the prelude. Returns the files with their
+/// texts and the diagnostics; what cannot be read is reported.
 pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();

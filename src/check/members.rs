@@ -251,7 +251,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the type of a member as seen from outside; `at` is the span that needs it.
+    /// Returns the type of a member as seen from outside; `at` is the span that needs it, `None` if no other
+    /// declaration does.
     pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -286,7 +287,8 @@ impl<'a> Checker<'a> {
         matches!(self.family(id), Some(Family::Module | Family::Config))
     }
 
-    /// Checks the value of a `let` in a body, once, in a scope of its own.
+    /// Returns the value of a `let` in a body, checked once, in a scope of its own; `at` is the span that needs it,
+    /// `None` if no other declaration does. A value that needs itself is reported. Panics if the member is no `let`.
     pub(super) fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -307,7 +309,7 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Records the size of the frame of a member's expression; the largest counts.
+    /// Records the size of the frame of a member's expression, in slots; the largest counts.
     pub(super) fn note_frame(&mut self, id: DefId, size: usize) {
         let known = self.member_frames.entry(id).or_default();
         *known = size.max(*known);
@@ -318,7 +320,7 @@ impl<'a> Checker<'a> {
         self.member_frames.get(&id).copied().unwrap_or(0)
     }
 
-    /// Reports a declaration that needs itself.
+    /// Reports a declaration that needs itself; `at` is the span that needs it, `None` for the declaration's own.
     pub(super) fn declaration_cycle(&mut self, name: Symbol, span: Span, at: Option<Span>) {
         let mut d = Diagnostic::error(code::DECLARATION_CYCLE, format!("`{name}` needs itself"))
             .label(at.unwrap_or(span), "needed here while it is being worked out");

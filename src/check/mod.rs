@@ -57,7 +57,7 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// The spans at which declarations are named, each with the declaration, in no order.
     pub uses: Vec<(Span, DefId)>,
-    /// The texts that are entries of a session, in order.
+    /// The texts that are entries of a session, oldest first; empty for a file.
     pub entries: Vec<FileId>,
     /// The names visible at the top of the file that is run with their meanings, the prelude's included, sorted
     /// by name.

@@ -12,7 +12,8 @@ use crate::units::is_unit;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a name used as a value.
+    /// Checks a name used as a value: a word of the choice `want`, a local, a member of the body, or a declaration, in
+    /// this order. Reports an unknown one.
     pub(super) fn name_expr(
         &mut self,
         scope: &mut Scope,
@@ -53,7 +54,8 @@ impl<'a> Checker<'a> {
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
-    /// Checks `_`: the last value of a session, or the missing value of an optional type.
+    /// Checks `_`: the last value of a session, or the missing value where `want` is an optional type. Reports one
+    /// that has no value.
     pub(super) fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
         if let Some(name) = self.last_value(scope, want) {
             return self.name_expr(scope, span, name, want);
@@ -77,7 +79,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports an unknown name, with suggestions.
+    /// Reports an unknown name, with suggestions, and returns an error; a word where `want` is a choice.
     pub(super) fn unknown_name(
         &mut self,
         scope: &Scope,
@@ -120,7 +122,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Returns the path of a file of the program that declares a public name, if both files are at the top of
+    /// Returns the path of another file of the program that declares a public name, if it and `file` are at the top of
     /// the project; otherwise `None`.
     pub(super) fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
         let public = !name.as_str().starts_with('_');
@@ -139,7 +141,7 @@ impl<'a> Checker<'a> {
         others.find_map(|other| own(other).then(|| path(other)).flatten().filter(beside))
     }
 
-    /// Returns a declaration used as a value.
+    /// Returns a declaration used as a value; `span` is that of its name. Reports one that is none.
     pub(super) fn def_value(&mut self, id: DefId, span: Span) -> Expr {
         match self.def(id).item {
             DefItem::Let(_) => {
@@ -177,7 +179,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the instance with all defaults, for a type name where an instance is expected.
+    /// Returns the instance with all defaults, for a type name where an instance is expected. Reports parameters that
+    /// have no default.
     pub(super) fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
         let missing: Vec<String> = signature
@@ -203,7 +206,8 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Instance(id), ExprKind::Instance { def: id, args })
     }
 
-    /// Returns the names of members, joints and ports of a declaration, for suggestions.
+    /// Returns the names of members, joints and ports of a declaration, aliases included, in no order, for
+    /// suggestions.
     pub(super) fn member_names(&mut self, id: DefId) -> Vec<&'static str> {
         let members = self.members(id);
         let list = members.list.iter().map(|m| m.name);
@@ -213,7 +217,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the choice of an expected type; `None` if it is none.
+/// Returns the choice that an expected type is, or is an optional one of; `None` if it is none.
 pub(super) fn choice_of(want: &Type) -> Option<&super::types::Choice> {
     match want {
         Type::Optional(inner) => choice_of(inner),

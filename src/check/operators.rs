@@ -12,7 +12,7 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a unary operator.
+    /// Checks a unary operator; `want` is the type expected of the result.
     pub(super) fn unary(
         &mut self,
         scope: &mut Scope,
@@ -50,7 +50,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a binary operator.
+    /// Checks a binary operator, given with its span, and its operands (left, right); `want` is the type expected of
+    /// the result. Reports operands that it does not take.
     pub(super) fn binary(
         &mut self,
         scope: &mut Scope,

@@ -66,7 +66,7 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks a call that builds a record: `Design(bend: 30deg)`.
+    /// Checks a call that builds the record `id`: `Design(bend: 30deg)`. Reports fields that are not given by name.
     pub(super) fn build_record(
         &mut self,
         scope: &mut Scope,
@@ -109,7 +109,7 @@ impl<'a> Checker<'a> {
         format!("{}({})", self.def(id).name, fields.join(", "))
     }
 
-    /// Checks `object with { field: value }`.
+    /// Checks `object with { field: value }`. Reports an object that is no record, and fields that it does not have.
     pub(super) fn with(
         &mut self,
         scope: &mut Scope,
@@ -170,8 +170,9 @@ impl<'a> Checker<'a> {
         );
     }
 
-    /// Returns the reason that values of a type can't be compared for equality: a field of a record with its
-    /// type, or the type itself under an empty name; `None` if they can.
+    /// Returns the reason that values of a type can't be compared for equality, as (path of the field, its type): the
+    /// path, such as `a.b`, leads to a field of a record, and is empty if the type itself is the reason. `None` if
+    /// they can be compared.
     pub(super) fn incomparable(&mut self, ty: &Type) -> Option<(String, Type)> {
         self.incomparable_within(ty, &mut Vec::new())
     }

@@ -11,7 +11,7 @@ pub(super) struct Scope {
     pub file: usize,
     /// The declaration with instances in whose body the expression is; `None` elsewhere.
     pub this: Option<DefId>,
-    /// The type parameters of the `extern fn` being checked.
+    /// The type parameters of the function being checked, in order; empty elsewhere.
     pub type_params: Vec<TypeParam>,
     /// True in the body of the function that has them, where they are types of which nothing is known.
     pub in_body: bool,
@@ -69,14 +69,15 @@ impl Scope {
         }
     }
 
-    /// Adds a local to the innermost scope.
+    /// Adds a local to the innermost scope, and returns its slot.
     pub(super) fn bind(&mut self, name: Symbol, ty: Type) -> Local {
         let local = self.frame.slot();
         self.frame.locals.push(Binding { name, local, ty });
         local
     }
 
-    /// Opens an inner scope, and returns the mark at which [`Scope::close`] closes it.
+    /// Opens an inner scope, and returns the mark at which [`Scope::close`] closes it: the numbers of locals and of
+    /// slots taken.
     pub(super) fn open(&self) -> (usize, u32) {
         (self.frame.locals.len(), self.frame.next)
     }
@@ -105,7 +106,8 @@ impl Scope {
         self.outer.push(std::mem::take(&mut self.frame));
     }
 
-    /// Ends the frame of a lambda, and returns its size and its captures as (outer local, inner local).
+    /// Ends the frame of a lambda, and returns its size in slots and its captures as (outer local, inner local).
+    /// Panics if no lambda was entered.
     pub(super) fn leave_lambda(&mut self) -> (usize, Vec<(Local, Local)>) {
         let outer = self.outer.pop().expect("a lambda was entered");
         let frame = std::mem::replace(&mut self.frame, outer);
@@ -146,7 +148,7 @@ impl Scope {
         self.local_type(name).is_some()
     }
 
-    /// Returns the names of all locals in scope.
+    /// Returns the names of all locals in scope, those around a lambda included; a name that is shadowed comes twice.
     pub(super) fn local_names(&self) -> impl Iterator<Item = &'static str> + '_ {
         let frames = std::iter::once(&self.frame).chain(&self.outer);
         frames.flat_map(|frame| &frame.locals).map(|b| b.name.as_str())

@@ -23,12 +23,19 @@ pub(crate) struct Inside {
 pub(crate) enum Group {
     /// A parameter; the signature shows it, too.
     Parameter,
+    /// A joint of a module.
     Joint,
+    /// A port, or an array of ports.
     Port,
+    /// A part of a configuration, or a list of parts.
     Part,
+    /// A `let` at the top of a body.
     Let,
+    /// A behaviour of a configuration.
     Behavior,
+    /// A field of a record.
     Field,
+    /// A method of a record.
     Method,
 }
 
@@ -103,7 +110,7 @@ pub(crate) fn param_text(program: &Program, param: &Param) -> String {
     format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
 }
 
-/// Returns the parameters of a declaration that can be called; empty for others.
+/// Returns the parameters of a declaration that can be called, in order; empty for others.
 pub(crate) fn params_of(program: &Program, id: DefId) -> &[Param] {
     match &program.def(id).kind {
         DefKind::Fn(function) => &function.params,

@@ -43,7 +43,7 @@ fn plain(name: &str) -> Option<Type> {
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
 
 impl<'a> Checker<'a> {
-    /// Checks a type as written.
+    /// Returns a type as written; reports an unknown one, for which [`Type::Error`] stands.
     pub(super) fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
         match &ty.kind {
             TypeKind::Error => Type::Error,
@@ -102,8 +102,8 @@ impl<'a> Checker<'a> {
         if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty }
     }
 
-    /// Returns the dimension of a unit and its factors to SI, each with its exponent; `None` (and a diagnostic)
-    /// for an unknown unit.
+    /// Returns the dimension of a unit and its factors as (factor to SI, exponent), in the order of the text; `None`,
+    /// after a report, for an unknown unit or too large a power.
     pub(super) fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
         let mut dimension = Dimension::NUMBER;
         let mut factors = Vec::new();
@@ -198,7 +198,8 @@ impl<'a> Checker<'a> {
         Type::Error
     }
 
-    /// Returns the entity of a dotted path at the top of a file; `None` if there is none (not reported).
+    /// Returns the entity of a dotted path at the top of a file, an index into the loaded files; `None` if there is
+    /// none, or it is private to another file (not reported).
     pub(super) fn path_entity(&self, file: usize, path: &[ast::Name]) -> Option<Entity> {
         let mut entity = self.named_entity(file, path[0].text, path[0].span)?;
         for name in &path[1..] {
@@ -290,7 +291,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns a record and those it extends, nearest first: `Folding`, `Plan`.
+    /// Returns a record and those it extends, itself first: `Folding`, `Plan`.
     pub(super) fn record_line(&self, id: DefId) -> Vec<DefId> {
         let mut line = vec![id];
         let mut last = id;
@@ -304,8 +305,8 @@ impl<'a> Checker<'a> {
         line
     }
 
-    /// Returns the least common supertype of two types, as for the elements of a list; `None` if there is
-    /// none.
+    /// Returns the least common supertype of two types, as for the elements of a list: [`Type::AnyOf`] for instances
+    /// of one family. `None` if there is none.
     pub(super) fn join(&self, a: &Type, b: &Type) -> Option<Type> {
         if a.is_error() || b.is_error() {
             return Some(if a.is_error() { b.clone() } else { a.clone() });

@@ -38,7 +38,7 @@ pub struct Program {
     pub statements: Body,
     /// The tests of the file that is run.
     pub tests: Vec<Test>,
-    /// The declarations of the project's own files, by [`DefId`]; `modl check` elaborates them.
+    /// The declarations of the project's own files, sorted by [`DefId`]; `modl check` elaborates them.
     pub own: Vec<DefId>,
 }
 
@@ -153,9 +153,9 @@ pub struct Param {
 pub struct RecordDef {
     /// The record that this one extends, as a `Folding` is a `Plan`; `None` if it stands alone.
     pub is: Option<DefId>,
-    /// Its own fields; inherited ones are in the record it extends.
+    /// Its own fields, in the order of the text; inherited ones are in the record it extends.
     pub fields: Vec<RecordField>,
-    /// Its own methods: natives whose first parameter is the record.
+    /// Its own methods, in the order of the text: natives whose first parameter is the record.
     pub methods: Vec<DefId>,
     /// The fields as a call by name takes them; `None` for an `extern type`, which only built-ins build.
     pub build: Option<RecordBuild>,
@@ -164,7 +164,7 @@ pub struct RecordDef {
 /// The parameters of a call that builds a record.
 #[derive(Clone, Debug)]
 pub struct RecordBuild {
-    /// The fields as parameters, with their defaults.
+    /// The fields as parameters, in the order of [`RecordDef::fields`], with their defaults.
     pub params: Vec<Param>,
     /// The number of slots of the frame in which defaults are evaluated.
     pub frame: usize,
@@ -184,7 +184,7 @@ pub struct RecordField {
 /// A connector with its clauses: `connector`.
 #[derive(Clone, Debug)]
 pub struct ConnectorDef {
-    /// The connectors that mate with it, with the spans of their names.
+    /// The connectors that mate with it, each with the span of its name in the clause, in the order of the text.
     pub mates: Vec<(DefId, Span)>,
     /// The number of turns at which it mates, evenly over a full turn; `None` if the clause is missing.
     pub turns: Option<Expr>,
@@ -258,7 +258,7 @@ pub struct FactsDef {
     pub family: FactsFamily,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The parameters.
+    /// The parameters, as members.
     pub members: Vec<Member>,
     /// The values of [`Family::facts`](super::family::Family::facts), in their order; `None` where one is
     /// missing.
@@ -276,9 +276,9 @@ pub struct ConfigDef {
     pub closed: Option<Span>,
     /// The parameters, `let`s, parts, ports and behaviours by name.
     pub members: Vec<Member>,
-    /// The parts, in order.
+    /// The parts, in the order of the text.
     pub parts: Vec<PartDef>,
-    /// The behaviours, in order.
+    /// The behaviours, in the order of the text.
     pub behaviors: Vec<BehaviorDef>,
     /// The clauses `connect`, `set` and `require`, and branches and loops over them, in order.
     pub clauses: Vec<ConfigClause>,
@@ -304,7 +304,7 @@ pub struct PartDef {
     pub of: DefId,
     /// The length of a list of parts; `None` for a single part.
     pub count: Option<PartCount>,
-    /// The arguments, in the order of the parameters of `of`; `None`: the default.
+    /// The arguments, in the order of the parameters of `of`; `None` for one that is left out, whose default is taken.
     pub args: Vec<Option<Expr>>,
     /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
@@ -422,7 +422,7 @@ pub enum ConfigClause {
 pub struct LatticeDef {
     /// The parameters.
     pub params: Vec<Param>,
-    /// The parameters.
+    /// The parameters, as members.
     pub members: Vec<Member>,
     /// The cell that it is made of.
     pub of: DefId,

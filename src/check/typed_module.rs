@@ -19,9 +19,10 @@ pub struct ModuleDef {
     pub touch: Option<Expr>,
     /// The gap up to which links touch the ground, a length; `None` if the clause `contact` is missing.
     pub contact: Option<Expr>,
-    /// The links, in order.
+    /// The links, in the order of the text; joints and ports refer to them by index, from 0.
     pub links: Vec<LinkDef>,
-    /// The joints, in order.
+    /// The joints, in the order of the text; [`ExprKind::Joint`](super::typed_expr::ExprKind::Joint) is an index into
+    /// them.
     pub joints: Vec<JointDef>,
     /// The ports by name, in order; an array is one entry.
     pub ports: Vec<PortGroup>,
@@ -93,7 +94,7 @@ pub struct JointBetween {
     pub follows: Option<Linear>,
 }
 
-/// A linear combination: a sum of joints (indices into `joints`), each times a factor.
+/// A linear combination: a sum of joints as (index into [`ModuleDef::joints`], factor). The factor is a plain number.
 pub type Linear = Vec<(usize, Expr)>;
 
 /// A port of a module, or an array of ports.
@@ -116,12 +117,11 @@ pub struct MotorDef {
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// The linear combination of joints (indices into `joints`, each with its factor) that its limits are
-    /// about.
+    /// The linear combination of joints that its limits are about, as (index into [`ModuleDef::joints`], factor).
     pub joints: Vec<(usize, Expr)>,
     /// The greatest speed of the motor, an angular speed; `None` if it is not stated.
     pub max_speed: Option<Expr>,
-    /// The greatest acceleration of the motor, an angular one; `None` if it is not stated.
+    /// The greatest acceleration of the motor, an angular acceleration; `None` if it is not stated.
     pub max_accel: Option<Expr>,
     /// The greatest torque of the motor; `None` if it is not stated.
     pub max_torque: Option<Expr>,
@@ -132,7 +132,8 @@ pub struct MotorDef {
 pub struct Placement {
     /// The position: a vector of lengths.
     pub position: Expr,
-    /// The turns as (axis, angle), in order; the axis is a vector of plain numbers.
+    /// The turns as (axis, angle), in order, each about an axis of the frame turned so far; the axis is a vector of
+    /// plain numbers.
     pub turned: Vec<(Expr, Expr)>,
     /// The span of the clause.
     pub span: Span,

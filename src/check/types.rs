@@ -68,9 +68,9 @@ pub enum Type {
     AnyOf(Family),
     /// A record, declared by `record` or `extern type`.
     Record(DefId),
-    /// A type parameter of the `extern fn` being checked, by index from 0.
+    /// A type parameter in the signature of a function, by index from 0.
     Param(u8),
-    /// A type parameter in the body of its function, a type of which nothing is known: its index and name.
+    /// A type parameter in the body of its function, a type of which nothing is known: its index, from 0, and name.
     Opaque(u8, Symbol),
     /// A quantity in a power of a dimension parameter, times a dimension that is known: `Quantity<D>`,
     /// `Quantity<D^2>`, `Quantity<D/s>`.
@@ -138,8 +138,8 @@ impl Type {
         }
     }
 
-    /// Returns the type, which fits `want`, with the dimensions of `want`: without the radians that are dropped there, and
-    /// with energies and torques as they are there. `None` if nothing changes.
+    /// Returns the type, which fits `want`, with the dimensions of `want`: without the radians that are dropped there,
+    /// and with energies and torques as they are there. `None` if nothing changes.
     pub(super) fn in_dimensions_of(&self, want: &Type) -> Option<Type> {
         let inner = |a: &Type, b: &Type| a.in_dimensions_of(b).map(Arc::new);
         match (self, want) {

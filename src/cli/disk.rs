@@ -10,7 +10,7 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-/// The greatest size of a project file, in bytes.
+/// The greatest size of a project file, in bytes: 64 MiB. A larger one is refused.
 pub(super) const FILE_BYTES_MAX: usize = 64 << 20;
 
 /// The most files of a folder that are offered for completion.
@@ -52,7 +52,7 @@ impl Project {
         })
     }
 
-    /// Returns the same project with its program unread, so that it is read again when needed.
+    /// Returns the same project without its program, so that its file is read again when needed.
     pub(super) fn unread(self) -> Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }
     }
@@ -206,7 +206,7 @@ fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
     read_at_most(File::open(path)?, bytes_max)
 }
 
-/// Returns the bytes of a file named by the user, at most `bytes_max`; `-` is standard input.
+/// Returns the bytes of a file named by the user, at most `bytes_max` of them; `-` is standard input.
 ///
 /// # Errors
 /// A message if it can't be read or is larger.

@@ -14,7 +14,7 @@ pub(super) struct Ran {
     pub name: String,
     /// The checked program.
     pub checked: Checked,
-    /// Its diagnostics.
+    /// Its errors and warnings, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
     /// True if there was no error.
     pub passed: bool,
@@ -39,7 +39,8 @@ impl Host for Silent {
     }
 }
 
-/// Runs the examples of a program whose name contains the filter.
+/// Runs the examples in the documentation of a program whose names contain the filter, in the order of the text; all
+/// of them for `None`. Returns none if the program can't be read.
 pub(super) fn run(
     project: &Project,
     filter: Option<&str>,

@@ -13,12 +13,12 @@ const DEPTH_MAX: usize = 64;
 pub(super) struct Found {
     /// The file; `-` is standard input.
     pub file: PathBuf,
-    /// The folder that was named, if the file was found in one.
+    /// The folder in which the file was found; `None` for a file that was named itself.
     pub folder: Option<PathBuf>,
 }
 
-/// Returns the programs that arguments name: files as they are, and of folders all `.mod` files below them in order
-/// of their paths. Hidden folders and files are left out, and links are not followed.
+/// Returns the programs that arguments name, in the order of the arguments: files as they are, and of folders all
+/// `.mod` files below them in order of their paths. Hidden folders and files are left out, and links are not followed.
 ///
 /// # Errors
 /// A message if a folder can't be read or holds no program.

@@ -47,7 +47,7 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// Returns the plan of a file's bytes.
+/// Returns the plan that the bytes of the file `name` hold.
 ///
 /// # Errors
 /// A diagnostic at the mistake, with the text that its span refers to.

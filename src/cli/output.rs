@@ -11,8 +11,9 @@ use tempfile::NamedTempFile;
 /// The prefix of temporary files.
 const PREFIX: &str = ".modl-";
 
-/// Writes `bytes` to `path` below `folder`, making folders as needed, and returns the path to show. The
-/// file appears whole or not at all: it is written under a temporary name in the same folder, then moved.
+/// Writes `bytes` to `path`, relative to `folder` and with forward slashes, making folders as needed, and returns the
+/// path to show. The file appears whole or not at all: it is written under a temporary name in the same folder, then
+/// moved.
 ///
 /// # Errors
 /// The path leads out of the folder, or the system refuses.

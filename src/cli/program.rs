@@ -35,7 +35,7 @@ struct Tally {
     cancelled: bool,
 }
 
-/// Runs programs one after the other.
+/// Runs programs one after the other, in order, each with what the task says.
 ///
 /// # Errors
 /// A message if a file can't be read.
@@ -224,7 +224,7 @@ pub(super) fn threads(globals: &Globals) -> usize {
     globals.threads.map_or_else(processors, |n| usize::try_from(n).unwrap_or(1))
 }
 
-/// Returns the limits of evaluation: those of the command line, or the defaults.
+/// Returns the limits of evaluation: those of the command line where it states one, else the defaults.
 pub(super) fn limits(globals: &Globals) -> Limits {
     let defaults = Limits::default();
     let or = |value: Option<u64>, default: usize| {

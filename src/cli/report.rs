@@ -63,13 +63,13 @@ pub(super) struct JsonTest {
 /// The verdict on a plan file.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonPlan {
-    /// The file.
+    /// The file, as it was named on the command line.
     pub file: String,
     /// True if the verdict is good.
     pub ok: bool,
     /// The verdict.
     pub verdict: Verdict,
-    /// The declarations of the file that the verdict rests on.
+    /// The declarations of the file that the verdict rests on, in the order of the file's library.
     pub rests_on: Vec<Declaration>,
 }
 
@@ -86,8 +86,8 @@ pub(super) struct Declaration {
 }
 
 impl Report {
-    /// Adds diagnostics: keeps them for the JSON object, or prints them at once. A diagnostic already
-    /// reported for another file of the same call, such as a shared import, is not repeated.
+    /// Adds diagnostics, whose spans are in `sources`: keeps them for the JSON object, or prints them at once. A
+    /// diagnostic already reported for another file of the same call, such as a shared import, is not repeated.
     pub(super) fn add(
         &mut self,
         sources: &Sources,
@@ -123,7 +123,8 @@ impl Report {
         }
     }
 
-    /// Ends the report: prints the JSON object, or the numbers of errors and warnings.
+    /// Ends the report: prints the JSON object, or the numbers of errors and warnings. `ok` is true if the exit code
+    /// is 0.
     pub(super) fn finish(&mut self, ok: bool, globals: &Globals) {
         self.ok = ok;
         if globals.json {
@@ -157,7 +158,7 @@ pub(super) fn call_error(globals: &Globals, message: &str) {
     }
 }
 
-/// Returns the style of diagnostics on this terminal.
+/// Returns the style of diagnostics on this terminal; `folder` is put before the names of the project's files.
 pub(super) fn style(globals: &Globals, folder: &str) -> Style {
     Style { width: width(), color: color(globals.color), folder: folder.to_owned(), ..Style::default() }
 }

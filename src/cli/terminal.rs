@@ -184,9 +184,9 @@ pub(super) fn print_styled(text: &str) {
 #[derive(Debug)]
 pub(super) struct Terminal {
     folder: PathBuf,
-    /// The printed lines, if they go into a JSON object instead of to standard output.
+    /// The printed lines, if they go into a JSON object; `None` if they go to standard output.
     pub printed: Option<Vec<String>>,
-    /// The files that the run depends on, if it ends once they change.
+    /// The record of the files that the run depends on, for a run that ends once they change; `None` for others.
     pub watched: Option<Arc<Watched>>,
     shows_progress: bool,
     progress_shown: bool,

@@ -35,7 +35,7 @@ impl Watched {
         stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
     }
 
-    /// Returns true if a file has changed, so that the run is outdated.
+    /// Returns true if a file has changed since the run began, so that the run is outdated.
     pub(super) fn stale(&self) -> bool {
         self.stale.load(Ordering::Relaxed)
     }
@@ -58,7 +58,7 @@ fn stamp(file: &Path) -> Stamp {
     Some((found.modified().ok()?, found.len()))
 }
 
-/// Runs the task, and again after each change, until the user cancels.
+/// Runs the task with the programs, and again after each change of a file that it read, until the user cancels.
 ///
 /// # Errors
 /// A message if a file is standard input, or can't be read at the first run.

@@ -30,8 +30,10 @@ const FAILURES_SHOWN: usize = 3;
 const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {
-    /// Returns the tree of a behaviour, with its times if it can be planned from the start pose. Reports
-    /// nothing.
+    /// Returns the tree of a behaviour, with its times if it can be planned from the start pose. Reports nothing.
+    ///
+    /// # Errors
+    /// A halt while it is planned.
     pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
         let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             return Ok("a behaviour that moves no robot".to_owned());
@@ -68,6 +70,9 @@ impl Interpreter<'_> {
     }
 
     /// Returns a sketch of a plan: its duration and verdict, the times at which joints move, and its failures.
+    ///
+    /// # Errors
+    /// None of its own.
     pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();

@@ -17,8 +17,11 @@ pub(super) const LINES_MAX: usize = 40;
 const BYTES_MAX: usize = 1 << 16;
 
 impl Interpreter<'_> {
-    /// Returns a value over as many lines as it needs, the first of which can stand alone; what is too long for
-    /// any reader is cut.
+    /// Returns a value over as many lines as it needs, the first of which can stand alone; what is too long for any
+    /// reader is cut.
+    ///
+    /// # Errors
+    /// A halt while the value is judged or planned.
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         let mut shown = self.display_whole(value)?;
         if shown.len() > BYTES_MAX {
@@ -63,7 +66,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns a text as it could be written.
+/// Returns a text as it could be written in a program: in quotes, with escapes.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -86,7 +89,7 @@ pub(super) fn quoted(text: &str) -> String {
 pub(super) struct Branch {
     /// The line of the branch itself.
     pub text: String,
-    /// The branches that go off it.
+    /// The branches that go off it, from the top.
     pub below: Vec<Branch>,
 }
 
@@ -96,7 +99,7 @@ impl Branch {
         Branch { text: text.into(), below: Vec::new() }
     }
 
-    /// Returns the tree as text: two columns for each level; lines that do not fit are counted.
+    /// Returns the tree as text: two columns for each level; lines above [`LINES_MAX`] are left out and counted.
     pub(super) fn drawn(&self) -> String {
         let mut lines = vec![self.text.clone()];
         self.draw_below("", &mut lines);
@@ -117,12 +120,12 @@ impl Branch {
     }
 }
 
-/// Returns a number of things in words: `1 module`, `3 modules`.
+/// Returns a number of things in words: `1 module`, `3 modules`; `what` is the singular.
 pub(super) fn counted(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-/// Returns names in words: the first six, and the number of the rest.
+/// Returns names in words, in their order: the first six, and the number of the rest.
 pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 6;
     let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");

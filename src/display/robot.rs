@@ -17,6 +17,9 @@ const ELEMENTS_DRAWN: usize = 3;
 
 impl Interpreter<'_> {
     /// Returns an instance by its family: a tree of joints, ports or parts, a picture, or a line of facts.
+    ///
+    /// # Errors
+    /// None of its own.
     pub(super) fn display_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
         let design = &instance.design;
         Ok(match &design.kind {
@@ -140,6 +143,9 @@ impl Interpreter<'_> {
     }
 
     /// Returns a line about a declaration, with its defaults; without facts where it can't be elaborated.
+    ///
+    /// # Errors
+    /// A halt while its instance with all defaults is elaborated.
     pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
         let program = self.shared.program;
         let declared = program.def(def);

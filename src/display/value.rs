@@ -18,7 +18,8 @@ const LEVELS_SHOWN: usize = 100;
 const COORDINATE_ROUNDING: f64 = 1e-12;
 
 impl Interpreter<'_> {
-    /// Returns a value as `print` shows it.
+    /// Returns a value as `print` shows it, on one line except for a text with line breaks and a report; nothing is
+    /// evaluated.
     pub(super) fn show_value(&self, value: &Value) -> String {
         match value {
             Value::Unknown => "?".into(),

@@ -15,7 +15,7 @@ pub(crate) struct Example {
     pub only_checked: bool,
 }
 
-/// Returns the examples of a program, in order.
+/// Returns the examples of a program, in the order of the text; one whose end is missing ends with its comment.
 pub(crate) fn examples(text: &str) -> Vec<Example> {
     let parsed = syntax::parse(FileId(0), text);
     let docs = parsed.file.comments.iter().filter(|c| is_doc(c.kind)).map(|c| c.span.start as usize);

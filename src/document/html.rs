@@ -37,7 +37,7 @@ fn link(to: &str, words: &str) -> String {
     format!("<li><a href=\"{to}\">{}</a></li>\n", escaped(words))
 }
 
-/// Returns the page of a file.
+/// Returns the page of a file as HTML, with links to all `pages`.
 pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
     let mut body = format!("<h1>{}</h1>\n", escaped(&page.title));
     if let Some(text) = &page.doc {
@@ -125,7 +125,7 @@ fn wrapped(signature: &str) -> String {
     out
 }
 
-/// Returns the front page: all declarations, page by page.
+/// Returns the front page as HTML: all declarations, page by page.
 pub(super) fn index(pages: &[Page]) -> String {
     let mut body = String::from("<h1>Documentation</h1>\n");
     for page in pages {
@@ -149,8 +149,8 @@ pub(super) fn index(pages: &[Page]) -> String {
     frame("Documentation", pages, &body)
 }
 
-/// Returns the guide: all configurations with their behaviours, by order; those without a default instance
-/// last.
+/// Returns the guide as HTML: all configurations with their behaviours, by ascending order; those without a default
+/// instance last.
 pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut body = String::from(
         "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
@@ -196,7 +196,7 @@ pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     frame("Guide to the robots", pages, &body)
 }
 
-/// Returns the search index as a script: name, description, address of each declaration.
+/// Returns the search index as a script, with [name, description, address] of each declaration and member.
 pub(super) fn search_index(pages: &[Page]) -> String {
     let mut rows = Vec::new();
     for page in pages {

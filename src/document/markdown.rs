@@ -12,8 +12,8 @@ pub(super) trait Targets {
     fn file(&self, path: &str) -> Option<String>;
 }
 
-/// Returns the HTML of a Markdown text, and the targets of the broken links in it. HTML in the text is shown as
-/// text.
+/// Returns the HTML of a Markdown text, and the targets of the broken links in it, as they are written. HTML in the
+/// text is shown as text.
 pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();
     let mut lost_names = Vec::new();

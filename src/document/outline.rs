@@ -28,19 +28,22 @@ pub(super) struct PageEntry {
     pub signature: String,
     /// Its documentation, Markdown; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// Its members.
+    /// Its members, in the order in which they are listed: group by group.
     pub inside: Vec<Inside>,
     /// True if it has an instance without arguments.
     pub has_default: bool,
-    /// The facts about its default instance: order, modules, mass.
+    /// The facts about its default instance, in words: order, modules, mass; empty until they are found, and without
+    /// such an instance.
     pub facts: Vec<String>,
-    /// The order of its default instance; `None` if it is no configuration or has none.
+    /// The order of its default instance: 1 for modules alone, else one more than the greatest order of its parts.
+    /// `None` if it is no configuration or has none.
     pub order: Option<u32>,
     /// The name of its picture in the site; `None` if it has none.
     pub picture: Option<String>,
 }
 
-/// Returns the page of one file of a program; `None` for a file without public declarations.
+/// Returns the page of one file of a program, whose documentation is `doc`; `None` for a file without public
+/// declarations.
 pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
     let source = checked.sources.file(file);
     let stem = source.name.trim_end_matches(".mod");

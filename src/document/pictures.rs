@@ -34,8 +34,8 @@ impl Host for Answers {
     }
 }
 
-/// Fills in the facts of every entry of a page with a default instance, and returns the pictures (PNG) with
-/// their names in the site.
+/// Fills in the facts of every entry of a page with a default instance, and returns its pictures as (name in the site,
+/// bytes of a PNG file).
 pub(super) fn drawn(
     page: &mut Page,
     files: &dyn Files,

@@ -29,7 +29,7 @@ pub struct Site {
     pub files: Vec<(String, Vec<u8>)>,
     /// The broken links in documentation, page by page.
     pub faults: Vec<LinkFault>,
-    /// The programs that are left out because of errors, each with its errors.
+    /// The programs that are left out because of errors, as (checked program, its errors).
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
 }
 

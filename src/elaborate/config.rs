@@ -24,7 +24,7 @@ pub(super) struct Deferred<'d> {
 
 impl Interpreter<'_> {
     /// Elaborates the body of a configuration into its design, which already stands in memory so that a body that
-    /// needs itself is found. Where parts are unknown the design is marked as broken.
+    /// needs itself is found. The design is marked as broken where parts are unknown.
     ///
     /// # Errors
     /// A fault of the body that ends it, or a halt; other faults are reported.

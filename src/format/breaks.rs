@@ -3,7 +3,7 @@
 use super::spacing::{Piece, before_last};
 use crate::syntax::{Role, TokenKind};
 
-/// The greatest width of a line in columns, without a comment behind its code.
+/// The greatest width of a line in columns, without a comment behind its code. A wider line is broken.
 pub(super) const WIDTH: usize = 120;
 
 /// The most tokens of a line that is broken: each break looks at all of them.
@@ -19,9 +19,9 @@ const SHORT: usize = 12;
 const OPERATORS: &[&[&str]] =
     &[&["or"], &["and"], &["==", "!=", "<", "<=", ">", ">="], &["++"], &["+", "-"], &["*", "/", "%"]];
 
-/// Returns the indices of the pieces with which new lines begin, in order, where a line with this indentation is too
-/// wide; none if it is not, or if nothing of it can go to another line. The lines that come of
-/// it may be too wide themselves, and are then broken in their turn.
+/// Returns the indices in `line`, from 0, of the pieces with which new lines begin, in order, where a line with this
+/// indentation (in columns) is too wide; none if it is not, or if nothing of it can go to another line. The lines that
+/// come of it may be too wide themselves, and are then broken in their turn.
 pub(super) fn breaks(line: &[Piece], indent: usize) -> Vec<usize> {
     let behind = line.iter().rposition(|piece| piece.token.kind != TokenKind::LineComment);
     let Some(end) = behind.map(|last| last + 1) else { return Vec::new() };

@@ -32,7 +32,7 @@ impl Line {
     }
 }
 
-/// Returns the text of lines. Comments behind adjacent lines are aligned; consecutive blank lines become
+/// Returns the text of lines, in order. Comments behind adjacent lines are aligned; consecutive blank lines become
 /// one, and blank lines at both ends are removed.
 pub(super) fn aligned(lines: Vec<Line>) -> String {
     let mut out = String::new();

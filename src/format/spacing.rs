@@ -9,7 +9,7 @@ pub(super) struct Piece<'t> {
     pub token: Token,
     /// Its text.
     pub text: &'t str,
-    /// Its role in the grammar, if it has one.
+    /// Its role in the grammar; `None` if it has none.
     pub role: Option<Role>,
     /// True if an item, clause or statement begins with it.
     pub begins: bool,
@@ -26,12 +26,12 @@ impl Piece<'_> {
         )
     }
 
-    /// Returns true if it is an opening bracket.
+    /// Returns true if it is an opening bracket: `(`, `[` or `{`.
     pub(super) fn opens(&self) -> bool {
         self.token.kind == TokenKind::Open
     }
 
-    /// Returns true if it is a closing bracket.
+    /// Returns true if it is a closing bracket: `)`, `]` or `}`.
     pub(super) fn closes(&self) -> bool {
         self.token.kind == TokenKind::Close
     }
@@ -46,7 +46,7 @@ impl Piece<'_> {
 /// The number of spaces between clauses on one line, and before a comment behind code.
 pub(super) const APART: usize = 2;
 
-/// Returns the number of spaces before the last of the pieces of a line, of which there are two at least.
+/// Returns the number of spaces before the last of the pieces of a line; 0 for a single piece.
 pub(super) fn before_last(line: &[Piece]) -> usize {
     let [.., before, after] = line else { return 0 };
     if after.token.kind == TokenKind::LineComment {

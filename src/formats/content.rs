@@ -3,15 +3,15 @@
 /// The content of a mesh file or a point cloud, in the file's own unit of length.
 #[derive(Debug, Default)]
 pub struct Content {
-    /// The corners; of a cloud, its points.
+    /// The corners (x, y, z); of a cloud, its points.
     pub vertices: Vec<[f64; 3]>,
-    /// The corners of each face in order around it, as indices into `vertices`. A cloud has no faces, unless its file
-    /// is one of a mesh.
+    /// The corners of each face in order around it, as indices into `vertices`, from 0. A cloud has no faces, unless
+    /// its file is one of a mesh.
     pub faces: Vec<Vec<usize>>,
 }
 
-/// Returns faces as triangles: one with more than three corners as the fan from its first corner, which is exact for a
-/// convex face. Panics for a face without corners.
+/// Returns faces as triangles, by the same indices: one with more than three corners as the fan from its first corner,
+/// which is exact for a convex face. Panics for a face without corners, and on an index of 2^32 or more.
 pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");
     let fan = |face: &Vec<usize>| -> Vec<[u32; 3]> {

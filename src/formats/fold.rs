@@ -16,31 +16,31 @@ pub struct CreasePattern {
     pub title: String,
     /// The vertices in the plane of the sheet, in metres, seen from the side that becomes the outside.
     pub vertices: Vec<[f64; 2]>,
-    /// The triangles as indices into `vertices`, counterclockwise.
+    /// The triangles as indices into `vertices`, from 0, counterclockwise.
     pub faces: Vec<[usize; 3]>,
     /// The name of the module of each face, one for each of `faces`.
     pub modules: Vec<String>,
     /// The hinges that fold and the edges of the outline, in any order.
     pub edges: Vec<Crease>,
-    /// The positions of all vertices after each step, in metres; one list for each step, without the flat state. The
-    /// face that keeps its pose lies in the plane z = 0, as in the flat sheet.
+    /// The positions (x, y, z) of all vertices after each step, in metres; one list for each step, without the flat
+    /// state, in the order of `vertices`. The face that keeps its pose lies in the plane z = 0, as in the flat sheet.
     pub folded: Vec<Vec<[f64; 3]>>,
 }
 
 /// An edge of a crease pattern: a hinge between two faces, or a boundary edge.
 #[derive(Clone, Debug)]
 pub struct Crease {
-    /// The indices of the two ends in [`CreasePattern::vertices`].
+    /// The indices of the two ends in [`CreasePattern::vertices`], from 0.
     pub vertices: [usize; 2],
-    /// The adjacent faces as indices in [`CreasePattern::faces`]: one for a boundary edge, two for a hinge.
+    /// The adjacent faces as indices in [`CreasePattern::faces`], from 0: one for a boundary edge, two for a hinge.
     pub faces: Vec<usize>,
     /// The fold angle of a hinge at the end, in radians: positive where the fold is convex as seen from
     /// outside. `None` for a boundary edge.
     pub angle: Option<f64>,
     /// The step in which the hinge folds, from 1; `None` if it never folds.
     pub step: Option<usize>,
-    /// The index in [`CreasePattern::edges`] of the boundary edge that coincides with this one in the folded state;
-    /// `None` for a hinge, and for a boundary edge of the folded surface.
+    /// The index, from 0, in [`CreasePattern::edges`] of the boundary edge that coincides with this one in the folded
+    /// state; `None` for a hinge, and for a boundary edge of the folded surface.
     pub glued: Option<usize>,
 }
 
@@ -63,7 +63,7 @@ impl Crease {
     }
 }
 
-/// Returns the text of the FOLD file.
+/// Returns the text of the FOLD file, with lengths in millimetres and angles in degrees as the format has them.
 pub(super) fn write(pattern: &CreasePattern) -> String {
     let edges = &pattern.edges;
     let by_edge = |value: &dyn Fn(&Crease) -> Value| Value::Array(edges.iter().map(value).collect());

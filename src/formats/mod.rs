@@ -83,8 +83,8 @@ impl<T> ExportFormat<T> {
 }
 
 impl Format {
-    /// Reads a mesh: at least one face, each of three corners or more among the vertices, and finite coordinates.
-    /// It need not be closed.
+    /// Reads a mesh, in the file's own unit of length: at least one face, each of three corners or more among the
+    /// vertices, and finite coordinates. It need not be closed.
     ///
     /// # Errors
     /// The first [`FormatFault`] of the bytes, or of the mesh that they hold.
@@ -92,7 +92,8 @@ impl Format {
         checked_mesh((self.read)(bytes)?)
     }
 
-    /// Reads a cloud: at least one point, and finite coordinates. Faces of the file, if any, are kept.
+    /// Reads a cloud, in the file's own unit of length: at least one point, and finite coordinates. Faces of the file,
+    /// if any, are kept.
     ///
     /// # Errors
     /// The first [`FormatFault`] of the bytes, or of the cloud that they hold.

@@ -8,10 +8,10 @@ use super::content::{Content, line_of};
 use super::fault::FormatFault;
 use tobj::{LoadError, LoadOptions};
 
-/// Reads a file.
+/// Reads the faces of a Wavefront OBJ file, and the vertices; those of all its objects as one.
 ///
 /// # Errors
-/// A [`FormatFault`].
+/// The first [`FormatFault`] of the bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let plain = plain(bytes);
     let mut rest: &[u8] = &plain;

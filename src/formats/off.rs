@@ -9,10 +9,10 @@ use super::fault::FormatFault;
 /// First words of the variants that are read: plain, and with colours or normals behind the vertices.
 const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 
-/// Reads a file.
+/// Reads an OFF file in text.
 ///
 /// # Errors
-/// A [`FormatFault`].
+/// The first [`FormatFault`] of the bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

@@ -8,10 +8,10 @@ use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 /// The greatest number of characters of a message of the crate that is shown: it may quote the file.
 const SHOWN: usize = 120;
 
-/// Reads a file.
+/// Reads the vertices and faces of a PLY file, in text or binary.
 ///
 /// # Errors
-/// A [`FormatFault`].
+/// The first [`FormatFault`] of the bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let mut reader = Reader::new(bytes);
     let parser = Parser::<Row>::new();

@@ -12,10 +12,10 @@ const HEADER: usize = 84;
 /// The length of a triangle of a binary file, bytes.
 const TRIANGLE: usize = 50;
 
-/// Reads a file. Corners at one position are one vertex.
+/// Reads an STL file, in text or binary. Corners at one position are one vertex.
 ///
 /// # Errors
-/// A [`FormatFault`].
+/// The first [`FormatFault`] of the bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let count = bytes.get(80..HEADER).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]) as usize);
     let corners = match count {

@@ -15,11 +15,13 @@ pub struct RecordTable {
 pub struct RecordColumn {
     /// The name.
     pub name: String,
-    /// The unit of its numbers in CSV; `None` where they have none, or it holds something else.
+    /// The unit of its numbers in CSV, as it is written, such as `mm`; `None` where they have none, or it holds
+    /// something else.
     pub unit: Option<String>,
-    /// The base unit and the dimension of its quantities, in words; `None` where it holds something else.
+    /// The quantities in it as (base unit, dimension in words), such as (`m`, `length`); `None` where it holds
+    /// something else.
     pub quantity: Option<(String, String)>,
-    /// The cells, one for each record.
+    /// The cells, one for each record, in the order of the records.
     pub cells: Vec<RecordCell>,
 }
 
@@ -35,15 +37,15 @@ pub enum RecordCell {
     Quantity {
         /// The number in the column's unit.
         shown: f64,
-        /// The value in SI.
+        /// The value in SI units.
         si: f64,
     },
     /// Something else, in words.
     Text(String),
 }
 
-/// Returns a table as CSV in UTF-8: a head with units, a record a line, lines that end in CR LF. Numbers are the shortest
-/// that give themselves back; a missing value is an empty field.
+/// Returns a table as CSV in UTF-8: a head with units, a record a line, lines that end in CR LF. Numbers are the
+/// shortest that give themselves back; a missing value is an empty field.
 pub(super) fn csv(table: &RecordTable) -> String {
     let head = |column: &RecordColumn| match &column.unit {
         Some(unit) => quoted(&format!("{} [{unit}]", column.name)),

@@ -6,10 +6,10 @@
 use super::content::Content;
 use super::fault::FormatFault;
 
-/// Reads a file.
+/// Reads an XYZ file: a point a line, by its first three numbers; empty lines are left out.
 ///
 /// # Errors
-/// A [`FormatFault`].
+/// The first [`FormatFault`] of the bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);

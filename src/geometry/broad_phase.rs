@@ -43,9 +43,9 @@ impl Aabb {
     }
 }
 
-/// Calls `found(i, j, d²)` once for every pair `i < j` of `count` points at a distance less than `reach` (> 0), with the
-/// square of that distance, both in the unit of the points. Coordinates must lie within 2²⁰ times `reach`. A pair at
-/// just this distance may be missed by rounding.
+/// Calls `found(i, j, d²)` once for every pair `i < j` of `count` points at a distance less than `reach` (> 0), with
+/// the square of that distance, both in the unit of the points. Coordinates must lie within 2²⁰ times `reach`. A pair
+/// at just this distance may be missed by rounding.
 ///
 /// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: so the
 /// three cubes of a column that may hold a point's neighbours are contiguous in the list, and for each of the

@@ -1,8 +1,8 @@
 //! Signed distances between convex parts and between solids.
 //!
 //! Parts that are apart: the nearest points of their cores by the method of Gilbert, Johnson and Keerthi (GJK).
-//! Parts that overlap: the penetration depth, the length of the shortest shift that separates them, by parry's expanding
-//! polytope and by directions of our own, of which each is a valid bound; see [`separation_along`].
+//! Parts that overlap: the penetration depth, the length of the shortest shift that separates them, by parry's
+//! expanding polytope and by directions of our own, of which each is a valid bound; see [`separation_along`].
 
 use super::gjk::closest_cores;
 use super::part::Part;

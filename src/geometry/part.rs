@@ -1,8 +1,8 @@
 //! Convex parts, of which all solids are made, by their support functions.
 //!
-//! The support function `h(n)`, the greatest `n · p` over the part's points, is all that distances need: for any unit `n`
-//! the separation along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed distance from A to B, and the greatest of
-//! them is that distance.
+//! The support function `h(n)`, the greatest `n · p` over the part's points, is all that distances need: for any unit
+//! `n` the separation along it, `-h_B(-n) - h_A(n)`, is a lower bound of the signed distance from A to B, and the
+//! greatest of them is that distance.
 
 use super::pose::{Pose, Vec3};
 

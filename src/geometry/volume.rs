@@ -100,7 +100,8 @@ fn about_axis(axis: &Vec3, volume: f64, along: f64, across: f64) -> Volume {
     Volume::centred(volume, uu * (volume * along) + (Matrix3::identity() - uu) * (volume * across))
 }
 
-/// Returns the moments of a cylinder and two half balls; a half ball's centroid is 3/8 of the radius from its flat face.
+/// Returns the moments of a cylinder and two half balls; a half ball's centroid is 3/8 of the radius from its flat
+/// face.
 fn capsule(radius: f64, length: f64, axis: &Vec3) -> Volume {
     let r2 = radius * radius;
     let (rod, ball) = (PI * r2 * length, 4.0 / 3.0 * PI * r2 * radius);
@@ -111,8 +112,8 @@ fn capsule(radius: f64, length: f64, axis: &Vec3) -> Volume {
     about_axis(axis, volume, along / volume, across / volume)
 }
 
-/// Returns the moments of the inside of a closed surface of triangles, counter-clockwise from outside: a sum over signed
-/// tetrahedra with a common tip.
+/// Returns the moments of the inside of a closed surface of triangles, counter-clockwise from outside: a sum over
+/// signed tetrahedra with a common tip.
 fn of_triangles(points: &[Vec3], triangles: &[[u32; 3]]) -> Volume {
     let tip = points[0];
     let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Matrix3::zeros());

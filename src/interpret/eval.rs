@@ -573,8 +573,8 @@ fn list_is_empty(value: &Value) -> bool {
     matches!(value, Value::List(elements) if elements.is_empty())
 }
 
-/// Returns quantities as text in a unit, given by its name and its factor to SI, and with a number of decimals, as far as
-/// they are stated; `None` for other values, which `check` excludes, and where one is unknown.
+/// Returns quantities as text in a unit, given by its name and its factor to SI, and with a number of decimals, as far
+/// as they are stated; `None` for other values, which `check` excludes, and where one is unknown.
 fn shown(value: &Value, unit: Option<(&str, f64)>, decimals: Option<usize>) -> Option<String> {
     let each = |values: &mut dyn Iterator<Item = Value>| -> Option<String> {
         let shown: Option<Vec<String>> = values.map(|value| shown(&value, unit, decimals)).collect();

@@ -79,7 +79,7 @@ impl CancelState {
         self.is_cancelled() && self.0.abandoned.load(Ordering::Relaxed)
     }
 
-    /// Registers the function that [`CancelState::abandon`] calls. It replaces the one before.
+    /// Registers the function that [`CancelState::abandon`] calls. It replaces the one registered before.
     pub fn on_abandon(&self, wake: impl Fn() + Send + 'static) {
         *self.0.on_abandon.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(wake));
     }
@@ -150,12 +150,13 @@ pub fn checkpoint() {
     }
 }
 
-/// Returns the cancellation token of the innermost [`catch`] on this thread; `None` outside of it.
+/// Returns the cancellation token of the innermost [`catch`] on this thread; `None` outside of every one.
 pub fn current() -> Option<CancelState> {
     WORK.with_borrow(|work| work.as_ref().map(|work| work.cancel_state.clone()))
 }
 
-/// Unwinds to [`catch`], cancelled or not. Outside of `catch` it unwinds the thread without a message.
+/// Unwinds to [`catch`], cancelled or not. Outside of `catch` it unwinds the thread, as a panic does, without a
+/// message.
 pub fn unwind() -> ! {
     resume_unwind(Box::new(Cancelled));
 }

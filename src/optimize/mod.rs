@@ -1,5 +1,5 @@
-//! Optimisation: linear programs, growing quadratic programs, Cholesky's decomposition. The only user of clarabel; knows
-//! no robots.
+//! Optimisation: linear programs, growing quadratic programs, Cholesky's decomposition. The only user of clarabel;
+//! knows no robots.
 
 pub mod cholesky;
 pub mod cuthill_mckee;

@@ -218,9 +218,9 @@ fn need_near(position: &Vec3) -> Checked {
         .try_for_each(|c| need_bounded(*c, MODULE_EXTENT_MAX, "its distance from the module's frame, in m,"))
 }
 
-/// Checks that shapes and centres of mass are within the module, and that inertias are those of bodies within it: positive,
-/// with principal moments of which none is more than the other two together, and none more than all of the mass at
-/// the farthest corner would give.
+/// Checks that shapes and centres of mass are within the module, and that inertias are those of bodies within it:
+/// positive, with principal moments of which none is more than the other two together, and none more than all of the
+/// mass at the farthest corner would give.
 ///
 /// A body need not be within its own drawn shape: a shaft may reach into the next link.
 fn check_masses(module: &ModuleType) -> Checked {

@@ -2,7 +2,7 @@
 
 use crate::source::suggest::suggest;
 
-/// A command of a session; `:help` describes each.
+/// A command of a session, with its argument as it was typed, without the blanks around it. `:help` describes each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     Help,

@@ -31,7 +31,7 @@ pub struct Knowledge {
 pub(crate) struct Completion {
     /// The offset in bytes at which the text to be replaced begins.
     pub start: usize,
-    /// The candidates, those that begin with the typed text.
+    /// The candidates, those that begin with the typed text, sorted by name, each once.
     pub candidates: Vec<Named>,
 }
 
@@ -50,7 +50,7 @@ impl Session {
 /// The greatest length of a hint in characters; it is shown on the line being typed.
 const HINT_MAX: usize = 60;
 
-/// Returns the candidates at the offset `at`, in bytes: those that begin with what is typed, sorted by name,
+/// Returns the candidates at the offset `at`, in bytes of `text`: those that begin with what is typed, sorted by name,
 /// each once. Panics if `at` is within a character or beyond the text.
 pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completion {
     let before = &text[..at];
@@ -62,8 +62,9 @@ pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completi
     completion
 }
 
-/// Returns the remaining parameters of the call in which a text ends, as text for a reader; `None` outside of a
-/// call, for an unknown function, behind a dot, and within an argument.
+/// Returns the remaining parameters of the call in which a text ends, as text for a reader that begins at its end: `n:
+/// Int)`. `None` outside of a call, for an unknown function, after a dot, within an argument, and if no parameter
+/// remains.
 pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
     let callee = receiver(&text[..open])?;

@@ -51,7 +51,8 @@ impl<'c> Dependencies<'c> {
         found
     }
 
-    /// Returns the declarations that the text of a file needs, directly or indirectly.
+    /// Returns the declarations that the text of a file names, directly or indirectly, those of the file that are
+    /// named there included.
     pub(super) fn needed_by(&self, file: FileId) -> BTreeSet<DefId> {
         let mut named: BTreeMap<DefId, Vec<DefId>> = BTreeMap::new();
         for (of, users) in &self.users {
@@ -69,7 +70,7 @@ impl<'c> Dependencies<'c> {
     }
 }
 
-/// Returns the declarations that the names at the top of the session stand for, by name.
+/// Returns the declarations that the names at the top of the session stand for, by name; names of files are left out.
 pub(super) fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
     let meant = checked.names.iter().filter_map(|(name, meaning)| match meaning {
         Meaning::Def(id) => Some((*name, *id)),

@@ -84,8 +84,8 @@ impl Session {
         Ok(format!("// {}:{line}\n{}\n", file.name, self.checked.sources.text(def.whole)))
     }
 
-    /// Returns all declarations that are visible by a name, without those of the prelude, each with its type or
-    /// keyword, sorted by name.
+    /// Returns all declarations that are visible by a name, without those of the prelude, as (name, type or keyword),
+    /// sorted by name.
     pub fn vars(&self) -> Vec<(String, String)> {
         let program = &self.checked.program;
         let own = meant(&self.checked).into_iter().filter(|(name, id)| {
@@ -154,8 +154,8 @@ impl Session {
     }
 }
 
-/// Checks a text as the next entry, and returns the program and the type of its last expression; `None` if that
-/// has no value.
+/// Checks a text as the next entry, without adding it, and returns the program and the type of its last expression;
+/// `None` if that has no value.
 pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
     let mut entries = session.entries.clone();
     entries.push(entry);

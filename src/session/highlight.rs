@@ -6,17 +6,22 @@ use std::ops::Range;
 /// The classes of highlighted pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
+    /// A keyword, or a word that is reserved.
     Keyword,
     /// The name of a type or of a declaration with instances.
     Type,
+    /// A number with its unit.
     Number,
+    /// A text, with what stands in its `{ }`.
     Text,
+    /// A comment.
     Comment,
     /// A command of the session.
     Command,
 }
 
-/// Returns the highlighted pieces of a text, in order, as byte ranges.
+/// Returns the highlighted pieces of a text as (range of bytes, class), in order; all else is plain. Empty for a text
+/// that is too large or nests too deeply.
 pub(crate) fn classes(text: &str) -> Vec<(Range<usize>, Class)> {
     let command = text.trim_start();
     if command.starts_with(':') || command.starts_with('?') {

@@ -35,7 +35,8 @@ fn declares(word: &str) -> bool {
     word == "for" || DECLARING.contains(&word)
 }
 
-/// Returns the names that a text declares, the latest last.
+/// Returns the names that a text declares, in the order of the text, so that the latest is the last; a name may come
+/// twice.
 pub(super) fn locals(text: &str) -> Vec<LocalName> {
     let mut found = Vec::new();
     let mut rest = text;

@@ -116,13 +116,13 @@ fn sorted(mut found: Vec<Named>) -> Vec<Named> {
     found
 }
 
-/// Returns parameters and result: `(x: Length, n: Int) -> Angle`.
+/// Returns parameters and result as text: `(x: Length, n: Int) -> Angle`.
 pub(super) fn params_text(program: &Program, params: &[Param], result: &str) -> String {
     let params: Vec<String> = params.iter().map(|p| param_text(program, p)).collect();
     format!("({}) -> {result}", params.join(", "))
 }
 
-/// Returns the parameters of a behaviour or method of a type, without its object; empty if there is none of
+/// Returns the parameters of a behaviour or method of a type, in order, without its object; empty if there is none of
 /// this name.
 pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
@@ -146,7 +146,7 @@ pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Ve
     Vec::new()
 }
 
-/// Returns a short description of a declaration.
+/// Returns a short description of a declaration: the type of a `let` or function, else its keyword.
 pub(super) fn about(program: &Program, id: DefId) -> String {
     match &program.def(id).kind {
         DefKind::Let(binding) => program.type_name(&binding.ty),

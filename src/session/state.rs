@@ -18,13 +18,13 @@ use std::sync::Arc;
 pub struct Session {
     /// The snapshot of the project's files.
     pub(super) files: Arc<FileSnapshot>,
-    /// The accepted entries, in order.
+    /// The accepted entries, oldest first.
     pub(super) entries: Vec<Entry>,
     /// The program that they make.
     pub(super) checked: Arc<Checked>,
     /// The declaration that `_` stands for; `None` while there is none.
     pub(super) last: Option<Symbol>,
-    /// The files that were loaded, or failed to load.
+    /// The paths in the project of the files that were loaded, or failed to load, in order of loading.
     pub(super) loaded: Vec<String>,
     evaluator: Evaluator,
     options: Options,
@@ -50,7 +50,7 @@ pub struct Input<'t> {
     pub text: &'t str,
     /// Its name in diagnostics.
     pub name: &'t str,
-    /// The line of a longer input at which it begins; 1 if there is none.
+    /// The line, from 1, of a longer input at which it begins; 1 if it is the whole input.
     pub first_line: usize,
     /// The part of the result that is printed.
     pub shown: Shown,
@@ -62,7 +62,7 @@ pub struct Input<'t> {
 pub struct Reply {
     /// The program that was checked, the entry included, with the texts that the diagnostics refer to.
     pub checked: Arc<Checked>,
-    /// The errors and warnings about the entry.
+    /// The errors and warnings about the entry, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
     /// Further messages for the user, one line each.
     pub notes: Vec<String>,
@@ -311,8 +311,9 @@ impl Session {
         (stale, notes)
     }
 
-    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome
-    /// like that of an entry; a file that can't be read or declares nothing is an error in it.
+    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome like
+    /// that of an entry; a file that can't be read or declares nothing is an error in it. Panics if abandoned work has
+    /// not been waited for.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());
@@ -421,7 +422,8 @@ pub(super) fn is_given(name: Symbol) -> bool {
     digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// Returns the type of the expression that ends the newest entry, the text `file`; `None` if it has no value.
+/// Returns the type of the expression that ends the newest entry, the text `file`; `None` if the entry does not end
+/// with an expression, or that has no value.
 pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     let program = &checked.program;
     let value = program.statements.statements.last()?;

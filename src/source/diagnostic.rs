@@ -58,13 +58,13 @@ impl Diagnostic {
         Diagnostic { code, severity, message: message.into(), labels: Vec::new(), hints: Vec::new() }
     }
 
-    /// Adds a label; the first one added is the primary one.
+    /// Returns it with one more label; the first one added is the primary one.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: text.into() });
         self
     }
 
-    /// Adds a hint.
+    /// Returns it with one more hint, a sentence without a final full stop.
     pub fn hint(mut self, text: impl Into<String>) -> Diagnostic {
         self.hints.push(text.into());
         self

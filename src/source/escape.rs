@@ -9,7 +9,8 @@ pub(crate) fn escaped(text: &str) -> Cow<'_, str> {
     replaced(text, |out, c| write!(out, "\\u{{{:x}}}", u32::from(c)))
 }
 
-/// Returns JSON in which such characters, which can stand in its texts only, are written as JSON writes them.
+/// Returns JSON in which every such character is written as the escape `\u001b` of JSON; it can stand in texts only,
+/// so the value stays the same.
 pub(crate) fn escaped_json(json: &str) -> Cow<'_, str> {
     replaced(json, |out, c| write!(out, "\\u{:04x}", u32::from(c)))
 }

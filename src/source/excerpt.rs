@@ -52,7 +52,7 @@ pub(super) struct Mark {
 pub(super) struct Excerpt {
     /// The text of all blocks.
     pub text: String,
-    /// The blocks, those of the first label's file first.
+    /// The blocks, those of the first label's file first, in a file by line.
     pub blocks: Vec<Block>,
     /// One mark for each label, in the labels' order.
     pub marks: Vec<Mark>,
@@ -68,7 +68,7 @@ struct LabelPlace {
     end: usize,
 }
 
-/// Returns the excerpt that shows all `labels`, with no line wider than `columns`, or than 8.
+/// Returns the excerpt that shows all `labels`, with no line wider than `columns`, at least 8.
 pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
     let places: Vec<LabelPlace> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();

@@ -11,7 +11,7 @@ use std::fmt;
 /// The style in which diagnostics are drawn.
 #[derive(Clone, Debug)]
 pub struct Style {
-    /// The width of the terminal in columns; less than [`WIDTH_MIN`] counts as that.
+    /// The width of the terminal in columns; one below [`WIDTH_MIN`] counts as that.
     pub width: usize,
     /// True if the text is coloured by escape sequences.
     pub color: bool,

@@ -31,7 +31,7 @@ impl Span {
         Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// Returns the range of bytes in the file.
+    /// Returns the range of bytes in the file, half-open.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }

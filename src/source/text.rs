@@ -22,7 +22,7 @@ pub struct SourceFile {
     pub text: Arc<str>,
     /// True if the file belongs to the standard library.
     pub library: bool,
-    /// The number of its first line; not 1 for a piece of a longer input.
+    /// The number, from 1, of its first line; above 1 for a later piece of a longer input.
     pub first_line: usize,
     line_starts: Vec<u32>,
 }
@@ -50,7 +50,8 @@ impl SourceFile {
         self.text[start as usize..end].trim_end_matches(['\n', '\r'])
     }
 
-    /// Returns the offset in bytes at which a line begins; the end of the text if there is no such line.
+    /// Returns the offset in bytes at which a line begins, counted from `first_line`; the end of the text if there is
+    /// no such line.
     pub fn line_start(&self, line: usize) -> usize {
         line.checked_sub(self.first_line)
             .and_then(|i| self.line_starts.get(i))
@@ -70,7 +71,8 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a text, and returns its identity. `library`: true for a file of the standard library.
+    /// Adds a text, and returns its identity. `library` is true for a file of the standard library. Panics on the
+    /// 2^32nd text.
     pub fn add(&mut self, name: &str, text: &str, library: bool) -> FileId {
         self.add_piece(name, text, library, 1)
     }

@@ -124,8 +124,8 @@ impl ItemKind {
 pub struct Use {
     /// The file, or the path that names it.
     pub source: UseSource,
-    /// The imported names. `None` for a bare `use std.gaits`, which imports the last word of the path: a file,
-    /// or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without names.
+    /// The imported names, in order. `None` for a bare `use std.gaits`, which imports the last word of the path: a
+    /// file, or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without names.
     pub names: Option<Vec<UseName>>,
 }
 
@@ -168,7 +168,7 @@ pub struct Let {
 pub struct Fn {
     /// Its name.
     pub name: Name,
-    /// The type parameters, in order.
+    /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
     /// The parameters.
     pub params: Vec<Param>,
@@ -183,7 +183,7 @@ pub struct Fn {
 pub struct ExternFn {
     /// Its name.
     pub name: Name,
-    /// The type parameters, in order.
+    /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
     /// The parameters.
     pub params: Vec<Param>,
@@ -196,7 +196,8 @@ pub struct ExternFn {
 pub struct TypeParam {
     /// Its name.
     pub name: Name,
-    /// The bound after `:`, such as `Dimension`, `Quantity` or `Module`; `None` if it may be any type.
+    /// The bound after `:`, one of `Dimension`, `Quantity`, `Module` and `Config` in a correct program; `None` if the
+    /// parameter may be any type.
     pub bound: Option<Name>,
 }
 
@@ -205,9 +206,10 @@ pub struct TypeParam {
 pub struct Record {
     /// Its name.
     pub name: Name,
-    /// The fields, in order.
+    /// The fields, in order; `docs` has one entry for each.
     pub fields: Vec<Param>,
-    /// The text of the `///` lines before each field, without the marks; `None` if there are none.
+    /// The text of the `///` lines before each field, without the marks, in the order of `fields`; `None` for a field
+    /// without such lines.
     pub docs: Vec<Option<String>>,
 }
 
@@ -220,7 +222,8 @@ pub struct ExternType {
     pub is: Option<Name>,
     /// The fields.
     pub fields: Vec<ExternField>,
-    /// The methods, each after the text of its `///` lines.
+    /// The methods, in order, as (text of the `///` lines before the method, method). The text is without the marks,
+    /// and `None` if there are no such lines. The object that a method is called on is none of its parameters.
     pub methods: Vec<(Option<String>, ExternFn)>,
 }
 
@@ -289,7 +292,8 @@ pub enum TypeKind {
 pub struct UnitExpr {
     /// Its span.
     pub span: Span,
-    /// The units with their exponents, in order; those after `/` are negative. Each is within ±99.
+    /// The units with their exponents, in order; the exponent of one after `/` is negative. Exponents are from -99 to
+    /// 99.
     pub factors: Vec<(Name, i32)>,
 }
 
@@ -467,7 +471,8 @@ pub struct Placement {
     pub span: Span,
     /// The position, a vector of lengths.
     pub position: Expr,
-    /// The arguments of each `turned`, in order.
+    /// The arguments of each `turned`, in order; empty without one. Each turn is about an axis of the frame turned so
+    /// far.
     pub turned: Vec<Vec<Arg>>,
 }
 
@@ -499,7 +504,7 @@ pub struct Facts {
     pub name: Name,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The facts as (name, value), in order.
+    /// The facts as (name, value), in the order of the text.
     pub facts: Vec<(Name, Expr)>,
 }
 
@@ -512,7 +517,7 @@ pub struct Config {
     pub name: Name,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The span of the word `closed`, if it is written.
+    /// The span of the word `closed`; `None` if it is not written.
     pub closed: Option<Span>,
     /// The clauses, in order.
     pub clauses: Vec<ConfigClause>,
@@ -598,7 +603,7 @@ pub struct Part {
     pub count: Option<PartCount>,
     /// The path of the module or configuration that it is an instance of.
     pub ty: Vec<Name>,
-    /// The arguments; `None` if no parentheses are written.
+    /// The arguments, in order; `None` if no parentheses are written.
     pub args: Option<Vec<Arg>>,
     /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
@@ -660,7 +665,7 @@ pub struct Path {
     pub span: Span,
     /// The first name.
     pub root: Name,
-    /// The steps, in order.
+    /// The steps behind `root`, in order; empty for a single name.
     pub steps: Vec<PathStep>,
 }
 

@@ -14,25 +14,26 @@ pub(super) struct Builder<'t> {
     pub(super) text: &'t str,
     /// The whole text as the grammar reads it: of the same length, comments and odd characters replaced.
     pub(super) read: &'t str,
-    /// All comments of the file.
+    /// All comments of the file, in order of position.
     pub(super) comments: &'t [Comment],
-    /// The offset in the whole text of the piece being built.
+    /// The offset in bytes, in the whole text, of the piece being built.
     pub(super) base: usize,
     /// The number of bytes by which the first word of the piece is longer than the misspelt one in the file.
     pub(super) longer: usize,
-    /// The start of all spans.
+    /// The smallest offset in bytes at which a span may begin or end; smaller ones are raised to it.
     pub(super) least: usize,
-    /// The end of all spans: text behind it was added so that the piece can be parsed.
+    /// The largest offset in bytes at which a span may begin or end: text behind it was added so that the piece can be
+    /// parsed.
     pub(super) limit: usize,
-    /// The offset of a hole that stands for a value that could not be parsed, if there is one.
+    /// The offset in bytes of a hole `_` that stands for a value that could not be parsed; `None` if there is none.
     pub(super) faulty_value: Option<usize>,
     /// The diagnostics so far.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// The recursion depth of the expression builder.
+    /// The recursion depth of the expression builder: the number of expressions that are open.
     pub(super) depth: usize,
-    /// The recursion depth of the type builder.
+    /// The recursion depth of the type builder: the number of types that are open.
     pub(super) type_depth: usize,
-    /// The offset of the last piece for which deep nesting was reported; `None` if it was not.
+    /// The offset in bytes of the last piece for which deep nesting was reported; `None` if it was for none.
     pub(super) deep_reported: Option<usize>,
     /// The names that unreadable pieces would have declared.
     pub(super) unread: Vec<Symbol>,
@@ -61,13 +62,13 @@ impl<'t> Builder<'t> {
         }
     }
 
-    /// Returns the span of a node in the file.
+    /// Returns the span of a node in the file, extended to whole characters.
     pub(super) fn span(&self, node: &Node) -> Span {
         let span = node.as_span();
         self.at(span.start(), span.end())
     }
 
-    /// Returns a range of the piece being built as a span of the file.
+    /// Returns the bytes `start..end` of the piece being built as a span of the file, extended to whole characters.
     pub(super) fn at(&self, start: usize, end: usize) -> Span {
         whole_characters(self.text, Span::new(self.file, self.offset(start), self.offset(end)))
     }
@@ -77,7 +78,7 @@ impl<'t> Builder<'t> {
         (self.base + offset).saturating_sub(self.longer).max(self.least).min(self.limit)
     }
 
-    /// Adds an error, and returns it so that hints can be added.
+    /// Adds an error at `span`, and returns it so that hints can be added.
     pub(super) fn error(&mut self, code: Code, message: impl Into<String>, span: Span) -> &mut Diagnostic {
         self.diagnostics.push(Diagnostic::error(code, message).label(span, ""));
         self.diagnostics.last_mut().expect("one was just added")
@@ -114,7 +115,8 @@ impl<'t> Builder<'t> {
         node.into_inner().map(|word| self.word(word)).collect()
     }
 
-    /// Returns the text of the `///` lines before an offset, without the marks; `None` if there are none.
+    /// Returns the text of the `///` lines before the offset `start`, in bytes of the file, without the marks; `None`
+    /// if there are none. Only blanks and other comments may stand between.
     pub(super) fn doc(&self, start: u32) -> Option<String> {
         let before = self.comments.partition_point(|comment| comment.span.start < start);
         let mut lines = Vec::new();
@@ -188,7 +190,7 @@ pub(super) fn next<'i>(nodes: &mut impl Iterator<Item = Node<'i>>) -> Node<'i> {
     nodes.next().expect("the grammar gives this node another child")
 }
 
-/// Returns the next child if it is of this rule.
+/// Returns the next child if it is of this rule; otherwise `None`, and the child stays the next.
 pub(super) fn next_if<'i>(nodes: &mut pest::iterators::Pairs<'i, Rule>, rule: Rule) -> Option<Node<'i>> {
     nodes.peek().is_some_and(|node| node.as_rule() == rule).then(|| next(nodes))
 }

@@ -62,12 +62,12 @@ enum Infix {
 }
 
 impl Builder<'_> {
-    /// Builds an expression.
+    /// Builds an expression; one that is nested too deeply is reported, and is an `Error` node.
     pub(super) fn expr(&mut self, node: Node) -> Expr {
         self.tall_expr(node).expr
     }
 
-    /// Builds an expression with its height.
+    /// Builds an expression with its height; one that is nested too deeply is reported, and is an `Error` node.
     pub(super) fn tall_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         if self.depth >= HEIGHT_MAX {
@@ -475,8 +475,8 @@ impl Builder<'_> {
         (binder, self.tall_expr(next(&mut nodes)))
     }
 
-    /// Returns a node above trees of a height; reports a tree that is too high, once, and returns an error
-    /// node.
+    /// Returns a node above subtrees, the highest of which has this height. From [`HEIGHT_MAX`] on it reports the
+    /// height, once for each piece of text, and returns an error node.
     pub(super) fn grown(&mut self, span: Span, kind: ExprKind, height: usize) -> Tall {
         if height >= HEIGHT_MAX {
             self.too_deep(span, "this expression");
@@ -485,7 +485,7 @@ impl Builder<'_> {
         Tall::new(span, kind, height + 1)
     }
 
-    /// Reports deep nesting, once for each piece of text.
+    /// Reports deep nesting of `what`, such as "this type", once for each piece of text.
     pub(super) fn too_deep(&mut self, span: Span, what: &str) {
         if self.deep_reported.replace(self.base) != Some(self.base) {
             self.error(code::TOO_DEEP, format!("{what} is nested too deeply"), span)

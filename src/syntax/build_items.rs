@@ -119,7 +119,7 @@ impl Builder<'_> {
         ExternType { name, is, fields, methods }
     }
 
-    /// Builds the parameters, if there are some.
+    /// Builds the parameters if they are the next child; otherwise returns none and takes nothing.
     pub(super) fn params_if(&mut self, nodes: &mut pest::iterators::Pairs<Rule>) -> Vec<Param> {
         next_if(nodes, Rule::params).map(|params| self.plain_params(params)).unwrap_or_default()
     }

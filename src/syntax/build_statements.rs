@@ -162,8 +162,10 @@ impl Builder<'_> {
         otherwise.expect("there is a first branch")
     }
 
-    /// Returns the conditions and bodies of `if a { } else if b { } else { }`, each with the offset at
-    /// which it begins, and the last body; `None` if there are too many for the tree.
+    /// Returns the conditions and bodies of `if a { } else if b { } else { }` as (offset in bytes of the file at which
+    /// the branch begins, condition, body), in order, and the last body with its offset, `None` without a final
+    /// `else`. The whole is `None`, after a report, if there are more than [`NESTING_MAX`](super::parse::NESTING_MAX)
+    /// branches.
     #[allow(clippy::type_complexity)]
     pub(super) fn branches<'i>(
         &mut self,

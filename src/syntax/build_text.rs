@@ -71,7 +71,8 @@ impl Builder<'_> {
         TextPart::Shown { value, unit, decimals }
     }
 
-    /// Returns the text of `use "..."` and `test "..."`, with its span, quotes included.
+    /// Returns the text of `use "..."` and `test "..."` with escapes resolved, and its span, quotes included. Reports
+    /// unknown escapes.
     pub(super) fn plain_text(&mut self, node: &Node) -> (String, Span) {
         let span = self.span(node);
         let inside = &node.as_str()[1..node.as_str().len() - 1];
@@ -138,7 +139,8 @@ fn digits_end(text: &[u8]) -> usize {
     end
 }
 
-/// Returns a `"""` text without its quotes, the outer line breaks and the common indentation.
+/// Returns a `"""` text without its quotes, the blank first and last lines and the common indentation. Panics on fewer
+/// than 6 bytes, the quotes.
 pub(super) fn raw(quoted: &str) -> String {
     let inside = &quoted[3..quoted.len() - 3];
     let mut lines: Vec<&str> =

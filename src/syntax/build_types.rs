@@ -114,7 +114,7 @@ impl Builder<'_> {
         TypeKind::Fn { params, result }
     }
 
-    /// Builds type parameters.
+    /// Builds type parameters, in order.
     pub(super) fn type_params(&mut self, node: Node) -> Vec<TypeParam> {
         let param = |node: Node, this: &mut Self| {
             let mut nodes = node.into_inner();
@@ -124,7 +124,7 @@ impl Builder<'_> {
         node.into_inner().map(|node| param(node, self)).collect()
     }
 
-    /// Builds a unit, a product of powers, from its text: `N*m`, `m/s^2`, `1/s`.
+    /// Builds a unit, a product of powers, from the text at its span: `N*m`, `m/s^2`, `1/s`.
     pub(super) fn unit(&mut self, span: Span) -> UnitExpr {
         let text = self.read[span.range()].as_bytes();
         let start = span.start as usize;
@@ -161,7 +161,7 @@ impl Builder<'_> {
     }
 }
 
-/// Returns the end of the run of bytes from `start` that satisfy `fits`.
+/// Returns the offset behind the run of bytes from offset `start` on that satisfy `fits`.
 pub(super) fn run(text: &[u8], start: usize, fits: impl std::ops::Fn(u8) -> bool) -> usize {
     text[start..].iter().position(|b| !fits(*b)).map_or(text.len(), |length| start + length)
 }

@@ -4,7 +4,7 @@ use crate::source::{Diagnostic, Span, code};
 
 /// The probable meaning of a character.
 pub(super) struct Meant {
-    /// The character that the grammar reads in its place; `None` if the meaning is unknown.
+    /// The character that the grammar reads in its place; `None` if no one character is read there.
     pub(super) replacement: Option<char>,
     hint: Option<&'static str>,
 }

@@ -34,7 +34,8 @@ pub(super) fn too_deep(at: Span, what: &str) -> Diagnostic {
         .hint(format!("the limit is {NESTING_MAX} levels"))
 }
 
-/// Returns the error of unclosed brackets, given outermost first, and of the token found instead.
+/// Returns the error of unclosed brackets, given outermost first and at least one, and of the token found instead;
+/// `found` is `None` at the end of the file.
 pub(super) fn unclosed(open: &[(char, Span)], found: Option<Span>) -> Diagnostic {
     let (bracket, span) = open[open.len() - 1];
     let mut diagnostic =
@@ -57,7 +58,8 @@ fn closer(bracket: char) -> char {
     }
 }
 
-/// Returns the error of an unclosed text or comment; `length` is that of its opening quote.
+/// Returns the error of an unclosed `what`, "text" or "comment"; `length` is the number of bytes of its opening
+/// quotes, 1 or 3.
 pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnostic {
     let hint = match (what, length) {
         ("comment", _) => "close it with `*/`",
@@ -67,7 +69,8 @@ pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnos
     Diagnostic::error(code::UNCLOSED, format!("this {what} is never closed")).label(opener, "").hint(hint)
 }
 
-/// Returns the error of a closing bracket without an opening one; `open` is the innermost open bracket.
+/// Returns the error of a closing bracket without an opening one; `open` is the innermost open bracket, and `None` if
+/// none is open.
 pub(super) fn stray_closer(closer: char, at: Span, open: Option<Span>) -> Diagnostic {
     let diagnostic = Diagnostic::error(code::SYNTAX, format!("this `{closer}` closes nothing")).label(at, "");
     match open {

@@ -48,13 +48,14 @@ impl BodyKind {
 pub(super) struct Mistake<'t> {
     /// The text of the piece.
     pub(super) text: &'t str,
-    /// The offset of the piece in the whole text.
+    /// The offset in bytes of the piece in the whole text.
     pub(super) base: usize,
     /// The file of the piece.
     pub(super) file: FileId,
-    /// The tokens of the piece; of the `{ }` of a text where the mistake is in one.
+    /// The tokens of the piece, in order, without comments and line breaks; of the `{ }` of a text where the mistake
+    /// is in one. Their offsets are in `text`.
     pub(super) tokens: Vec<Token>,
-    /// The index of the faulty token; the number of tokens if the piece ends too early.
+    /// The index of the faulty token in `tokens`, from 0; the number of tokens if the piece ends too early.
     pub(super) found: usize,
     /// The failure that the parser reported.
     pub(super) failure: &'t Failure,
@@ -69,16 +70,16 @@ pub(super) struct Mistake<'t> {
 /// A keyword that is misspelt in a program.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Misspelt {
-    /// The offset of the word in the file.
+    /// The offset in bytes of the word in the file.
     pub(super) start: usize,
-    /// The offset behind it.
+    /// The offset in bytes behind it.
     pub(super) end: usize,
     /// The keyword that was most likely meant.
     pub(super) meant: &'static str,
 }
 
-/// Returns the diagnostic for a piece `text` that begins at offset `base` of the `whole` text, and the
-/// misspelt keyword if that is what is wrong.
+/// Returns the diagnostic for a piece `text` that begins at the offset `base`, in bytes, of the `whole` text, and the
+/// misspelt keyword that is the mistake; `None` for another mistake.
 pub(super) fn explain(
     failure: &Failure,
     text: &str,
@@ -148,27 +149,27 @@ impl Mistake<'_> {
             .unwrap_or_else(|| self.missing(whole))
     }
 
-    /// Returns the text of a token; empty if there is none.
+    /// Returns the text of the token at an index, from 0; empty if there is none.
     pub(super) fn token_text(&self, index: usize) -> &str {
         self.tokens.get(index).map_or("", |token| &self.text[token.start..token.end])
     }
 
-    /// Returns the text of the faulty token.
+    /// Returns the text of the faulty token; empty if the piece ends too early.
     pub(super) fn found(&self) -> &str {
         self.token_text(self.found)
     }
 
-    /// Returns the text of the token before the faulty one.
+    /// Returns the text of the token before the faulty one; empty if there is none.
     pub(super) fn before(&self) -> &str {
         self.found.checked_sub(1).map_or("", |before| self.token_text(before))
     }
 
-    /// Returns the kind of a token; `None` behind the last one.
+    /// Returns the kind of the token at an index, from 0; `None` behind the last one.
     pub(super) fn kind_of(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// Returns the span of a token, or the empty span behind the last one.
+    /// Returns the span in the file of the token at an index, from 0; behind the last token an empty span at its end.
     pub(super) fn span_of(&self, index: usize) -> Span {
         let (start, end) = match (self.tokens.get(index), self.tokens.last()) {
             (Some(token), _) => (token.start, token.end),
@@ -178,7 +179,7 @@ impl Mistake<'_> {
         Span::new(self.file, self.base + start, self.base + end)
     }
 
-    /// Returns true if the grammar would have accepted this text.
+    /// Returns true if the grammar would have accepted exactly this text where the parser stopped.
     pub(super) fn wants(&self, text: &str) -> bool {
         self.failure.wanted.iter().any(|wanted| wanted == text)
     }
@@ -197,12 +198,12 @@ impl Mistake<'_> {
         self.text[before.end..end].contains('\n')
     }
 
-    /// Returns an error at the faulty token; never `None`.
+    /// Returns an error at the faulty token. Never `None`: an `Option` because the explanations that end with it are.
     pub(super) fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
         self.error_at(code::SYNTAX, self.found, message)
     }
 
-    /// Returns an error at a token, or behind the last one; never `None`.
+    /// Returns an error at the token at an index, or behind the last one. Never `None`, as for [`Mistake::error`].
     pub(super) fn error_at(
         &self,
         code: Code,

@@ -6,9 +6,9 @@
 pub struct Token {
     /// Its kind.
     pub kind: TokenKind,
-    /// The offset of its first byte.
+    /// The offset in bytes of its first byte.
     pub start: usize,
-    /// The offset after its last byte.
+    /// The offset in bytes after its last byte.
     pub end: usize,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct Lexer<'t> {
 }
 
 impl<'t> Lexer<'t> {
-    /// Returns the tokens from the offset `start` on, which must not be within a token.
+    /// Returns the tokens from the offset `start`, in bytes, on; it must not be within a token.
     pub(super) fn new(text: &'t str, start: usize) -> Lexer<'t> {
         Lexer { bytes: text.as_bytes(), text, at: start, plain_text: false }
     }
@@ -226,7 +226,8 @@ pub(super) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// Returns the offset of the line end of the line that holds `start`, or of the end of the text.
+/// Returns the offset of the line end of the line that holds the offset `start`, both in bytes, or of the end of the
+/// text.
 pub(super) fn line_end(bytes: &[u8], start: usize) -> usize {
     bytes[start..].iter().position(|b| *b == b'\n').map_or(bytes.len(), |length| start + length)
 }

@@ -9,9 +9,11 @@ use pest::Parser as _;
 use pest::error::ErrorVariant;
 use std::sync::{Mutex, PoisonError};
 
-/// The deepest nesting of brackets, comments and types, and the longest chain of `else if`.
+/// The deepest nesting of brackets, comments and types, in levels, and the longest chain of `else if`, in branches.
+/// The parser goes through them by recursion, which a deeper nesting could take beyond the stack.
 pub const NESTING_MAX: usize = 200;
-/// The greatest height of the tree of one expression; later rooms walk it by recursion. A leaf has height 1.
+/// The greatest height of the tree of one expression, in nodes from the root to a leaf, both counted; later rooms walk
+/// it by recursion.
 pub const HEIGHT_MAX: usize = 500;
 /// The greatest length of a text, in bytes: 8 MiB. A longer one is not parsed.
 pub const TEXT_MAX: usize = 8 << 20;
@@ -31,12 +33,12 @@ pub const DIAGNOSTICS_MAX: usize = 200;
 pub struct Parsed {
     /// The tree.
     pub file: ast::File,
-    /// The diagnostics, in order of position; at most [`DIAGNOSTICS_MAX`].
+    /// The diagnostics, in order of position; at most [`DIAGNOSTICS_MAX`], the first ones of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the tree of a file. Never fails: pieces that cannot be parsed become `Error` nodes, and are
-/// reported. A text longer than [`TEXT_MAX`] is reported and gives an empty tree.
+/// Returns the tree of the file `id`, whose text is `text`. Never fails: pieces that cannot be parsed become `Error`
+/// nodes, and are reported. A text longer than [`TEXT_MAX`] is reported and gives an empty tree.
 pub fn parse(id: FileId, text: &str) -> Parsed {
     if text.len() > TEXT_MAX {
         return too_large(id, text);
@@ -84,9 +86,9 @@ pub fn breaks_off(text: &str) -> bool {
 /// A failed parse: the furthest offset, and what the grammar would have accepted there.
 #[derive(Clone, Debug)]
 pub(super) struct Failure {
-    /// The offset at which parsing stopped.
+    /// The offset in bytes at which parsing stopped: the furthest that the parser reached.
     pub(super) at: usize,
-    /// The texts that would fit there.
+    /// The texts that would fit there, in pest's order; a range of characters is shown as `a..z`.
     pub(super) wanted: Vec<String>,
     /// True if a name or number, or a longer one, would fit there.
     pub(super) wants_word: bool,
@@ -97,8 +99,8 @@ pub(super) struct Failure {
 /// Guards pest's switch for detailed errors, which is global to the process.
 static DETAIL: Mutex<()> = Mutex::new(());
 
-/// Parses a faulty text once more to collect what would fit at the furthest offset; `None` if the text
-/// parses after all.
+/// Parses a text once more, by `rule`, to collect what would fit at the furthest offset; `None` if the text parses
+/// after all.
 pub(super) fn failure(rule: Rule, text: &str) -> Option<Failure> {
     let _guard = DETAIL.lock().unwrap_or_else(PoisonError::into_inner);
     pest::set_error_detail(true);

@@ -28,7 +28,8 @@ impl Quotient {
             .hint(self.hint)
     }
 
-    /// Returns the error that a bracket is never closed, because the one that should is in the comment.
+    /// Returns the error that `bracket`, which opens at `at`, is never closed, because the one that should close it is
+    /// in the comment.
     pub(super) fn unclosed(self, bracket: char, at: Span) -> Diagnostic {
         let message = format!("this `{bracket}` is never closed: `//` begins a comment");
         Diagnostic::error(code::UNCLOSED, message)

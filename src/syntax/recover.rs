@@ -80,7 +80,7 @@ impl<'t> Parser<'t> {
         Parser { builder, scan, depth: 0 }
     }
 
-    /// Parses one chunk, and appends its items to those before.
+    /// Parses the chunk at this range of bytes, and appends its items to those before.
     pub(super) fn chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
         if self.faults(&range).iter().any(|fault| fault.fatal && self.nests_too_deep(*fault)) {
             items.push(self.error_item(range));

@@ -20,17 +20,18 @@ const LINE_LENGTH: usize = 500;
 
 /// The result of the first pass.
 pub(super) struct Scan<'t> {
-    /// The text that the grammar reads.
+    /// The text that the grammar reads: of the length of the one scanned, with comments as blanks and odd characters
+    /// replaced.
     pub(super) text: Cow<'t, str>,
-    /// All comments, in order.
+    /// All comments, in order of position.
     pub(super) comments: Vec<Comment>,
-    /// The offsets at which chunks begin: at item keywords outside all brackets.
+    /// The offsets in bytes at which chunks begin, in order: at item keywords outside all brackets.
     pub(super) chunks: Vec<usize>,
     /// The diagnostics, in order of discovery.
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// The faults that have been reported, by offset.
+    /// The faults that have been reported, in order of discovery.
     pub(super) faults: Vec<Fault>,
-    /// The offsets of opening brackets that are never closed, in order.
+    /// The offsets in bytes of opening brackets that are never closed, in order.
     pub(super) unclosed: Vec<usize>,
     /// True if brackets nest too deeply somewhere.
     pub(super) too_deep: bool,
@@ -39,21 +40,21 @@ pub(super) struct Scan<'t> {
 /// A mistake that has been reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fault {
-    /// Its offset.
+    /// Its offset in bytes.
     pub(super) at: usize,
     /// True if the grammar must not read this span: recursion would be too deep, or the meaning is lost.
     pub(super) fatal: bool,
 }
 
 impl Scan<'_> {
-    /// Returns the ranges of the chunks, without gaps up to the end.
+    /// Returns the ranges of bytes of the chunks, in order, without gaps up to the end.
     pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let ends = self.chunks.iter().skip(1).copied().chain([self.text.len()]);
         self.chunks.iter().copied().zip(ends).map(|(start, end)| start..end)
     }
 }
 
-/// Scans a text.
+/// Scans a text: finds its comments, the beginnings of its chunks, and mistakes of characters and brackets.
 pub(super) fn scan(file: FileId, text: &str) -> Scan<'_> {
     let scan = Scanner::new(file, text, Resync::SureItems).run();
     match scan.unclosed.is_empty() {

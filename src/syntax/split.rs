@@ -4,9 +4,9 @@ use super::lex::{Lexer, Token, TokenKind};
 use super::words;
 use std::ops::Range;
 
-/// Returns the pieces of `range`, in order. A piece begins at a keyword of this level outside all brackets,
-/// or at a line that does not continue the line before. Brackets that are never closed (`unclosed`, in
-/// order) are ignored, so that what follows them can be found.
+/// Returns the pieces of `range`, as ranges of bytes of `text`, in order. A piece begins at one of `keywords` outside
+/// all brackets, or at a line that does not continue the line before. Brackets that are never closed (`unclosed`,
+/// their offsets in order) are ignored, so that what follows them can be found.
 pub(super) fn split(
     text: &str,
     range: Range<usize>,
@@ -38,7 +38,8 @@ pub(super) fn split(
     starts.iter().copied().zip(ends).map(|(start, end)| start..trimmed_end(text, start..end)).collect()
 }
 
-/// Returns the tokens of a range, without comments and line breaks.
+/// Returns the tokens of a range of bytes, in order, without comments and line breaks. Their offsets are in the whole
+/// text.
 pub(super) fn tokens(text: &str, range: Range<usize>) -> Vec<Token> {
     let text = &text[..range.end];
     let skipped = [TokenKind::LineBreak, TokenKind::LineComment, TokenKind::UnclosedComment];
@@ -102,8 +103,8 @@ fn wants_more(text: &str, token: Token) -> bool {
     }
 }
 
-/// Returns the insides of the `{ }` of a piece that are outside of other brackets; the last one may lack
-/// its end.
+/// Returns the insides of the `{ }` of a piece that are outside of other brackets, as ranges of bytes, in order; the
+/// last one may lack its end. `unclosed` are the offsets of brackets that are never closed, in order.
 pub(super) fn bodies(text: &str, range: Range<usize>, unclosed: &[usize]) -> Vec<Range<usize>> {
     let mut bodies = Vec::new();
     let mut open: Vec<usize> = Vec::new();

@@ -26,7 +26,7 @@ pub const ITEMS: &[&str] = &[
 /// The words that begin a declaration with instances.
 pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
 
-/// The words after which a name is declared.
+/// The words after which a name is declared, sorted.
 pub const DECLARING: &[&str] = &[
     "behavior",
     "cell",
@@ -114,7 +114,8 @@ const FORMS: &[(&str, &str)] = &[
     ("if", "if condition { ... } else { ... }"),
 ];
 
-/// Returns the form of the item or clause that begins with this word; `None` for words without one.
+/// Returns an example of the form of the item or clause that begins with this word: `truss Name of Strut { ... }`.
+/// `None` for words without one.
 pub(super) fn form(word: &str) -> Option<&'static str> {
     FORMS.iter().find(|(first, _)| *first == word).map(|(_, form)| *form)
 }

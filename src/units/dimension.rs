@@ -162,9 +162,9 @@ impl Dimension {
     }
 
     /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one that
-    /// positive powers of the radian were dropped from. Radians are dropped, never invented, and only if a length or
-    /// a mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular speed no frequency.
-    /// Nothing is dropped from a dimension that is not known.
+    /// positive powers of the radian were dropped from. Radians are dropped, never invented, and only if a length or a
+    /// mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular speed no frequency. Nothing
+    /// is dropped in a dimension with a dimension parameter, of which too little is known.
     pub fn fits(self, wanted: Dimension) -> bool {
         self == wanted
             || (self.angle > 0
@@ -174,7 +174,8 @@ impl Dimension {
                 && Dimension { angle: 0, ..self } == wanted)
     }
 
-    /// Returns the dimension that both fit, an energy only if both are; `None` if there is none.
+    /// Returns the dimension that quantities of both fit, the one without radians, an energy only if both are; `None`
+    /// if there is none.
     pub fn common(self, other: Dimension) -> Option<Dimension> {
         let energy = self.energy && other.energy;
         if self.fits(other) {

@@ -3,7 +3,7 @@
 use super::dimension::Dimension;
 use super::table::{UNITS, to_si};
 
-/// Returns a value in SI as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in degrees.
+/// Returns a value in SI units as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in degrees.
 /// Digits as of [`number`]; a dimension without a usual unit is shown in base units (`0.25kg*m^2`).
 pub fn quantity(value: f64, dimension: Dimension) -> String {
     if dimension == Dimension::NUMBER {
@@ -13,12 +13,13 @@ pub fn quantity(value: f64, dimension: Dimension) -> String {
     format!("{}{}", number(value / to_si(1.0, factor)), suffix)
 }
 
-/// The greatest difference from a decimal number of ten digits, relative, that is rounding: a unit's factor leaves some.
+/// The greatest difference from a decimal number of ten digits, relative, that is rounding: a unit's factor leaves
+/// some.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 
 /// Returns a plain number as text: whole numbers and what has at most ten digits exactly, everything else with six
-/// significant digits, but never fewer than stand before the point. No trailing zeros, an exponent only when far from
-/// one.
+/// significant digits, but never fewer than stand before the point. No trailing zeros; an exponent below 1e-5 and from
+/// 1e15 on. Infinities and NaN as `inf`, `-inf` and `NaN`.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -38,8 +39,8 @@ pub fn number(value: f64) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_string()
 }
 
-/// Returns a value in SI as text, in a unit given by its name and its factor to SI, and with a number of decimals, as far
-/// as they are stated.
+/// Returns a value in SI units as text, in a unit given as (name, factor to SI) and with a number of decimals. Without
+/// a unit it is one that suits the value, without decimals the digits are those of [`number`].
 pub fn quantity_in(
     value: f64,
     dimension: Dimension,
@@ -78,8 +79,8 @@ fn trim_zeros(text: &str) -> &str {
     }
 }
 
-/// Returns the unit to show a value of a dimension in, with its factor to SI: the largest in which the value reaches
-/// 1, else the smallest; base units if none is usual.
+/// Returns the unit to show a value (SI) of a dimension in, as (name, factor to SI): the largest in which the value
+/// reaches 1, else the smallest. Base units with the factor 1 if none is usual.
 pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     const DEG: f64 = std::f64::consts::PI / 180.0;
     let units: &[(&str, f64)] = match dimension.name() {
@@ -101,7 +102,7 @@ pub fn fitting_unit(value: f64, dimension: Dimension) -> (String, f64) {
     (name.to_string(), factor)
 }
 
-/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`, `s^-2`; nothing for a plain
+/// Returns a dimension as a product of base units, as it could be written: `kg*m^2/s^2`, `s^-2`; empty for a plain
 /// number. `D` is a dimension parameter.
 pub fn base_units(dimension: Dimension) -> String {
     let parts = [
@@ -126,7 +127,7 @@ pub fn base_units(dimension: Dimension) -> String {
 }
 
 /// Returns the usual unit of a dimension, for messages: `rad/s` for an angular speed, base units if none is usual;
-/// nothing for a plain number.
+/// empty for a plain number.
 pub fn usual_unit(dimension: Dimension) -> String {
     match dimension.name() {
         Some("Number") => String::new(),

@@ -54,7 +54,7 @@ pub fn unit(name: &str) -> Option<Unit> {
     UNITS.iter().copied().find(|unit| unit.name == name)
 }
 
-/// Returns `value`, in a unit of this factor, in SI. A factor below one is applied by dividing by its exact
+/// Returns `value`, in a unit of this factor, in SI units. A factor below one is applied by dividing by its exact
 /// inverse where that is a whole number: `76mm` is the double nearest to 0.076.
 pub fn to_si(value: f64, factor: f64) -> f64 {
     let inverse = (1.0 / factor).round();

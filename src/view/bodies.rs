@@ -22,7 +22,8 @@ pub(super) struct Drawn {
     pub colour: Rgb,
 }
 
-/// Returns all bodies at a time in seconds, in the order in which they are drawn.
+/// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot; the cells of a
+/// lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings.
 pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     let plan = input.plan;
     match &plan.body {
@@ -56,7 +57,8 @@ fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
     drawn
 }
 
-/// Returns the pose of each link in the world at a time in seconds.
+/// Returns the pose of each link in the world (`X_WL`) at a time in seconds, in the order of [`Kinematics`]'s links:
+/// those of the first module, then those of the second, and so on.
 pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Pose> {
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);

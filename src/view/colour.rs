@@ -6,7 +6,7 @@ use crate::robot::Assembly;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rgb(pub [f64; 3]);
 
-/// The colours of modules, by number modulo their count.
+/// The colours of groups of modules: group `i`, from 0, has the colour `i` modulo their count.
 pub(super) const PALETTE: [Rgb; 8] = [
     hex(0x3865d4),
     hex(0xf5b116),
@@ -40,12 +40,13 @@ const fn hex(rgb: u32) -> Rgb {
 }
 
 impl Rgb {
-    /// Returns the linear mixture of two colours: this one at `part` 0, `other` at 1.
+    /// Returns the linear mixture of two colours as they are encoded: this one at `part` 0, `other` at 1.
     pub(super) fn mixed(self, other: Rgb, part: f64) -> Rgb {
         Rgb(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * part))
     }
 
-    /// Returns the shade of this module colour for the link with this index.
+    /// Returns the shade of this module colour for a link by its index in the module, from 0; shades repeat after
+    /// eight.
     pub(super) fn shaded(self, link: usize) -> Rgb {
         let shade = SHADES[link % SHADES.len()];
         if shade == 0.0 {
@@ -63,15 +64,15 @@ impl Rgb {
         RAMP[i].mixed(RAMP[i + 1], x - i as f64)
     }
 
-    /// Returns the colour as `#rrggbb`.
+    /// Returns the colour as `#rrggbb`, in hexadecimal digits.
     pub(super) fn code(self) -> String {
         let [r, g, b] = self.0.map(|c| libm::round(c * 255.0) as u8);
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 }
 
-/// Returns the group of each module, numbered in order of appearance: modules are grouped by the first
-/// component of their path that is not common to all.
+/// Returns the group of each module, in the order of the robot's modules; groups are numbered from 0 in order of
+/// appearance. Modules are grouped by the first component of their path that is not common to all.
 pub(super) fn groups(robot: &Assembly) -> Vec<usize> {
     let paths: Vec<Vec<&str>> = robot.modules.iter().map(|m| m.name.split('.').collect()).collect();
     let same = |step: usize| paths.iter().all(|path| path.len() > step + 1 && path[step] == paths[0][step]);

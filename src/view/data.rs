@@ -15,7 +15,8 @@ const TEXTS_MAX: usize = 400_000;
 /// The number of samples of the clearance curve.
 const CLEARANCES: usize = 160;
 
-/// Returns the data of a plan as the page's scripts read it.
+/// Returns the data of a plan as the page's scripts read it: a JSON object with lengths in metres, times in seconds
+/// and angles in radians, except where a key's function says otherwise.
 pub(super) fn data(input: &RenderInput) -> Value {
     let plan = input.plan;
     // The judge's rollout up to the end of playing.

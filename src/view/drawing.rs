@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 /// The font family of all labels.
 const FONT: &str = "ui-monospace, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
-/// The colour of lines and labels.
+/// The colour of lines and labels, as SVG writes it.
 pub(super) const INK: &str = "#1d2530";
-/// The colour of minor lines and labels.
+/// The colour of minor lines and labels, as SVG writes it.
 pub(super) const SOFT: &str = "#7a828c";
-/// The colour of the background.
+/// The colour of the background, as SVG writes it.
 pub(super) const PAPER: &str = "#fffefb";
 
 /// Attributes of a halo by which labels stay legible in front of lines.
@@ -22,7 +22,8 @@ const LAYER: &str =
 /// The width of a letter, in parts of the font size.
 pub(super) const LETTER: f64 = 0.602;
 
-/// An SVG drawing under construction.
+/// An SVG drawing under construction. Points are (x right, y down), all lengths in the unit that [`Drawing::finish`]
+/// gets.
 #[derive(Default)]
 pub(super) struct Drawing {
     text: String,
@@ -45,13 +46,13 @@ impl Drawing {
             .expect("text grows");
     }
 
-    /// Adds a circle around `at`.
+    /// Adds a circle around the point `at`.
     pub(super) fn circle(&mut self, at: [f64; 2], radius: f64, look: SvgAttributes) {
         let [x, y, r] = [at[0], at[1], radius].map(short);
         writeln!(self.text, r#"<circle cx="{x}" cy="{y}" r="{r}" {look}/>"#).expect("text grows");
     }
 
-    /// Adds a closed polygon.
+    /// Adds a closed polygon; the last point is joined with the first.
     pub(super) fn polygon(&mut self, points: &[[f64; 2]], look: SvgAttributes) {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", short(*x), short(*y))).collect();
@@ -65,7 +66,8 @@ impl Drawing {
         self.text.push_str("</g>\n");
     }
 
-    /// Adds a label centred at a point; its text is escaped.
+    /// Adds a label centred at a point, with letters of height `size`; its text is escaped. `colour` is written as SVG
+    /// has it.
     pub(super) fn words(&mut self, at: [f64; 2], size: f64, colour: &str, words: &str) {
         let ([x, y], size) = (at.map(short), short(size));
         let words = escaped(words);
@@ -76,7 +78,8 @@ impl Drawing {
         .expect("text grows");
     }
 
-    /// Returns the whole file; `unit` is the unit of a length of 1: `px` or `mm`.
+    /// Returns the whole file with a visible part of this size, whose upper left corner is `from`; `unit` is the unit
+    /// of a length of 1: `px` or `mm`. `title` is escaped.
     pub(super) fn finish(self, title: &str, from: [f64; 2], size: [f64; 2], unit: &str) -> String {
         let ([x, y], [w, h], title) = (from.map(short), size.map(short), escaped(title));
         format!(
@@ -94,7 +97,8 @@ pub(super) fn short(x: f64) -> f64 {
     if x.is_finite() { x + 0.0 } else { 0.0 }
 }
 
-/// Returns the upper left corner and the size of a bounding box around points, with a margin.
+/// Returns the upper left corner and the size of a bounding box around points (x right, y down), with a margin of
+/// `rim` on each side. Without points it is around the origin.
 pub(super) fn around(points: impl Iterator<Item = [f64; 2]>, rim: f64) -> ([f64; 2], [f64; 2]) {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in points {

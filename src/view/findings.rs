@@ -9,7 +9,8 @@ use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, Wors
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
 
-/// Returns the time in seconds at which playing ends: the duration, or the first failure.
+/// Returns the time in seconds at which playing ends: that of the first failure, but for one of the plan's form, or
+/// else the duration.
 pub(super) fn end(plan: &Plan) -> f64 {
     let duration = plan.body.duration();
     let failures = plan.verdict.iter().flat_map(|verdict| &verdict.failures);
@@ -69,8 +70,8 @@ fn meeting(failure: &Failure, modules: &[usize], plan: &Plan) -> Option<Vec3> {
     collision_point(plan, (first, last), failure.time)
 }
 
-/// Returns the indices of the modules that the first failure names, if `time` (s) is the time of that
-/// failure.
+/// Returns the indices, in the robot's order, of the modules that the first failure names; empty if `time` (s) is not
+/// the time of that failure.
 pub(super) fn failed_modules(plan: &Plan, time: f64) -> Vec<usize> {
     let first = plan.verdict.as_ref().and_then(|verdict| verdict.failures.first());
     first
@@ -115,7 +116,8 @@ fn short_length(x: f64) -> f64 {
     libm::round(x * 1e5) / 1e5
 }
 
-/// Returns the summary line below the title of a page.
+/// Returns the summary line below the title of a page: the number of modules, cells or struts, the duration, and the
+/// distance travelled over the ground.
 pub(super) fn summary(input: &RenderInput) -> String {
     let plan = input.plan;
     let (count, what) = plan.body.units();
@@ -134,7 +136,7 @@ pub(super) fn summary(input: &RenderInput) -> String {
     parts.join(", ")
 }
 
-/// Returns the causes with their positions in the source.
+/// Returns the causes in their order, as JSON objects with file, line (from 1) and text of the source.
 pub(super) fn causes(causes: &[Cause]) -> Vec<Value> {
     let place = |c: &Cause| json!({ "file": c.file, "line": c.line, "text": c.text });
     let cause = |c: &Cause| {

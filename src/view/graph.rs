@@ -16,7 +16,8 @@ const BOND: f64 = 120.0;
 /// The position of a port's name along its bond, in parts of the bond's length.
 const NEAR: f64 = 0.36;
 
-/// Returns the SVG of a configuration.
+/// Returns the SVG of a configuration at the start of the plan: a circle for each module, lines between bonded ones
+/// with the names of their ports, broken where the bond is open, and a ring around the base.
 pub(super) fn graph(input: &RenderInput, tracks: &Tracks) -> String {
     let robot = &tracks.robot;
     let places = places(input, tracks);

@@ -19,8 +19,8 @@ const CONTACTS_MAX: usize = 20_000;
 /// The most moments with a support polygon in one page.
 const SUPPORTS_MAX: usize = 500;
 
-/// Returns base poses as `[time, x, y, z, qx, qy, qz, qw]`, linear between; the start pose alone if the
-/// plan has no rollout.
+/// Returns base poses (`X_WB`) as `[time, x, y, z, qx, qy, qz, qw]`, in seconds and metres, in order of time; poses
+/// between them are linear in these numbers. Alone stands the start pose if the plan has no rollout.
 pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
     let key = |time: f64, pose: &Pose| {
         let (p, q) = (pose.translation.vector, pose.rotation);
@@ -70,8 +70,9 @@ fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
     (0..7).all(near)
 }
 
-/// Returns `[time, x, y, z of the centre of mass, margin or null, held, corners]` of each moment; the
-/// corners are those of the support polygon.
+/// Returns `[time, x, y, z of the centre of mass, margin or null, held, corners]` of moments in order of time, in
+/// seconds and metres in the world, thinned to about [`SUPPORTS_MAX`]. The corners are those of the support polygon as
+/// `[x, y, x, y, ...]`, counter-clockwise from above; `held` is as in [`Moment::held`].
 pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
     let stride = moments.len().div_ceil(SUPPORTS_MAX).max(1);
     let last = moments.len().saturating_sub(1);
@@ -86,9 +87,9 @@ pub(super) fn supports(moments: &[Moment]) -> Vec<Value> {
         .collect()
 }
 
-/// Returns `[time, [x, y, ...]]` of the points that touch the ground, for each moment at which they differ
-/// from those before; and true if some moment has as many as the judge's limit of contacts, so that others may be
-/// left out.
+/// Returns `[time, [x, y, x, y, ...]]` of the points that touch the ground, in seconds and metres in the world, for
+/// each moment at which they differ from those before; and true if some moment has as many as the judge's limit of
+/// contacts, so that others may be left out.
 pub(super) fn contacts(moments: &[Moment]) -> (Vec<Value>, bool) {
     let most = moments.iter().map(|m| m.contacts.len()).max().unwrap_or(0);
     let afforded = CONTACTS_MAX / most.max(1);
@@ -112,8 +113,8 @@ fn same(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Returns a curve in millimetres, `[[time, value], ...]`, from points in metres; `least` is inserted at
-/// its time.
+/// Returns a curve in millimetres, `[[time, value], ...]`, from points (time in s, value in m) in order of time;
+/// `least`, such a point too, is inserted at its time, `None` for none.
 pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> Vec<Value> {
     if let Some(least) = least.filter(|_| !points.is_empty()) {
         let at = points.partition_point(|(time, _)| *time <= least.0);
@@ -122,8 +123,9 @@ pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> V
     points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
 }
 
-/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint as a part of its limit, at so
-/// many moments that a page holds them; null if no load is known.
+/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint as a part of its limit (1 is the
+/// limit), in the order of `joints`, at so many moments that a page holds them. `joints` are the numbers of the joints
+/// as in their `JointId`, ascending. Null if no load is known.
 pub(super) fn loads(moments: &[Moment]) -> Value {
     let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
     let mut joints: Vec<usize> =

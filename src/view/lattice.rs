@@ -5,7 +5,8 @@ use crate::plan::{Ratio, Run, Stages};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
-/// Returns the stages, start cells and laws of a lattice plan as JSON.
+/// Returns the stages, start cells and laws of a lattice plan as JSON: the size of a cell in metres, durations in
+/// seconds, places as runs of cells as they are in the plan.
 pub(super) fn body(stages: &Stages, library: &Library) -> Value {
     let cell = library.cells.get(stages.cell);
     let stage = |stage: &crate::plan::Stage| {

@@ -31,7 +31,7 @@ struct Flat {
     look: String,
 }
 
-/// Returns the SVG of a lattice plan, one panel per stage.
+/// Returns the SVG of a lattice plan: a panel for the start and one for the end of each stage, as many as fit.
 pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     let instants = stages.instants();
     let name = |i: usize| match i.checked_sub(1) {
@@ -44,7 +44,7 @@ pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     laid_out(input, panels, instants.len() - shown)
 }
 
-/// Returns the SVG of a truss plan, one panel per keyframe.
+/// Returns the SVG of a truss plan, one panel per keyframe, as many as fit.
 pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
     let shown = paths.keyframes.len().min(PANELS_MAX);
     let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {

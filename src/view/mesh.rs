@@ -15,9 +15,10 @@ const SMOOTH: f64 = 0.848;
 /// A triangle mesh with its sharp edges; lengths in metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
-    /// The corners of each triangle, and the normals at them.
+    /// The triangles as (corners, normals at them): corners in metres, counter-clockwise as seen from outside; normals
+    /// of length 1, outwards.
     pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
-    /// The sharp edges, drawn as lines.
+    /// The sharp edges by their ends, in metres, drawn as lines.
     pub edges: Vec<[Vec3; 2]>,
 }
 
@@ -115,7 +116,7 @@ impl Mesh {
         self.edges.extend(sharp.map(|((i, j), _)| [at(*i), at(*j)]));
     }
 
-    /// Returns the mesh transformed by `X`.
+    /// Returns the mesh transformed by `X`: a mesh in frame B for `X_AB` becomes one in frame A.
     pub(super) fn moved(&self, X: &Pose) -> Mesh {
         let at = |p: Vec3| X.transform_point(&p.into()).coords;
         let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));

@@ -13,7 +13,7 @@ pub(super) fn short(x: f64) -> f64 {
     if f64::is_finite(number) { number + 0.0 } else { 0.0 }
 }
 
-/// Returns the numbers as a JSON list, rounded.
+/// Returns the numbers as a JSON list, each rounded as [`number`] does.
 pub(super) fn list(numbers: impl IntoIterator<Item = f64>) -> Value {
     Value::Array(numbers.into_iter().map(number).collect())
 }
@@ -29,12 +29,12 @@ pub(super) fn number(x: f64) -> Value {
     if x == libm::trunc(x) && x.abs() < 1e15 { json!(x as i64) } else { json!(x) }
 }
 
-/// Returns `[x, y, z]`, rounded.
+/// Returns a vector as `[x, y, z]`, rounded.
 pub(super) fn vector(v: &Vec3) -> Value {
     list([v.x, v.y, v.z])
 }
 
-/// Returns the rotation of a pose as `[x, y, z, w]`.
+/// Returns the rotation of a pose as the unit quaternion `[x, y, z, w]`, rounded.
 pub(super) fn rotation(pose: &Pose) -> Value {
     let q = pose.rotation;
     list([q.i, q.j, q.k, q.w])

@@ -1,6 +1,6 @@
 //! Colour quantisation by median cut (Heckbert 1982), in integers.
 
-/// The most colours of one picture.
+/// The most colours of one picture: few enough that a page stays small.
 pub(super) const COLOURS_MAX: usize = 48;
 
 /// The bits of red, green and blue that are distinguished.
@@ -17,8 +17,8 @@ struct Tone {
     sums: [u64; 3],
 }
 
-/// Returns the palette of a picture, and the palette index of each pixel. `pixels` holds red, green and
-/// blue of each pixel.
+/// Returns the palette of a picture as (red, green, blue), and the palette index of each pixel, from 0, row by row.
+/// `pixels` holds red, green and blue of each pixel, one after the other.
 pub(super) fn reduced(pixels: &[u8]) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut tones: Vec<Option<Tone>> = vec![None; 1 << (3 * BITS)];
     for pixel in pixels.chunks_exact(3) {

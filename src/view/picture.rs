@@ -66,9 +66,9 @@ pub struct StillOptions {
     pub time: f64,
     /// The viewpoint of the camera.
     pub side: Side,
-    /// The width in pixels.
+    /// The width in pixels, at least 1.
     pub width: usize,
-    /// The height in pixels.
+    /// The height in pixels, at least 1.
     pub height: usize,
 }
 
@@ -84,8 +84,8 @@ pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     encoded(options, &pixels, None)
 }
 
-/// Returns a picture as PNG with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a page to
-/// hold.
+/// Returns a picture as the bytes of a PNG file with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a
+/// page to hold.
 pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let (colours, pixels) = palette::reduced(&pixels(&canvas(input, options), options));
     encoded(options, &pixels, Some(&colours))
@@ -274,7 +274,8 @@ fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
     pixels
 }
 
-/// Returns pixels, red, green and blue of each, as PNG.
+/// Returns pixels as the bytes of a PNG file; `pixels` holds red, green and blue of each, 3 times `width` times
+/// `height` bytes, row by row from the top. Panics on another number of them.
 pub(super) fn encode_rgb(width: usize, height: usize, pixels: &[u8]) -> Vec<u8> {
     encoded(&StillOptions { width, height, ..StillOptions::default() }, pixels, None)
 }

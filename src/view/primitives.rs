@@ -7,22 +7,14 @@ use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
 /// A primitive around the origin of its own frame; lengths in metres.
 pub(super) enum Primitive<'a> {
-    Box {
-        size: Vec3,
-    },
+    /// A box; `size` holds its edge lengths along x, y and z.
+    Box { size: Vec3 },
     /// A cylinder along z.
-    Tube {
-        radius: f64,
-        length: f64,
-    },
-    Ball {
-        radius: f64,
-    },
-    /// Triangles, counter-clockwise as seen from outside.
-    Surface {
-        points: &'a [Vec3],
-        triangles: &'a [[u32; 3]],
-    },
+    Tube { radius: f64, length: f64 },
+    /// A ball.
+    Ball { radius: f64 },
+    /// Triangles as indices into `points`, from 0, counter-clockwise as seen from outside.
+    Surface { points: &'a [Vec3], triangles: &'a [[u32; 3]] },
 }
 
 /// Calls `draw` with each primitive of `shapes` and its pose in the frame in which the shapes are placed.
@@ -59,7 +51,8 @@ fn take_apart(placed: &Placed, X_LS: &Pose, draw: &mut dyn FnMut(&Pose, Primitiv
     }
 }
 
-/// Returns the rotation that takes +z to a unit axis.
+/// Returns the rotation that takes +z to the direction of `axis`, as a pose without translation; for -z it is half a
+/// turn about x.
 pub(super) fn along(axis: &Vec3) -> Pose {
     let turn = nalgebra::UnitQuaternion::rotation_between(&Vec3::z(), axis);
     // The axis that points down: half a turn about x.

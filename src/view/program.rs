@@ -43,7 +43,8 @@ struct LaidOut {
     size: [f64; 2],
 }
 
-/// Returns the SVG of a behaviour.
+/// Returns the SVG of a behaviour: the actions of the plan's program from left to right, its joints and modules by
+/// name; "nothing" for a plan without a program.
 pub(super) fn program(input: &RenderInput, tracks: &Tracks) -> String {
     let mut drawer =
         Drawer { robot: &tracks.robot, group: groups(&tracks.robot), names: names(&tracks.robot), drawn: 0 };

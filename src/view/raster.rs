@@ -13,7 +13,7 @@ const LINE_LIFT: f64 = 1.0015;
 /// A camera with orthonormal axes right, up and back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
-    /// The position in the world, in metres.
+    /// The position in the world, m.
     pub at: Vec3,
     /// The unit vector to the right of the picture.
     pub right: Vec3,
@@ -21,11 +21,12 @@ pub(super) struct Camera {
     pub up: Vec3,
     /// The unit vector from the target to the camera.
     pub back: Vec3,
-    /// Half the height of the picture at distance 1; of an orthographic camera in metres.
+    /// Half the height of what the picture shows: of an orthographic camera in metres, of a perspective one at the
+    /// distance 1, thus the tangent of half its angle of view.
     pub half: f64,
     /// True for an orthographic camera.
     pub parallel: bool,
-    /// The distance to the target, in metres.
+    /// The distance to the target, m.
     pub distance: f64,
 }
 
@@ -35,9 +36,10 @@ pub(super) struct Canvas {
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
-    /// Linear red, green and blue of each pixel, row by row from the top.
+    /// Red, green and blue of each pixel in 0..1, row by row from the top.
     pub colours: Vec<[f32; 3]>,
-    /// One over the distance, or its negative for an orthographic camera: the greater is nearer.
+    /// The depths of pixels, in the order of `colours`: one over the distance (1/m), or its negative (m) for an
+    /// orthographic camera: the greater is nearer. Minus infinity where nothing is drawn.
     pub depths: Vec<f32>,
 }
 
@@ -53,14 +55,16 @@ pub(super) struct Projected {
 }
 
 impl Camera {
-    /// Returns a camera at `at` that is directed at `target`, both in m; see [`Camera::half`] for `half`.
+    /// Returns a camera at `at` that is directed at `target`, both in m in the world, with the direction `up` upwards
+    /// in the picture; see [`Camera::half`] for `half`. `up` must not point at the target.
     pub(super) fn new(at: Vec3, target: Vec3, up: Vec3, half: f64, parallel: bool) -> Camera {
         let back = (at - target).normalize();
         let right = up.cross(&back).normalize();
         Camera { at, right, up: back.cross(&right), back, half, parallel, distance: (at - target).norm() }
     }
 
-    /// Projects a point into a picture of this size; `None` if it is behind the near plane.
+    /// Projects a point of the world, in m, into a picture of this size in pixels; `None` if it is behind the near
+    /// plane. One beside the picture is projected, too.
     pub(super) fn project(&self, p: &Vec3, width: usize, height: usize) -> Option<Projected> {
         let d = p - self.at;
         let away = -d.dot(&self.back);
@@ -85,14 +89,14 @@ impl Camera {
 }
 
 impl Canvas {
-    /// Returns an empty image of this size in pixels.
+    /// Returns an empty image of this size in pixels: black, with nothing drawn.
     pub(super) fn new(width: usize, height: usize) -> Canvas {
         let pixels = width * height;
         Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
     }
 
-    /// Rasterises the triangles of a mesh; `shade` returns the colour of a point by its position and
-    /// normal.
+    /// Rasterises the triangles of a mesh in the world; `shade` returns the colour of a point by its position and
+    /// normal there. Triangles with a corner behind the near plane are left out.
     pub(super) fn fill(
         &mut self,
         mesh: &Mesh,
@@ -158,7 +162,8 @@ impl Canvas {
         }
     }
 
-    /// Rasterises lines of a width in pixels.
+    /// Rasterises lines, given by their ends in the world, of a width in pixels. A line with an end behind the near
+    /// plane is left out.
     pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], camera: &Camera, width: usize, colour: Rgb) {
         let colour = colour.0.map(|c| c as f32);
         for [p, q] in lines {

@@ -9,13 +9,14 @@ use crate::robot::{Motion, Step};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
-/// The most segments of one page; the motion of a longer plan is sampled at even distances in time.
+/// The most segments of joints' tracks in one page; the motion of a longer plan is sampled at even distances in time.
 pub(super) const SEGMENTS_MAX: usize = 60_000;
 
 /// The least number of samples that a joint keeps when its motion is sampled.
 const POSITIONS_MIN: usize = 16;
 
-/// Returns the body of the plan as JSON. Adds a note for each thing left out.
+/// Returns the body of the plan as JSON; `base` are the base poses as [`ground_pose::base`](super::ground_pose::base)
+/// gives them. Adds the meshes of links, and a note for each thing left out.
 pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
     let robot = &tracks.robot;
     let mut forms = Forms::default();

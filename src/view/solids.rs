@@ -15,12 +15,14 @@ const FIRST_MESH: usize = 3;
 /// The meshes of a page, each once.
 #[derive(Default)]
 pub(super) struct Meshes {
-    /// The meshes in order of index, as JSON.
+    /// The meshes as JSON, in order of index: the first one has the shape index after those of box, cylinder and ball.
     pub list: Vec<Value>,
     known: Vec<String>,
 }
 
-/// Returns the solids of a link, in its frame: `{shape, p, q, s}`.
+/// Returns the solids of a link, in its frame, as `{shape, p, q, s}`: the index of a shape of unit size, its position
+/// in metres, its rotation as the quaternion `[x, y, z, w]`, and its size along x, y and z in metres. Adds new meshes
+/// to `meshes`.
 pub(super) fn solids(shapes: &[Placed], meshes: &mut Meshes) -> Value {
     let mut found = Vec::new();
     primitives(shapes, &mut |X, piece| {

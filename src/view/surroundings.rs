@@ -15,7 +15,7 @@ pub(super) fn floor(plan: &Plan) -> bool {
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
 }
 
-/// Returns the obstacles and the terrain, each with its name.
+/// Returns the obstacles, then the terrain, each as (name, shapes placed in the world).
 pub(super) fn solids(paths: &NodePaths) -> Vec<(String, Vec<Placed>)> {
     let around = &paths.surroundings;
     let obstacles = around.obstacles.iter().enumerate();

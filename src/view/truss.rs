@@ -7,7 +7,8 @@ use crate::plan::{Interpolation, Keyframe, NodePaths};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
-/// Returns struts, keyframes and surroundings of a truss plan as JSON.
+/// Returns struts, keyframes and surroundings of a truss plan as JSON, with lengths in metres and times in seconds.
+/// Adds the meshes of the surroundings to `meshes`.
 pub(super) fn body(paths: &NodePaths, library: &Library, meshes: &mut Meshes) -> Value {
     let strut = library.struts.get(paths.strut);
     let (low, high) = strut.map_or((0.0, 1.0), |strut| strut.length);

@@ -115,23 +115,19 @@ pub enum Decision {
     Stop,
 }
 
-/// Returns the layout of least energy that fits the settings, as far as the budget reaches; [`Optimum::proof`] says if
-/// it is proved. Panics if the settings name a root that is no face.
+/// Returns the layout of least energy that fits, as far as the budget reaches. Panics if the given root is no face.
 ///
 /// # Errors
-/// [`NoLayout::AllOverlap`] if no layout lies flat or is low enough, [`NoLayout::Budget`] if none was found within the
-/// budget.
+/// [`NoLayout::AllOverlap`] if no layout lies flat or is low enough, else [`NoLayout::Budget`] if none was found.
 pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Result<Optimum, NoLayout> {
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns the layout of least energy among those that `accepts` accepts. Layouts that fit the settings are put to
-/// `accepts` in ascending order of their energy, up to ties. If the budget ends before one is accepted, it is asked
-/// about a last one, which need not be the next in that order.
+/// Returns the layout of least energy that `accepts` accepts. It is asked about layouts that fit the settings in
+/// ascending order of energy, up to ties; if the budget ends before it accepts one, about one more, of any energy.
 ///
 /// # Errors
-/// [`NoLayout::AllOverlap`] if no layout fits the settings or every one was refused, [`NoLayout::Budget`] if none was
-/// accepted within the budget.
+/// [`NoLayout::AllOverlap`] if no layout fits or all were refused, else [`NoLayout::Budget`] if none was accepted.
 pub fn optimum_among(
     target: &Target,
     weights: &Weights,
@@ -141,8 +137,10 @@ pub fn optimum_among(
     search(target, weights, settings, Some(accepts), &Observer::none())
 }
 
-/// Runs the search; without `accepts` the first layout that fits the settings is accepted. An observer that ends
-/// the search ends its budget.
+/// Runs the search; without `accepts` the first layout that fits is accepted. An observer ends it as its budget does.
+///
+/// # Errors
+/// As for [`optimum_among`].
 pub(crate) fn search<'a>(
     target: &Target,
     weights: &Weights,
@@ -314,8 +312,7 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// Raises the bound by Lagrangian relaxation. Returns the new one, or `None` where nothing below the cutoff
-    /// is left.
+    /// Raises the bound by Lagrangian relaxation, and returns it; `None` where nothing below the cutoff is left.
     fn ascend(
         &mut self,
         bounds: &mut Bounds<'s>,
@@ -486,8 +483,7 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// Returns a layout that lies flat to begin with: from the best layout, or by tabu search as long as
-    /// there is none (primal heuristic).
+    /// Returns a first flat layout: from the best one, or by tabu search while there is none (primal heuristic).
     fn flat_start(&mut self, first: Layout) -> Layout {
         let (target, weights) = (self.target, self.weights);
         let is_flat = |layout: &Layout| Pattern::of(target, layout).overlaps().is_empty();
@@ -590,8 +586,7 @@ fn fraction(hinge: usize, seed: u64) -> f64 {
     ((mixed >> 32) as f64 + 1.0) / (1u64 << 32) as f64
 }
 
-/// Returns the arcs of the shortest path in the tree between two faces that overlap in the plane; `None` where
-/// none do.
+/// Returns the arcs of the shortest tree path between two faces that overlap in the plane; `None` where none do.
 fn overlapping_path(target: &Target, layout: &Layout) -> Option<Vec<Arc>> {
     let pairs = Pattern::of(target, layout).overlaps();
     let paths = pairs.iter().map(|&[a, b]| edge_exchange::path(layout, a, b));

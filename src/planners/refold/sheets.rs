@@ -33,8 +33,7 @@ const STEPS_IN_ALL_MAX: usize = 100_000;
 /// Two layouts, and the strokes by which the flat sheet of the one becomes that of the other.
 #[derive(Clone, Debug)]
 pub struct Refolding {
-    /// The layout of the first shape. Panels are numbered as its faces, and both layouts are rooted at the
-    /// same panel.
+    /// The layout of the first shape. Panels are numbered as its faces; both layouts are rooted at one panel.
     pub from: Layout,
     /// The layout of the second shape, numbered as its own faces.
     pub to: Layout,
@@ -92,8 +91,7 @@ pub enum NoRefolding {
     /// No series of strokes between sheets of the two was found within the budget, or before the observer ended the
     /// search.
     Budget {
-        /// The number of cells and connections that only one of the two nearest sheets has; `None` where no
-        /// two sheets were found.
+        /// The number of cells and connections that only one of the two nearest sheets has; `None` without two.
         apart: Option<usize>,
         /// The lower bound on the number of changes.
         bound: usize,

@@ -11,13 +11,14 @@ pub(super) struct Bins {
     /// The edges, ascending, one more than there are bins, in SI units. A value on an edge belongs to the bin above it;
     /// one on the last edge to the last bin.
     pub edges: Vec<f64>,
-    /// The number of values of each series in each bin.
+    /// The number of values in each bin, for each series in the order of the plot.
     pub counts: Vec<Vec<usize>>,
 }
 
 impl Bins {
-    /// Returns the bins of a plot's values: as many as it asks for, from the least value to the greatest; else by the
-    /// rule of Rice (twice the cube root of the number of values), at round edges.
+    /// Returns the bins of a plot's values: as many as it asks for, from the least value to the greatest; else, at
+    /// round edges, about as many as the rule of Rice gives for the mean length of a series: twice the cube root of
+    /// the number of values.
     pub(super) fn of(plot: &Plot) -> Bins {
         let values: Vec<f64> = plot.points().map(|point| point[1]).collect();
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -37,7 +38,7 @@ impl Bins {
         Bins { edges, counts }
     }
 
-    /// Returns the greatest number of values in a bin.
+    /// Returns the greatest number of values of one series in a bin.
     pub(super) fn most(&self) -> usize {
         self.counts.iter().flatten().copied().max().unwrap_or(0)
     }

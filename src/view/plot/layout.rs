@@ -86,7 +86,7 @@ pub(super) fn lay_out(plot: &Plot) -> Sheet {
     sheet
 }
 
-/// Returns the scales of both axes.
+/// Returns the scales of the axes as (horizontal, vertical); `bins` are those of a histogram, `None` for other plots.
 pub(super) fn scales(plot: &Plot, bins: Option<&Bins>) -> (Scale, Scale) {
     match bins {
         Some(bins) => {

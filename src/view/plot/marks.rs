@@ -1,6 +1,6 @@
 //! The marks that a plot consists of, in pixels from the upper left corner.
 
-/// A colour as red, green and blue.
+/// A colour as red, green and blue, 0 to 255, sRGB encoded.
 pub(super) type Colour = [u8; 3];
 
 /// A mark. Later ones cover earlier ones.

@@ -21,7 +21,7 @@ const STEPS_DEGREES: [f64; 9] = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.
 pub(super) struct Scale {
     /// The label with the unit: `torque [N·m]`.
     pub label: String,
-    /// The ticks: position in 0..1, and text.
+    /// The ticks as (position in 0..1, text), in ascending order.
     pub ticks: Vec<(f64, String)>,
     /// The smallest value shown, in the unit.
     low: f64,
@@ -54,7 +54,7 @@ impl Scale {
         scale
     }
 
-    /// Returns the scale of counts from 0 to `most`.
+    /// Returns the scale of counts from 0 to `most`, with about `count` ticks at whole numbers.
     pub(super) fn of_counts(axis: &PlotAxis, most: usize, count: usize) -> Scale {
         let high = most.max(1) as f64 * (1.0 + ROOM);
         let mut scale = Scale { label: label(axis, ""), ticks: vec![], low: 0.0, high, factor: 1.0 };
@@ -62,7 +62,8 @@ impl Scale {
         scale
     }
 
-    /// Returns the position of a value: 0 at the lower end, 1 at the upper.
+    /// Returns the position of a value in SI units: 0 at the lower end, 1 at the upper; outside of these beyond the
+    /// ends.
     pub(super) fn position(&self, value: f64) -> f64 {
         (value / self.factor - self.low) / (self.high - self.low)
     }
@@ -120,7 +121,8 @@ fn step(width: f64, count: usize, degrees: bool) -> f64 {
         .unwrap_or(10.0 * power)
 }
 
-/// Returns edges of bins at round values over a range of values in SI units, about `count` of them.
+/// Returns edges of bins at round values that cover the range `low` to `high`, in SI units of this dimension,
+/// ascending; about `count` of them.
 pub(super) fn round_edges(low: f64, high: f64, count: usize, dimension: Dimension) -> Vec<f64> {
     let (_, factor) = fitting_unit(low.abs().max(high.abs()), dimension);
     let (low, high) = (low / factor, high / factor);

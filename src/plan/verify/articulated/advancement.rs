@@ -246,9 +246,9 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Judges all pairs of modules, and the pairs of bodies `within` a module, over `from..to` (s). Pairs of modules are
-    /// listed only where the interval leaves them open: a large robot has more of them than memory holds. If too many
-    /// stay open, each half judges all of them anew.
+    /// Judges all pairs of modules, and the pairs of bodies `within` a module, over `from..to` (s). Pairs of modules
+    /// are listed only where the interval leaves them open: a large robot has more of them than memory holds. If too
+    /// many stay open, each half judges all of them anew.
     fn advance_all(&mut self, region: &Region, from: f64, to: f64, within: &[BodyPair]) {
         if !self.begin_interval(from) {
             return;

@@ -142,7 +142,8 @@ impl BondedPair {
     }
 }
 
-/// Returns the error with the usual angle in place of one that is not stated, which is a half turn and explains nothing.
+/// Returns the error with the usual angle in place of one that is not stated, which is a half turn and explains
+/// nothing.
 fn stated(error: Capture) -> Capture {
     if error.angle < std::f64::consts::PI {
         return error;

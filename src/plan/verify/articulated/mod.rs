@@ -92,8 +92,8 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     ledger.finish()
 }
 
-/// Returns the number of features of the robot of a plan that can touch the ground; 0 where there is no ground, or where
-/// the samples are so few that it need not be known beforehand.
+/// Returns the number of features of the robot of a plan that can touch the ground; 0 where there is no ground, or
+/// where the samples are so few that it need not be known beforehand.
 fn ground_features_of(plan: &Plan, tracks: &Tracks, samples: usize) -> usize {
     let few = samples.saturating_mul(tracks.robot.modules.len()) <= plan.settings.samples_max;
     if few || !plan.worlds.iter().any(|from| from.world.has_floor()) {

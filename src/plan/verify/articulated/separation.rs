@@ -93,9 +93,9 @@ pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound
     )
 }
 
-/// Returns the bound from the slab between two bodies along a direction of a's carrier that is held still in the state of
-/// the level's origin. Points of each body move with its velocity and spin; a linear function's least
-/// value over a convex body and over the interval is at one of the interval's ends.
+/// Returns the bound from the slab between two bodies along a direction of a's carrier that is held still in the state
+/// of the level's origin. Points of each body move with its velocity and spin; a linear function's least value over a
+/// convex body and over the interval is at one of the interval's ends.
 pub(super) fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
     let state = view.state;
     let level = pair.level as usize;
