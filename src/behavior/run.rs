@@ -77,6 +77,7 @@ pub(super) struct Played {
     pub(super) issues: Vec<Issue>,
     /// The number of actions executed.
     pub(super) actions: u64,
+    /// The number of nodes entered, which measures the work.
     pub(super) steps: u64,
 }
 

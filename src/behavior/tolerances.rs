@@ -8,7 +8,7 @@ pub(super) struct Tolerances {
     /// The greatest distance of an image from a joint in a mirrored robot, m: parts are placed with less care
     /// than this only by mistake, and the masses of the two halves of a module may differ a little.
     pub image_place: f64,
-    /// The greatest sine of the angle between an axis and its image.
+    /// The greatest sine of the angle between an axis and its image, without unit.
     pub image_direction: f64,
     /// The greatest difference of positions (rad or m) and times (s) of two schedules that count as the same:
     /// rounding.

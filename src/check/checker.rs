@@ -70,7 +70,7 @@ pub(super) struct DefInfo<'a> {
     pub file: usize,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// Its tree.
+    /// The syntax tree of the declaration.
     pub item: DefItem<'a>,
     /// Its signature; `None` until it is computed.
     pub signature: Option<Rc<Signature>>,
@@ -145,7 +145,7 @@ impl ParamInfo {
 /// The names inside a declaration with instances.
 #[derive(Default)]
 pub(super) struct Members<'a> {
-    /// All members by [`MemberId`].
+    /// All members: a [`MemberId`] is an index into them.
     pub list: Vec<MemberInfo<'a>>,
     /// The members by name; a member's name is in it once.
     pub index: HashMap<Symbol, MemberId>,
@@ -223,7 +223,7 @@ pub(super) struct PortInfo {
 
 /// A behaviour of a configuration by its text.
 pub(super) struct BehaviorInfo<'a> {
-    /// Its tree.
+    /// The syntax tree of the behaviour.
     pub ast: &'a ast::Behavior,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
@@ -235,7 +235,7 @@ pub(super) struct BehaviorInfo<'a> {
 pub(super) struct Checker<'a> {
     /// The parsed files.
     pub loaded: &'a Loaded,
-    /// The texts.
+    /// The texts that were read, to which spans refer.
     pub sources: &'a Sources,
     /// All declarations, by [`DefId`]: the index is the number in it.
     pub defs: Vec<DefInfo<'a>>,
@@ -245,9 +245,10 @@ pub(super) struct Checker<'a> {
     shared: Option<usize>,
     /// The spans at which declarations are named, each with the declaration, in the order of checking.
     pub uses: RefCell<Vec<(Span, DefId)>>,
-    /// The values of members' `let`s, once checked; `None` while one is being checked.
+    /// The values of members' `let`s, once checked, by declaration and member; `None` while one is being checked.
     pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
-    /// The number of slots that the expressions of a declaration's members need.
+    /// The number of slots that the expressions of a declaration's members need, by declaration; none for one without
+    /// such expressions.
     pub member_frames: HashMap<DefId, usize>,
     /// The diagnostics so far.
     pub diagnostics: Vec<Diagnostic>,

@@ -15,7 +15,7 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
-    /// Checks a `config`.
+    /// Checks a `config`, and returns it typed; reports parts, ports and clauses that are wrong.
     pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));

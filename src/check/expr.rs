@@ -31,7 +31,7 @@ impl std::fmt::Display for Role {
     }
 }
 
-/// Returns an expression of a type.
+/// Returns an expression of a type, as nodes of the typed tree are made.
 pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }

@@ -92,7 +92,7 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// Checks a `lattice`.
+    /// Checks a `lattice`, and returns it typed; an error if its cell is unknown.
     pub(super) fn check_lattice(&mut self, id: DefId, lattice: &'a ast::Lattice) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
@@ -105,7 +105,7 @@ impl<'a> Checker<'a> {
         DefKind::Lattice(LatticeDef { params, members, of, value, frame: scope.frame() })
     }
 
-    /// Checks a `truss`.
+    /// Checks a `truss`, and returns it typed; an error if its strut is unknown.
     pub(super) fn check_truss(&mut self, id: DefId, truss: &'a ast::Truss) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;

@@ -407,7 +407,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Checks a `require` clause.
+    /// Checks a `require` clause, whose condition is a truth value and whose message a text.
     pub(super) fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
         super::typed::Require {
             span: r.span,

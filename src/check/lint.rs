@@ -5,7 +5,7 @@ use super::typed::DefId;
 use crate::source::{Diagnostic, Span, Symbol, code};
 
 impl Checker<'_> {
-    /// Lints the name of a declaration.
+    /// Warns of the name of a declaration that is not in the style of its kind.
     pub(super) fn lint_def(&mut self, id: DefId) {
         let info = self.def(id);
         let (name, span) = (info.name, info.span);
@@ -17,7 +17,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Lints a name that should be in snake_case; `what` is the plural of its kind.
+    /// Warns of a name that should be in snake_case; `what` is the plural of its kind.
     pub(super) fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
         if name.as_str().len() > 1 && name.as_str().contains(|c: char| c.is_ascii_uppercase()) {
             self.style(span, name, what, &snake(name.as_str()));

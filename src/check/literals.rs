@@ -89,7 +89,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Checks a text with its interpolated expressions.
+    /// Checks a text with its interpolated expressions, which may be of any type.
     pub(super) fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {

@@ -9,9 +9,9 @@ use std::collections::HashMap;
 
 /// A parsed file with its imports.
 pub(super) struct LoadedFile {
-    /// Its tree.
+    /// The syntax tree of the file.
     pub ast: ast::File,
-    /// The names that it imports.
+    /// The names that it imports, in the order of the text.
     pub imports: Vec<Import>,
     /// True for an entry of a session: all entries have one scope.
     pub entry: bool,
@@ -49,7 +49,7 @@ const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
 /// session the file to run is the newest entry, and an entry never changes the indices of those before it.
 #[derive(Default)]
 pub(super) struct Loaded {
-    /// The files.
+    /// The files, the index of each standing for it elsewhere.
     pub files: Vec<LoadedFile>,
     /// The index of the file to run; `None` if it could not be read.
     pub root: Option<usize>,

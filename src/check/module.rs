@@ -15,7 +15,8 @@ use crate::units::Dimension;
 use std::collections::HashMap;
 
 impl<'a> Checker<'a> {
-    /// Checks a `connector`.
+    /// Checks a `connector`, and returns it typed; reports the connectors that it does not know, and clauses of a
+    /// wrong type.
     pub(super) fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let mut def = ConnectorDef {
@@ -113,7 +114,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a `module`.
+    /// Checks a `module`, and returns it typed: its links, joints, ports and motors refer to each other by index.
+    /// Reports what is unknown, missing or given twice.
     pub(super) fn check_module(&mut self, id: DefId, module: &'a ast::Module) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;

@@ -231,7 +231,7 @@ pub(super) fn is_word(want: &Type, name: Symbol) -> bool {
     choice_of(want).is_some_and(|c| c.words.contains(&name))
 }
 
-/// Returns the choice of one word.
+/// Returns the choice whose only alternative is one word.
 pub(super) fn word_choice(name: Symbol) -> Arc<super::types::Choice> {
     Arc::new(super::types::Choice { words: vec![name], types: Vec::new() })
 }

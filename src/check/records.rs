@@ -12,7 +12,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a `record`.
+    /// Checks a `record`, and returns it typed, with its fields in order and their defaults.
     pub(super) fn check_record(&mut self, id: DefId, record: &'a ast::Record) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, None);

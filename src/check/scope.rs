@@ -57,7 +57,7 @@ impl Frame {
 }
 
 impl Scope {
-    /// Returns a scope without locals.
+    /// Returns a scope without locals in a file (an index into the loaded files), in the body of `this`.
     pub(super) fn new(file: usize, this: Option<DefId>) -> Scope {
         Scope {
             file,
@@ -101,7 +101,7 @@ impl Scope {
         self.frame.locals[mark.0..].iter().any(|b| b.name == name)
     }
 
-    /// Starts the frame of a lambda.
+    /// Starts the frame of a lambda: locals added from here on are in it.
     pub(super) fn enter_lambda(&mut self) {
         self.outer.push(std::mem::take(&mut self.frame));
     }
@@ -115,7 +115,7 @@ impl Scope {
         (frame.size as usize, captures)
     }
 
-    /// Returns a local by name, captured from an outer frame if need be; `None` if there is none.
+    /// Returns the local of this name and its type, captured from an outer frame if need be; `None` if there is none.
     pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
         self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
     }

@@ -107,7 +107,7 @@ pub struct LetDef {
 /// A `fn`. Its parameters are the first locals of the body, in order.
 #[derive(Clone, Debug)]
 pub struct FnDef {
-    /// The parameters.
+    /// The parameters, in order: the first locals of the body.
     pub params: Vec<Param>,
     /// The declared or inferred type of the result.
     pub result: Type,
@@ -191,10 +191,11 @@ pub struct ConnectorDef {
     /// The greatest forces and torques that it holds; the type of an expression distinguishes a force from a
     /// torque.
     pub holds: Vec<Expr>,
-    /// The tolerances of docking: a length, and perhaps an angle; `None` if the clause is missing.
+    /// The tolerances of docking, as (distance, a length; angle between the ports, `None` if it is not written);
+    /// `None` if the clause is missing.
     pub capture: Option<(Expr, Option<Expr>)>,
-    /// The span of `hinge`, and its arguments in the order of the parameters of the prelude's `revolute`;
-    /// `None` for a rigid connector.
+    /// The joint of the bond, as (span of the word `hinge`, its arguments in the order of the parameters of the
+    /// prelude's `revolute`, `None` for one left out); `None` for a rigid connector.
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,
     /// The number of slots of its frame.
     pub frame: usize,
@@ -256,7 +257,7 @@ pub struct Require {
 pub struct FactsDef {
     /// The family.
     pub family: FactsFamily,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The parameters, as members.
     pub members: Vec<Member>,
@@ -270,7 +271,7 @@ pub struct FactsDef {
 /// A configuration with its parts and clauses: `config`.
 #[derive(Clone, Debug)]
 pub struct ConfigDef {
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The span of the word `closed`, if connections may close loops; `None` if it is not written.
     pub closed: Option<Span>,
@@ -293,7 +294,7 @@ pub struct ConfigDef {
 /// A `part` of a configuration.
 #[derive(Clone, Debug)]
 pub struct PartDef {
-    /// The member that it is.
+    /// The member of the configuration that stands for the part: an index into [`ConfigDef::members`].
     pub member: MemberId,
     /// Its name.
     pub name: Symbol,
@@ -333,7 +334,7 @@ pub struct BehaviorDef {
     pub span: Span,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// The parameters.
+    /// The parameters, in order: the first locals of the body.
     pub params: Vec<Param>,
     /// The exemptions from verification, in order.
     pub allows: Vec<Exemption>,
@@ -420,7 +421,7 @@ pub enum ConfigClause {
 /// A lattice with its cell and arrangement: `lattice`.
 #[derive(Clone, Debug)]
 pub struct LatticeDef {
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The parameters, as members.
     pub members: Vec<Member>,
@@ -435,7 +436,7 @@ pub struct LatticeDef {
 /// A truss with its strut and clauses: `truss`.
 #[derive(Clone, Debug)]
 pub struct TrussDef {
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The parameters, `let`s and nodes.
     pub members: Vec<Member>,
@@ -511,7 +512,7 @@ pub enum TrussClause {
 /// A reference to a node: a member, with its index in an array of nodes.
 #[derive(Clone, Debug)]
 pub struct NodeRef {
-    /// The member.
+    /// The member of the truss that names the node or the array of nodes.
     pub member: MemberId,
     /// The index in an array, from 0; `None` for a single node.
     pub index: Option<Expr>,

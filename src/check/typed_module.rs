@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// A module with its links, joints and ports: `module`.
 #[derive(Clone, Debug)]
 pub struct ModuleDef {
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The parameters and `let`s.
     pub members: Vec<Member>,

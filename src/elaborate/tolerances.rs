@@ -16,7 +16,7 @@ pub(super) struct Tolerances {
     /// Centres nearer to each other than this, m, are equally near to the centre of mass, where a base is chosen:
     /// symmetry is exact only in thought.
     pub tie_distance: f64,
-    /// Parts whose masses differ by less than this part are equally heavy, where a base is chosen.
+    /// Parts whose masses differ by less than this fraction of them are equally heavy, where a base is chosen.
     pub tie_mass: f64,
     /// `up` and `facing` nearer than this to one line leave a port's turn open (sine of the angle).
     pub parallel: f64,

@@ -14,7 +14,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Returns a blank line.
+    /// Returns a blank line: without text, comment and indentation.
     pub(super) fn blank() -> Line {
         Line::default()
     }

@@ -22,9 +22,9 @@ const NONE: u32 = u32::MAX;
 /// An axis-aligned box, in metres, in a frame of the caller's choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
-    /// The corner of least coordinates.
+    /// The corner of least coordinates, m.
     pub low: Vec3,
-    /// The corner of greatest coordinates.
+    /// The corner of greatest coordinates, m.
     pub high: Vec3,
 }
 

@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub struct CauseRecord {
     /// The expression that gives the command.
     pub span: Span,
-    /// The spans of the arguments of an action, by what they command; empty for other commands.
+    /// The arguments of an action as (what it commands, span of the argument); empty for other commands.
     pub args: Vec<(Part, Span)>,
     /// The instance and the loop variables: `leg[2].m[0].tilt (i = 3)`; may be empty.
     pub instance: Rc<str>,

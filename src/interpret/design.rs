@@ -131,9 +131,9 @@ pub struct BondRecord {
     /// The turn of the second connector about their common normal, 0 to `turns` - 1, in steps of 360° divided by the
     /// connector's `turns`.
     pub turn: u32,
-    /// The clause.
+    /// The span of the clause.
     pub span: Span,
-    /// The spans of the two paths, first and second end.
+    /// The spans of the two paths, of the first end and the second.
     pub ends: (Span, Span),
     /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
     /// empty.
@@ -143,11 +143,11 @@ pub struct BondRecord {
 /// A start position (`set`), with its position in the source.
 #[derive(Clone)]
 pub struct SetRecord {
-    /// The joint.
+    /// The joint whose position is set.
     pub joint: JointOwner,
-    /// Its position, rad or m.
+    /// Its position at the start, rad or m.
     pub value: f64,
-    /// The clause.
+    /// The span of the clause.
     pub span: Span,
     /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a module of a RoFI file; may
     /// be empty.
@@ -156,7 +156,7 @@ pub struct SetRecord {
 
 /// A lattice: cells of one kind in an arrangement.
 pub struct LatticeDesign {
-    /// The cell.
+    /// The design of the cell that it is made of.
     pub of: Rc<Design>,
     /// The positions of the cells on the grid.
     pub cells: Rc<Cells>,
@@ -164,11 +164,11 @@ pub struct LatticeDesign {
 
 /// A truss: nodes, and struts of one kind between them.
 pub struct TrussDesign {
-    /// The strut.
+    /// The design of the strut that it is made of.
     pub of: Rc<Design>,
     /// The nodes, in the order of the declaration.
     pub nodes: Vec<Node>,
-    /// The two nodes of each strut, by index in `nodes`.
+    /// The struts, each as the indices in `nodes` of its first and second node, from 0.
     pub struts: Vec<(usize, usize)>,
     /// The rank of the rigidity matrix in the start pose, with the degrees of freedom that follow from it.
     pub rigidity: Rigidity,

@@ -90,11 +90,11 @@ pub struct Memory {
     /// The connectors, by the declaration's [`DefId`]; `None` for those not elaborated yet, `Some(None)` for those
     /// that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
-    /// The behaviours that calls gave.
+    /// The behaviours that calls gave, by the call, so that the same call gives the same behaviour.
     pub recalled: Recalled<BehaviorCall, Rc<Behavior>>,
     /// The last plans of behaviours, at most 32.
     pub plans: Vec<Rc<PlanValue>>,
-    /// The finished searches of `tosnake`.
+    /// The step sequences of the last searches of `tosnake`.
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
     pub causes: Causes,
@@ -347,7 +347,8 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and returns its findings instead of reporting them. Its errors stay counted.
+    /// Runs `body` and returns its result and its findings, in order, instead of reporting them. Its errors stay
+    /// counted.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);

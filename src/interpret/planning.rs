@@ -106,8 +106,8 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    /// Returns the plan of a scheduled behaviour, and the actions that are too fast for the joints' limits; their
-    /// causes have the plan's numbers.
+    /// Returns the plan of a scheduled behaviour, and an issue for each action that is too fast for the joints'
+    /// limits; their causes have the plan's numbers.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,

@@ -60,7 +60,7 @@ pub trait NativeRecord: Any + std::fmt::Debug {
 
 /// A state of a robot, with its time and the plan that it was taken from.
 pub struct StateValue {
-    /// The robot.
+    /// The design of the robot.
     pub robot: Rc<Design>,
     /// The robot as an assembly.
     pub body: Rc<Robot>,
@@ -70,7 +70,7 @@ pub struct StateValue {
     pub time: f64,
     /// The plan that it was taken from.
     pub planned: Rc<PlanValue>,
-    /// The pose of the base in the world, once it was asked for.
+    /// The pose `X_WB` of the base in the world; empty until it is asked for.
     pub base: OnceCell<Pose>,
     /// The times (s) of the states that it was made together with, and the index of its own among them, from 0.
     pub among: (Rc<Vec<f64>>, usize),
@@ -102,7 +102,7 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    /// Returns the world poses of all links, by their numbers in the kinematics.
+    /// Returns the poses `X_WL` of all links in the world, m, by their numbers in the kinematics.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];

@@ -28,7 +28,7 @@ pub struct Evaluator(EvaluatorThread<Task, Answer>);
 pub struct Task {
     /// The checked session.
     pub checked: Arc<Checked>,
-    /// The options of the run.
+    /// The options of the run: limits, seed and threads.
     pub options: Options,
     /// The work to be done.
     pub work: Work,

@@ -92,7 +92,7 @@ impl Column {
         self.cells.iter().find_map(Value::as_dimension)
     }
 
-    /// Returns the unit that suits the largest of the column's quantities, with its factor to SI; `None` for numbers
+    /// Returns the unit that suits the largest of the column's quantities, as (name, factor to SI); `None` for numbers
     /// and for other values.
     pub fn unit(&self) -> Option<(String, f64)> {
         let dimension = self.dimension().filter(|dimension| *dimension != Dimension::NUMBER)?;

@@ -113,7 +113,7 @@ fn pair([a, b]: [usize; 2]) -> Value {
     Value::list(vec![Value::count(a), Value::count(b)])
 }
 
-/// Returns the records of folding with the names of their fields.
+/// Returns the records of folding, each as (name, names of its fields in order).
 pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![
         ("Folding", Report::names()),

@@ -247,7 +247,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the path below the output folder that an argument names, and then the name as it is written.
+/// Returns the path below the output folder that the argument named `argument` gives, and the path as it is written.
 ///
 /// # Errors
 /// A fault where it leads out of the output folder, or names no file.

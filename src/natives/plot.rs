@@ -267,7 +267,7 @@ impl NativeRecord for PlotValue {
 const PLOT: &[Field<Plot>] =
     &[("series", |plot| Value::count(plot.series.len())), ("gaps", |plot| Value::count(plot.gaps()))];
 
-/// Returns the records of this file with the names of their fields.
+/// Returns the records of this file, each as (name, names of its fields in order).
 pub(super) fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![("Plot", field_names(PLOT))]
 }

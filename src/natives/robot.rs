@@ -227,7 +227,7 @@ fn frame(of: &Value) -> (Subject, MovingFrame) {
     }
 }
 
-/// Returns the pose of a frame in the world in a state of its robot.
+/// Returns the pose `X_WF` of a frame in the world in a state of its robot, m.
 pub(super) fn pose_in(state: &StateValue, frame: MovingFrame) -> Pose {
     let kinematics = &state.body.kinematics;
     match frame {

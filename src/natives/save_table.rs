@@ -6,7 +6,7 @@ use crate::interpret::table::{Column, Table, in_unit};
 use crate::interpret::value::Value;
 use crate::units::{Dimension, base_units};
 
-/// Returns a table as files hold it.
+/// Returns a table as files hold it: its columns with their units, cells by record.
 pub(super) fn for_file(interpreter: &Interpreter, table: &Table) -> RecordTable {
     let columns = table.columns.iter().map(|column| column_for_file(interpreter, column)).collect();
     RecordTable { columns, rows: table.rows }

@@ -321,7 +321,7 @@ impl NativeRecord for Contact {
     }
 }
 
-/// Returns the records of this file with the names of their fields.
+/// Returns the records of this file, each as (name, names of its fields in order).
 pub(super) fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![("Contact", field_names(CONTACT))]
 }

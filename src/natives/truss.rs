@@ -101,7 +101,7 @@ impl ReportFields for locomote::Report {
     ];
 }
 
-/// Returns the records of trusses with the names of their fields.
+/// Returns the records of trusses, each as (name, names of its fields in order).
 pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![("Morphing", morph::Report::names()), ("Travel", locomote::Report::names())]
 }

@@ -63,7 +63,7 @@ impl SymmetricMatrix {
         SymmetricMatrix { first, start, values: vec![0.0; end], summation: Summation::FourLanes }
     }
 
-    /// Returns the number of rows.
+    /// Returns the number of rows, which is that of columns.
     pub fn size(&self) -> usize {
         self.first.len()
     }
@@ -139,7 +139,7 @@ impl PivotRule {
 }
 
 impl Cholesky {
-    /// Returns the factor `L`.
+    /// Returns the lower triangular factor `L`.
     pub fn lower(&self) -> &SymmetricMatrix {
         &self.lower
     }

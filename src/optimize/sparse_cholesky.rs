@@ -41,14 +41,16 @@ impl SparseCholesky {
         Some(SparseCholesky { position, order, factor })
     }
 
-    /// Replaces x by `L⁻¹ P x`.
+    /// Replaces `x`, with an entry for every row, by `L⁻¹ P x` (forward substitution); P is the permutation of the
+    /// factor.
     pub(crate) fn solve_lower(&self, x: &mut [f64]) {
         let mut y: Vec<f64> = self.order.iter().map(|i| x[*i]).collect();
         self.factor.solve_lower(&mut y);
         x.copy_from_slice(&y);
     }
 
-    /// Replaces y by `Pᵀ L⁻ᵀ y`.
+    /// Replaces `y`, with an entry for every row, by `Pᵀ L⁻ᵀ y` (backward substitution); P is the permutation of the
+    /// factor.
     pub(crate) fn solve_upper(&self, y: &mut [f64]) {
         self.factor.solve_upper(y);
         let x: Vec<f64> = self.position.iter().map(|at| y[*at]).collect();

@@ -88,7 +88,7 @@ pub struct WorstKind {
     pub name: &'static str,
     /// The name on a page, after "least"; `None` for a value that a page does not show.
     pub title: Option<&'static str>,
-    /// The kind of quantity.
+    /// The kind of quantity that the value is, which sets its unit.
     pub measure: Measure,
     /// The function that returns the value in a verdict, `None` if the verdict has none.
     pub of: fn(&Verdict) -> &Option<Worst>,
@@ -161,7 +161,7 @@ impl std::fmt::Display for Status {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
-    /// The check.
+    /// The kind of check.
     pub kind: CheckKind,
     /// The outcome of the check.
     pub status: Status,
@@ -174,7 +174,7 @@ pub struct Worst {
     /// The value in SI units; a margin of torque, bond or speed is the fraction of the limit that is left, negative
     /// beyond it.
     pub value: f64,
-    /// The time, s.
+    /// The time at which the value occurs, from the start of the plan, s.
     pub time: f64,
     /// The path names of the things that it was found at.
     pub at: Vec<String>,
@@ -186,7 +186,7 @@ pub struct Worst {
 pub struct Failure {
     /// The check that failed.
     pub kind: CheckKind,
-    /// The time, s.
+    /// The time of the failure, from the start of the plan, s.
     pub time: f64,
     /// The time at which it ends, s; `None` if that was not followed.
     pub until: Option<f64>,
@@ -239,7 +239,7 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// Returns names and texts of all quantities, for a plan of this duration in seconds.
+    /// Returns the quantities as (name, text with unit), for a plan of this duration in seconds.
     pub fn in_words(&self, duration: f64) -> [(&'static str, String); 5] {
         let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
         let bound = quantity(self.lower_bound, Dimension::TIME);
@@ -294,7 +294,7 @@ pub struct Verdict {
     pub heading: f64,
     /// Greatest slip of a loaded link, summed over the plan, m; `None` if none was measured.
     pub slip: Option<Worst>,
-    /// The duration, s.
+    /// The duration of the plan, s.
     pub duration: f64,
     /// The least mechanical work of the motors, quasi-static, J.
     pub energy: f64,

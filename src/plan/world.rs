@@ -71,7 +71,7 @@ impl Default for World {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldFrom {
-    /// The beginning, s.
+    /// The time from which the world holds, from the start of the plan, s.
     pub from: f64,
     /// The world from then on.
     pub world: World,
@@ -129,9 +129,9 @@ pub enum ExemptionKind {
 pub struct Exemption {
     /// The check that is excused.
     pub kind: ExemptionKind,
-    /// The beginning, s; included.
+    /// The time from which the check is excused, s; included.
     pub from: f64,
-    /// The end, s; included.
+    /// The time up to which the check is excused, s; included.
     pub to: f64,
     /// The command of the source that this comes from.
     pub cause: CauseId,

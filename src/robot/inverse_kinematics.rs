@@ -81,7 +81,7 @@ pub trait IkProblem {
 /// Limits and weights of the descent. The default is for one frame of a chain ([`reach`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The greatest number of iterations.
+    /// The greatest number of iterations of the search.
     pub iterations_max: usize,
     /// The greatest number of iterations in a row without [`progress`](Settings::progress); after one more the
     /// descent counts as stalled.

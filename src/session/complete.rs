@@ -36,7 +36,7 @@ pub(crate) struct Completion {
 }
 
 impl Session {
-    /// Returns the state that completion needs.
+    /// Returns the state of the session that completion needs; it does not change with the session.
     pub fn knowledge(&self) -> Knowledge {
         Knowledge {
             files: self.files.clone(),

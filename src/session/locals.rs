@@ -8,7 +8,7 @@ use crate::syntax::DECLARING;
 pub(super) struct LocalName {
     /// The name.
     pub name: String,
-    /// Its origin.
+    /// Its origin, from which its type may be inferred.
     pub origin: Origin,
 }
 

@@ -126,7 +126,7 @@ impl Session {
         })
     }
 
-    /// Returns the checked program of all entries.
+    /// Returns the checked program of all entries accepted so far.
     pub fn checked(&self) -> &Checked {
         &self.checked
     }

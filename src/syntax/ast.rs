@@ -692,9 +692,9 @@ pub struct Lattice {
     pub name: Name,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The path of the cell.
+    /// The path of the cell that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
-    /// The cells.
+    /// The value of type `Cells`: the places of its cells.
     pub value: Expr,
 }
 
@@ -705,7 +705,7 @@ pub struct Truss {
     pub name: Name,
     /// The parameters.
     pub params: Vec<Param>,
-    /// The path of the strut.
+    /// The path of the strut that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
     /// The nodes and struts, as a value or as clauses.
     pub body: TrussBody,

@@ -90,7 +90,7 @@ impl<'t> Builder<'t> {
         *self.symbols.entry(text).or_insert_with(|| Symbol::new(text))
     }
 
-    /// Returns a word as a name.
+    /// Returns the text of a node as a name, with its span.
     pub(super) fn word(&mut self, node: Node) -> Name {
         let span = self.span(&node);
         Name { text: self.symbol(span), span }

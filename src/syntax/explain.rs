@@ -27,7 +27,7 @@ fn sum_break(mark: Span, sign: char) -> Diagnostic {
     .hint(format!("put the `{sign}` at the end of the line before"))
 }
 
-/// Returns the error of deep nesting.
+/// Returns the error of the deep nesting of `what`, such as "this bracket", at a span.
 pub(super) fn too_deep(at: Span, what: &str) -> Diagnostic {
     Diagnostic::error(code::TOO_DEEP, format!("{what} is nested too deeply"))
         .label(at, "")

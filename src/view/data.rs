@@ -16,7 +16,7 @@ const TEXTS_MAX: usize = 400_000;
 const CLEARANCES: usize = 160;
 
 /// Returns the data of a plan as the page's scripts read it: a JSON object with lengths in metres, times in seconds
-/// and angles in radians, except where a key's function says otherwise.
+/// and angles in radians; clearances alone are in millimetres.
 pub(super) fn data(input: &RenderInput) -> Value {
     let plan = input.plan;
     // The judge's rollout up to the end of playing.

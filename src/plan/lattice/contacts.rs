@@ -65,8 +65,8 @@ impl ContactForest {
         }
     }
 
-    /// Returns the size and the lowest number of a cell of each connected component, largest first; of equal ones that
-    /// of the lower cell first.
+    /// Returns each connected component as (number of its cells, lowest number of a cell of it), largest first; of
+    /// equal ones that of the lower cell first.
     pub fn components(&mut self) -> Vec<(usize, u32)> {
         let mut sizes = vec![0_usize; self.above.len()];
         for cell in 0..self.above.len() as u32 {

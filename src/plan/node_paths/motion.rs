@@ -31,7 +31,7 @@ pub struct NodePaths {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframe {
-    /// The time, s.
+    /// The time of the keyframe from the start of the plan, s.
     pub time: f64,
     /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
     pub interpolation: Interpolation,

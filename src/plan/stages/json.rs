@@ -15,7 +15,7 @@ pub(in crate::plan) struct StagesJson<'a> {
     cell: usize,
     /// The name of that cell type.
     cell_name: String,
-    /// The number of cells.
+    /// The number of cells, which are numbered from 0.
     count: u64,
     /// The unit of time, s: that in which the greatest force brings a cell from rest to one cell size a unit
     /// of time.

@@ -24,14 +24,14 @@ pub(in crate::plan) struct TracksJson<'a> {
     start: Cow<'a, State>,
     /// The duration, s.
     duration: f64,
-    /// The joint trajectories, at most one a joint, in order of joint. A joint without a track keeps its
-    /// start position.
+    /// The joint trajectories, at most one a joint, ascending by joint. A joint without a track keeps its start
+    /// position.
     tracks: Vec<TrackJson<'a>>,
     /// Changes of which bonds hold, in order of time.
     events: Vec<EventJson>,
-    /// The causes of the start pose: (joint, cause).
+    /// The causes of the start pose, each as (joint, cause).
     start_causes: Cow<'a, [(JointId, CauseId)]>,
-    /// The cause of each bond: (index of the bond, cause).
+    /// The cause of each bond, as (index of the bond in the robot, cause).
     bond_causes: Cow<'a, [(usize, CauseId)]>,
 }
 

@@ -19,7 +19,7 @@ pub struct Tracks {
     pub tracks: Vec<Track>,
     /// The changes of bonds, in order of time.
     pub events: Vec<DockingEvent>,
-    /// The duration, s.
+    /// The duration of the motion, s.
     pub duration: f64,
     /// The causes of the start pose, each as (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
@@ -43,9 +43,9 @@ pub struct Track {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Segment {
-    /// The start, s.
+    /// The start of the segment from the start of the plan, s.
     pub start: f64,
-    /// The end, s; after `start`.
+    /// The end of the segment from the start of the plan, s; after `start`.
     pub end: f64,
     /// The control points, rad or m; degree = number - 1; 2 to 16 of them.
     pub control: Vec<f64>,
@@ -67,7 +67,7 @@ pub enum DockingKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DockingEvent {
-    /// The time, s.
+    /// The time of the event from the start of the plan, s.
     pub time: f64,
     /// The change of the bond.
     pub kind: DockingKind,

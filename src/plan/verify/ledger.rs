@@ -72,7 +72,7 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// Records a note, once.
+    /// Records a note; one that is recorded already is left out.
     pub(super) fn note(&mut self, note: String) {
         if !self.verdict.notes.contains(&note) {
             self.verdict.notes.push(note);

@@ -11,16 +11,17 @@ pub struct Layout {
     /// For each face, in the order of [`Target::faces`], the index in [`Target::hinges`] of the hinge to its parent;
     /// `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// For each face, in the order of [`Target::faces`], its parent; the root's is itself.
+    /// For each face, in the order of [`Target::faces`], the index of its parent there; the root's is its own.
     pub parent: Vec<usize>,
-    /// All faces in breadth-first order: the root first, parents before their children.
+    /// The indices in [`Target::faces`] of all faces in breadth-first order: the root first, parents before their
+    /// children.
     pub order: Vec<usize>,
 }
 
 /// The sides at which a face and its parent are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Across {
-    /// The parent of the face.
+    /// The index in [`Target::faces`] of the parent of the face.
     pub parent: usize,
     /// The parent's side at the hinge, 0 to 2.
     pub parent_side: usize,

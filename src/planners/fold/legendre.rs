@@ -55,7 +55,7 @@ impl Rule {
 }
 
 impl Series {
-    /// Returns the value at a point in -1..1.
+    /// Returns the value of the series at a point in -1..1.
     pub(super) fn at(&self, x: f64) -> f64 {
         let p = polynomials::<TERMS>(x);
         self.0.iter().zip(&p).map(|(c, p)| c * p).sum()
@@ -120,9 +120,9 @@ impl Series {
 /// The mean and the peak of the absolute value of a function, in its own unit: torques in N·m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
-    /// The mean of the absolute value.
+    /// The mean of the absolute value, in the unit of the function.
     pub mean: f64,
-    /// The greatest absolute value.
+    /// The greatest absolute value, in the unit of the function.
     pub peak: f64,
 }
 

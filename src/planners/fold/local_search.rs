@@ -54,14 +54,15 @@ pub struct BoundPrefilter {
 /// The result of [`search`]: the best layouts.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The best layouts with their two values, the best first; empty if none was found that may be kept.
+    /// The best layouts, each with its value and the value that decides ties, the best first; empty if none was found
+    /// that may be kept.
     pub best: Vec<(Layout, [f64; 2])>,
     /// The number of pairs of a layout and a root whose first value is that of the best, up to ties. A local search
     /// counts a pair each time that it meets it.
     pub ties: u64,
-    /// The roots with which that value is reached, in the order of [`Settings::roots`].
+    /// The roots (indices in [`Target::faces`]) with which that value is reached, in the order of [`Settings::roots`].
     pub roots: Vec<usize>,
-    /// The least first value of all layouts measured, also of those that overlap; infinite if none was.
+    /// The least first value, in its unit, of all layouts measured, also of those that overlap; infinite if none was.
     pub least: f64,
     /// True if every pair of a layout and a root was visited, or one that is equal to it by symmetry.
     pub complete: bool,

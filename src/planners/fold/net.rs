@@ -29,8 +29,8 @@ pub struct Net {
 pub struct Edge {
     /// The indices of its ends in [`Net::vertices`], in the direction in which its first face runs along it.
     pub vertices: [usize; 2],
-    /// The faces of the target at the edge: the one on its left, which for a hinge is the parent, and for a hinge the
-    /// child on its right as the second.
+    /// The indices in [`Target::faces`] of the faces at the edge: the one on its left, which for a hinge is the
+    /// parent; for a hinge then the child, on its right.
     pub faces: Vec<usize>,
     /// The fold angle of a hinge of the layout in the target, rad; `None` for outline.
     pub angle: Option<f64>,

@@ -14,11 +14,11 @@ pub struct Sample {
     pub orders: u64,
     /// The number of orders that cost more than the reference by more than `TOLERANCES.tie` of it.
     pub worse: u64,
-    /// The least cost; infinite without orders.
+    /// The least cost, in the unit of the reference; infinite without orders.
     pub least: f64,
-    /// The mean cost; 0 without orders.
+    /// The mean cost, in the unit of the reference; 0 without orders.
     pub mean: f64,
-    /// The greatest cost; minus infinity without orders.
+    /// The greatest cost, in the unit of the reference; minus infinity without orders.
     pub greatest: f64,
 }
 

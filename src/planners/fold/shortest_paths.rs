@@ -92,7 +92,7 @@ pub struct QueueEntry {
     /// The cost of the path to the face so far, with A* plus the least cost from there to the goal; N·m for steps of
     /// one second.
     pub cost: f64,
-    /// The face that the path has reached.
+    /// The index in [`Target::faces`] of the face that the path has reached.
     pub face: usize,
 }
 

@@ -18,13 +18,16 @@ const PIECES: usize = 4;
 /// The weights of the terms of the cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Weights {
-    /// The squared distances from surface to target, relative to those from target to surface.
+    /// The weight of the squared distances from surface to target, relative to that of those from target to surface,
+    /// without unit.
     pub surface_to_target: f64,
     /// The fraction of a squared distance that counts only across the surface (point to plane).
     pub point_to_plane: f64,
-    /// The mean of the squared strut lengths (the springs of Hoppe et al., "Mesh optimization").
+    /// The weight of the mean of the squared strut lengths (the springs of Hoppe et al., "Mesh optimization"),
+    /// relative to that of the distances, without unit.
     pub springs: f64,
-    /// The mean of the squared displacements of the nodes.
+    /// The weight of the mean of the squared displacements of the nodes, relative to that of the distances, without
+    /// unit.
     pub damping: f64,
 }
 

@@ -32,7 +32,7 @@ impl<'a> Configuration<'a> {
 /// The start and the goal of a reconfiguration.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// The configuration at the start.
+    /// The configuration at the start, whose modules move.
     pub from: Configuration<'a>,
     /// The configuration at the goal, of as many modules as the start. Its modules have no identity: any of the
     /// start's may take the pose of any of the goal's.

@@ -96,8 +96,8 @@ impl LatticeSheet {
         Some((other, side))
     }
 
-    /// Returns the sides of a panel that are joined, ascending by the number of the side, each with the side that it
-    /// is joined to.
+    /// Returns the sides of a panel that are joined as (side, the side that it is joined to), ascending by the number
+    /// of the side.
     pub fn joined(&self, panel: usize) -> impl Iterator<Item = (Side, Side)> + '_ {
         (0..3).filter_map(move |side| {
             let other = self.beside((panel, side))?;

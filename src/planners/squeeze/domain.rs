@@ -26,7 +26,7 @@ impl CellState {
 pub struct Domain {
     /// The number of the first cell.
     pub first: u64,
-    /// The count and the stride of each counter, outermost first; cells are numbered from 0.
+    /// The counters as (count, stride), outermost first; cells are numbered from 0.
     pub counters: Vec<(u64, i64)>,
 }
 

@@ -160,7 +160,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Returns the motion.
+    /// Returns the motion of the stages added so far.
     pub(super) fn motion(self) -> Motion {
         self.motion
     }

@@ -26,7 +26,7 @@ pub(super) struct Job<'a> {
 pub(super) struct Done {
     /// The index of the job in the list given, from 0.
     pub(super) job: usize,
-    /// The path found, or `None`; see [`Attempt::path`].
+    /// The path that the attempt found, as the postures of [`Attempt::path`]; `None` if it found none.
     pub(super) path: Option<Vec<Joints>>,
     /// The number of forward kinematics of the whole robot that were evaluated.
     pub(super) work: u64,

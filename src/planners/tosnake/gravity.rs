@@ -23,7 +23,7 @@ pub struct GravityModel {
 /// The load of a joint as a fraction of its torque limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLoad {
-    /// The index of the module.
+    /// The index of the module, from 0.
     pub module: usize,
     /// The joint of the module, 0 to 2: [`ALPHA`](super::robot::ALPHA), [`BETA`](super::robot::BETA) or
     /// [`GAMMA`](super::robot::GAMMA).

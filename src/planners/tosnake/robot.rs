@@ -87,7 +87,7 @@ impl Robot {
         self.joints.len()
     }
 
-    /// Returns the closed bonds with their indices in [`Robot::bonds`], ascending.
+    /// Returns the closed bonds as (index in [`Robot::bonds`], bond), ascending.
     pub fn held(&self) -> impl Iterator<Item = (usize, &Bond)> {
         self.bonds.iter().enumerate().filter(|(index, _)| self.holds[*index])
     }

@@ -40,7 +40,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes a sample.
+    /// Takes a sample, in order of time: adds to the distance travelled, and records failures by slip and by a fixed
+    /// base that sinks into the ground.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {

@@ -10,9 +10,9 @@ use crate::plan::verify::support_polygon::{self, Margin};
 /// A point of a feature near the ground, with its normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
-    /// The index of the feature in [`Model::features`].
+    /// The index of the feature in [`Model::features`], from 0.
     pub feature: usize,
-    /// The number of the point of the feature, from 0, as [`Feature::point`] counts.
+    /// The number of the point of the feature, from 0, as `Feature::point` counts.
     pub k: u8,
     /// The link of the feature, by its number among all links ([`Model::bodies`]).
     pub link: usize,

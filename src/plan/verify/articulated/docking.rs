@@ -124,7 +124,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Records the failures and the status.
+    /// Records the failures of docking, and the status of the check.
     pub(super) fn finish(self, ledger: &mut Ledger) {
         self.open.into_iter().for_each(|failure| ledger.fail(failure));
         let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };

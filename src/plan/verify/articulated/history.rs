@@ -22,7 +22,7 @@ pub const CONTACTS_MAX: usize = 128;
 /// The robot at an instant of a rollout.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
-    /// The time, s.
+    /// The time from the start of the plan, s.
     pub time: f64,
     /// World pose of the base module's body (`X_WB`).
     pub base: Pose,

@@ -36,11 +36,11 @@ pub(super) struct IntervalState {
 /// Pose and velocity of a link, in the frame of the root link.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moving {
-    /// The orientation.
+    /// The orientation `R_0L` of the link L in the frame 0 of the root link.
     pub R: Matrix3<f64>,
     /// The position of the origin, m.
     pub p: Vec3,
-    /// The angular velocity, rad/s.
+    /// The angular velocity of the link against the root link, rad/s.
     pub spin: Vec3,
     /// The velocity of the origin, m/s.
     pub v: Vec3,

@@ -47,7 +47,7 @@ impl<'a> Rollout<'a> {
 
 /// The robot at one sample.
 pub struct Sample<'a> {
-    /// The time, s.
+    /// The time of the sample from the start of the plan, s.
     pub time: f64,
     /// The time of the sample before, s; the same as `time` at the start.
     pub before: f64,
@@ -59,7 +59,7 @@ pub struct Sample<'a> {
     pub model: &'a Model<'a>,
     /// Its stance on the ground, or over it.
     pub stance: &'a Stance,
-    /// The world at that time.
+    /// The world that the plan assumes at that time.
     pub world: &'a World,
     /// True if anything moved since the sample before.
     pub moved: bool,

@@ -106,7 +106,7 @@ impl<'a> Monitor<'a> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
-    /// Records the status.
+    /// Records the status of the check of stability.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
         let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
         let none = || Status::NotChecked(why.to_owned());

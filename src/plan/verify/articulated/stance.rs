@@ -16,11 +16,11 @@ use nalgebra::{Rotation3, UnitQuaternion};
 pub struct Stance {
     /// The poses of the links in the frame of the base module's body.
     pub posture: Posture,
-    /// The orientation of that frame, before the turn by the yaw of the planar pose.
+    /// The orientation of that frame in the world, before the turn by the yaw of the planar pose.
     pub R: Mat3,
     /// The height of the centre of mass above the ground, m.
     pub height: f64,
-    /// The horizontal position of the centre of mass, and the heading, in the world.
+    /// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
     pub planar_pose: PlanarPose,
     /// The features with the centre of mass at the origin, turned by `R`, in the order of [`Model::features`].
     pub features: Vec<Feature>,

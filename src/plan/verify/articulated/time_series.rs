@@ -14,7 +14,7 @@ use crate::plan::{Body, Plan, validation};
 /// The judge's quantities of a robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
-    /// The time, s.
+    /// The time from the start of the plan, s.
     pub time: f64,
     /// World pose of the base module's body (`X_WB`).
     pub base: Pose,

@@ -39,9 +39,9 @@ pub struct Tolerances {
     /// Normal force, as a part of the weight, below which a contact point does not steer the guess of the next
     /// attitude. Default 1e-6: rounding of the distribution.
     pub load_min: f64,
-    /// Gap up to which a contact point belongs to the exact support polygon. Default 10 µm.
+    /// Gap, m, up to which a contact point belongs to the exact support polygon. Default 10 µm.
     pub gap_exact: f64,
-    /// Gap up to which contact points keep a robot from being perturbed. Default 0.1 µm.
+    /// Gap, m, up to which contact points keep a robot from being perturbed. Default 0.1 µm.
     pub gap_standing: f64,
     /// Stability margin above which a robot is not perturbed. Default 1e-9 m: rounding.
     pub inside_min: f64,
@@ -54,9 +54,9 @@ pub struct Tolerances {
     /// Height above the lowest module centre up to which a centre counts as lowest, for the rule of module
     /// centres. Default 1 mm.
     pub centres: f64,
-    /// Greatest turn of a joint between two samples. Default 5°: attitudes are then followed reliably.
+    /// Greatest turn of a joint between two samples, rad. Default 5°: attitudes are then followed reliably.
     pub turn_sample: f64,
-    /// Greatest motion of a point between two samples, or the step is halved. Default 2 cm.
+    /// Greatest motion of a point between two samples, m; where it is greater the step is halved. Default 2 cm.
     pub motion_sample: f64,
     /// Part of a sample by which an interval may be longer than a whole number of samples. Default 1e-6:
     /// rounding of times.
@@ -71,7 +71,7 @@ pub struct Tolerances {
     pub rate_jump: f64,
     /// Distance by which loops may be open, where the connector states no capture. Default 1 mm.
     pub closure_distance: f64,
-    /// Angle by which loops may be open, where the connector states no capture. Default 1°.
+    /// Angle, rad, by which loops may be open, where the connector states no capture. Default 1°.
     pub closure_angle: f64,
     /// Part of the weight below which slip of a link is not counted. Default 0.05.
     pub slip_load: f64,
@@ -82,7 +82,7 @@ pub struct Tolerances {
     /// Imbalance of contact forces, in parts of the weight (and of the weight times a metre). Default 1e-6:
     /// precision of the LP solver.
     pub balance: f64,
-    /// Relative excess of a gravity load over its limit with a fixed base. Default 1e-9: rounding.
+    /// Excess of a gravity load over its limit with a fixed base, as a fraction of the limit. Default 1e-9: rounding.
     pub load: f64,
     /// Length of an interval below which loads with a fixed base are not decided further, s. Default 10 µs.
     pub load_interval: f64,

@@ -79,7 +79,7 @@ const UNDECIDED: &str =
 pub(super) struct Overload {
     /// The name of the load, as in [`Load::name`](super::statics::Load::name).
     pub name: String,
-    /// Its kind.
+    /// The kind of the load: a joint's, a motor's or a bond's.
     pub kind: LoadKind,
     /// The time of the first sample over the limit, s.
     pub since: f64,
@@ -87,7 +87,7 @@ pub(super) struct Overload {
     pub until: f64,
     /// The greatest load so far; N·m or N.
     pub value: f64,
-    /// The limit; N·m or N.
+    /// The limit of the load, N·m or N.
     pub limit: f64,
 }
 
@@ -164,7 +164,7 @@ impl<'a> Monitor<'a> {
         Some(JudgedLoads { efforts, forces })
     }
 
-    /// Judges the loads of a sample.
+    /// Judges the loads of a sample against their limits; samples come in order of time.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             self.over.clear();

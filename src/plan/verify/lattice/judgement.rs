@@ -8,7 +8,7 @@ use crate::robot::Cell;
 
 /// A plan under judgement.
 pub(super) struct Judgement<'a> {
-    /// The stages.
+    /// The stages of the plan, with its start.
     pub stages: &'a Stages,
     /// The cell that they are made of.
     pub cell: &'a Cell,
@@ -16,7 +16,7 @@ pub(super) struct Judgement<'a> {
 
 /// One stage with the configurations at its two ends.
 pub(super) struct Step<'a> {
-    /// The stage.
+    /// The stage that is judged.
     pub stage: &'a Stage,
     /// The start of the stage, s.
     pub from: f64,
@@ -28,7 +28,7 @@ pub(super) struct Step<'a> {
     pub after: &'a [Cube],
     /// Sums and extremes of the displacements.
     pub change: Change,
-    /// Its time scaling.
+    /// The time scaling of the stage.
     pub scaling: TimeScaling,
     /// The number of grid lines to a cell.
     pub lines: i64,

@@ -24,7 +24,7 @@ pub(super) struct Step {
 
 /// A truss plan under judgement.
 pub(super) struct Judgement<'a> {
-    /// The plan's body.
+    /// The body of the plan: its nodes, struts and keyframes.
     pub paths: &'a NodePaths,
     /// The tolerances of all checks.
     pub tolerances: Tolerances,

@@ -12,7 +12,8 @@ pub(super) struct Tolerances {
     pub angle: f64,
     /// Excess of a sum of lengths over its range. Default 1e-9 m: rounding.
     pub length_sum: f64,
-    /// Lack of the least singular value of the rigidity matrix. Default 1e-9: rounding.
+    /// Lack of the least singular value of the rigidity matrix, as the plan's limit counts it, without unit. Default
+    /// 1e-9: rounding.
     pub rigidity: f64,
     /// Lack of the clearance between two struts. Default 1e-9 m: rounding, since distances of segments are
     /// computed in closed form.
@@ -37,8 +38,8 @@ pub(super) struct Tolerances {
     /// Distance between a node after a rigid roll and where the plan has it. Default 1e-6 m: the plan's angle
     /// and coordinates are rounded separately.
     pub roll: f64,
-    /// Difference between a margin that the plan states and the margin found. Default 1e-7: rounding of the
-    /// singular values of large trusses.
+    /// Difference between a margin that the plan states and the margin found, in the margin's unit (m, rad or none).
+    /// Default 1e-7: rounding of the singular values of large trusses.
     pub stated_margin: f64,
 }
 
