@@ -9,7 +9,6 @@ use std::path::PathBuf;
 /// were written.
 #[derive(Debug, Parser)]
 #[command(name = "modl", version, arg_required_else_help = true, after_help = EXAMPLES)]
-#[command(args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
     /// The command; none: the help is shown.
     #[command(subcommand)]
@@ -118,6 +117,9 @@ pub(super) enum Command {
         /// A program whose declarations are taken in first; none of its statements is run
         #[arg(value_name = "FILE")]
         file: Option<PathBuf>,
+        /// In place of the global option, so that no help offers what is refused
+        #[arg(long, hide = true)]
+        json: bool,
     },
     /// Write the documentation of a project, and of the standard library, as a site
     #[command(
@@ -173,6 +175,9 @@ pub(super) enum Command {
     Completions {
         #[arg(value_name = "SHELL")]
         shell: clap_complete::Shell,
+        /// In place of the global option, so that no help offers what is refused
+        #[arg(long, hide = true)]
+        json: bool,
     },
 }
 

@@ -2,10 +2,10 @@
 
 use super::arguments::Globals;
 use super::disk::Project;
-use super::report::{self, Report};
+use super::report::{self, JsonLink, Report};
 use super::terminal::{cancel_state, listen_for_cancel, print_error};
 use super::{CallError, Ending, output, show};
-use crate::document::{self, Request, Site};
+use crate::document::{self, LinkFault, Request, Site};
 use crate::interpret::WriteError;
 use crate::source::Files;
 use std::path::Path;
@@ -36,9 +36,11 @@ pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -
     for (checked, errors) in &wrong {
         report.add(&checked.sources, errors, &style, globals);
     }
-    for fault in &faults {
-        let of = if fault.entry.is_empty() { String::new() } else { format!(", {}", fault.entry) };
-        print_error(&format!("{}{of}: the link `{}` leads nowhere\n", fault.file, fault.link));
+    if !globals.json {
+        for fault in &faults {
+            let of = if fault.entry.is_empty() { String::new() } else { format!(", {}", fault.entry) };
+            print_error(&format!("{}{of}: the link `{}` leads nowhere\n", fault.file, fault.link));
+        }
     }
     let home = globals.out.join(FOLDER);
     for (name, bytes) in &files {
@@ -53,10 +55,12 @@ pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -
     }
     report.written = Some(vec![index.clone()]);
     let ok = faults.is_empty() && wrong.is_empty();
-    report.finish(ok, globals);
+    let link = |fault: LinkFault| JsonLink { page: fault.file, entry: fault.entry, link: fault.link };
+    report.broken_links = Some(faults.into_iter().map(link).collect());
     if open {
         show::open_page(&index)?;
     }
+    report.finish(ok, globals);
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 

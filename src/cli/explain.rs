@@ -22,7 +22,10 @@ pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, Cal
     };
     let page = pages::page(code.0).map_or_else(|| format!("# {code}: {title}\n"), str::to_owned);
     if globals.json {
-        print_json(&format!("{:#}", serde_json::json!({ "code": code.0, "title": title, "page": page })));
+        print_json(&format!(
+            "{:#}",
+            serde_json::json!({ "ok": true, "code": code.0, "title": title, "page": page })
+        ));
     } else {
         print(&page);
     }
@@ -34,7 +37,7 @@ fn list(globals: &Globals) {
     if globals.json {
         let all: Vec<_> =
             code::ALL.iter().map(|(c, title)| serde_json::json!({ "code": c.0, "title": title })).collect();
-        print_json(&format!("{:#}", serde_json::Value::from(all)));
+        print_json(&format!("{:#}", serde_json::json!({ "ok": true, "codes": all })));
     } else {
         let lines: Vec<String> = code::ALL.iter().map(|(code, title)| format!("{code}  {title}\n")).collect();
         print(&lines.concat());

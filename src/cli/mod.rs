@@ -85,10 +85,29 @@ fn unknown_command(told: &clap::Error) -> String {
     format!("there is no command `{word}`; {what}")
 }
 
+/// Returns the message for a command line that can't be read, without the usage that follows it on a terminal.
+fn wrong_call(told: &clap::Error) -> String {
+    if told.kind() == ErrorKind::InvalidSubcommand {
+        return unknown_command(told);
+    }
+    let text = told.render().to_string();
+    let message = text.strip_prefix("error: ").unwrap_or(&text);
+    message.split("\n\nUsage:").next().unwrap_or(message).trim().to_owned()
+}
+
+/// Returns true if the command line has `--json` among its options, whether or not it can be read.
+fn json_is_asked() -> bool {
+    std::env::args_os().skip(1).take_while(|word| word != "--").any(|word| word == "--json")
+}
+
 /// Carries out the command line.
 fn command() -> ExitCode {
     let code = match Arguments::try_parse() {
         Ok(arguments) => carry_out(&arguments),
+        Err(told) if told.use_stderr() && json_is_asked() => {
+            report::json_call_error(&wrong_call(&told));
+            2
+        }
         Err(told) if told.kind() == ErrorKind::InvalidSubcommand => {
             terminal::print_error(&format!("modl: {}\n", unknown_command(&told)));
             2
@@ -133,6 +152,14 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         return repl::expressions(&arguments.expressions, globals);
     };
+    if !arguments.expressions.is_empty() {
+        return Err(CallError("`-e` stands alone, without a command".to_owned()));
+    }
+    if globals.json
+        && let Some(why) = no_json(command)
+    {
+        return Err(CallError(why.to_owned()));
+    }
     match command {
         Command::Run { file } => program::run(std::slice::from_ref(file), program::Task::Run, globals),
         Command::Check { files } => program::run(files, program::Task::Check, globals),
@@ -148,15 +175,29 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Verify { files } => judge::run(files, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
-        Command::Repl { file } => repl::run(file.as_deref(), globals),
+        Command::Repl { file, .. } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),
         Command::New { name } => new::run(name, globals),
         Command::Explain { code } => explain::run(code.as_deref(), globals),
-        Command::Completions { shell } => {
+        Command::Completions { shell, .. } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Arguments::command(), "modl", &mut script);
             terminal::print_exact(&String::from_utf8_lossy(&script));
             Ok(Ending::Fine)
         }
+    }
+}
+
+/// Returns the reason why a command has no answer in JSON; `None` if it has one.
+fn no_json(command: &Command) -> Option<&'static str> {
+    match command {
+        Command::Repl { .. } => Some(
+            "a session has no `--json`: `modl -e EXPR --json` answers one question, and `modl run --json FILE` \
+             runs a program",
+        ),
+        Command::Completions { .. } => {
+            Some("`completions` has no `--json`: it prints a script for the shell")
+        }
+        _ => None,
     }
 }

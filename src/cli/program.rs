@@ -6,7 +6,7 @@ use super::folders::{self, Found};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::watch::Watched;
-use super::{CallError, Ending, examples};
+use super::{CallError, Ending, examples, show};
 
 use crate::check;
 use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
@@ -19,7 +19,10 @@ pub(super) enum Task {
     /// Run the program.
     Run,
     /// Run the program, and draw every plan.
-    Show,
+    Show {
+        /// True if the last page is opened in the browser.
+        open: bool,
+    },
     /// Check the program only.
     Check,
     /// Run its tests whose names contain the filter.
@@ -40,7 +43,7 @@ struct Tally {
 /// # Errors
 /// A message if a file can't be read.
 pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
-    run_all(files, &task, globals, None).map(|(ending, _)| ending)
+    run_all(files, &task, globals, None)
 }
 
 /// Runs programs and records the files they depend on in `watched`. A run that becomes stale ends early.
@@ -53,34 +56,22 @@ pub(super) fn run_watched(
     globals: &Globals,
     watched: &Arc<Watched>,
 ) -> Result<Ending, CallError> {
-    run_all(files, task, globals, Some(watched)).map(|(ending, _)| ending)
+    run_all(files, task, globals, Some(watched))
 }
 
-/// Runs one program, and returns the paths of the files that it wrote, too.
+/// Runs programs one after the other.
 ///
 /// # Errors
-/// A message if the file can't be read.
-pub(super) fn run_and_list(
-    file: &Path,
-    task: Task,
-    globals: &Globals,
-) -> Result<(Ending, Vec<String>), CallError> {
-    run_all(&[file.to_owned()], &task, globals, None)
-}
-
-/// Runs programs one after the other, and returns the paths of the files that they wrote, too.
-///
-/// # Errors
-/// A message if a file can't be read.
+/// A message if a file can't be read, or a page that was asked for can't be opened.
 fn run_all(
     files: &[PathBuf],
     task: &Task,
     globals: &Globals,
     watched: Option<&Arc<Watched>>,
-) -> Result<(Ending, Vec<String>), CallError> {
+) -> Result<Ending, CallError> {
     let files = match task {
         Task::Check | Task::Test(_) => folders::programs(files)?,
-        Task::Run | Task::Show => {
+        Task::Run | Task::Show { .. } => {
             files.iter().map(|file| Found { file: file.clone(), folder: None }).collect()
         }
     };
@@ -115,13 +106,17 @@ fn run_all(
     if files.iter().any(|found| found.folder.is_some()) && matches!(task, Task::Check) {
         tally.report.programs = Some(files.len());
     }
+    if matches!(task, Task::Show { open: true })
+        && let Some(page) = tally.report.written.iter().flatten().rev().find(|path| path.ends_with(".html"))
+    {
+        show::open_page(page)?;
+    }
     tally.report.finish(ok, globals);
-    let ending = match (ok, tally.cancelled) {
+    Ok(match (ok, tally.cancelled) {
         (_, true) => Ending::Cancelled,
         (true, _) => Ending::Fine,
         (false, _) => Ending::Wrong,
-    };
-    Ok((ending, tally.report.written.unwrap_or_default()))
+    })
 }
 
 /// Checks one program, does the task with it, and prints or records its diagnostics, tests and files.
@@ -192,7 +187,7 @@ fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &
     if !globals.json {
         written.iter().for_each(|path| print_error(&format!("wrote {path}\n")));
     }
-    if matches!(task, Task::Run | Task::Show) {
+    if matches!(task, Task::Run | Task::Show { .. }) {
         tally.report.written.get_or_insert_default().extend(written);
     }
 }
@@ -200,7 +195,7 @@ fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &
 /// Returns the interpreter's mode for a task.
 fn mode(task: &Task) -> Mode {
     match task {
-        Task::Run | Task::Show => Mode::Run,
+        Task::Run | Task::Show { .. } => Mode::Run,
         Task::Check => Mode::Check,
         Task::Test(_) => Mode::Test,
     }
@@ -211,7 +206,7 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let filter = if let Task::Test(filter) = task { filter.clone() } else { None };
     let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
     let name = if project.name == STDIN_NAME { "-" } else { &project.name };
-    let pages = matches!(task, Task::Show);
+    let pages = matches!(task, Task::Show { .. });
     let verb = if pages { "show" } else { "run" };
     let command = format!("modl {verb} {name}{seed}");
     let limits = limits(globals);

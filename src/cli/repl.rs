@@ -3,11 +3,12 @@
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, Project};
 use super::editor::{Lines, Typed};
+use super::report::{self, Report};
 use super::terminal::{
     Terminal, begin_work, idle, listen_for_cancel, listen_for_interrupt, print, print_error, print_styled,
     settled,
 };
-use super::{CallError, Ending, output, program, report, show};
+use super::{CallError, Ending, output, program, show};
 use crate::check::Checked;
 use crate::interpret::session::Shown;
 use crate::interpret::{Options, WriteError};
@@ -42,6 +43,8 @@ struct Repl<'g> {
     terminal: Terminal,
     style: Style,
     globals: &'g Globals,
+    /// The JSON object that `-e` answers with.
+    report: Report,
     /// True if anything was wrong so far.
     wrong: bool,
     interrupted: bool,
@@ -98,7 +101,12 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
             break;
         }
     }
-    Ok(repl.ending())
+    let ending = repl.ending();
+    if globals.json {
+        repl.report.printed = repl.terminal.printed.take();
+        repl.report.finish(ending == Ending::Fine, globals);
+    }
+    Ok(ending)
 }
 
 impl<'g> Repl<'g> {
@@ -118,7 +126,9 @@ impl<'g> Repl<'g> {
             ..Options::default()
         };
         let session = Session::new(Arc::new(project), options, &terminal).map_err(|e| no_memory(&e))?;
-        Ok(Repl { session, terminal, style, globals, wrong: false, interrupted: false })
+        let mut report = Report::default();
+        report.written = Some(Vec::new());
+        Ok(Repl { session, terminal, style, globals, report, wrong: false, interrupted: false })
     }
 
     /// Returns the outcome of the session.
@@ -235,6 +245,11 @@ impl<'g> Repl<'g> {
     /// Prints an outcome; returns true if the entry was accepted.
     fn print_reply(&mut self, reply: &Reply) -> bool {
         self.terminal.clear_progress();
+        self.wrong |= !reply.ok;
+        if self.globals.json {
+            self.report_reply(reply);
+            return reply.ok;
+        }
         self.show(&reply.checked, &reply.diagnostics);
         reply.notes.iter().for_each(|note| print(&format!("{note}\n")));
         if !reply.broken.is_empty() {
@@ -246,8 +261,17 @@ impl<'g> Repl<'g> {
             print_error("interrupted\n");
             self.interrupted |= !io::stdin().is_terminal();
         }
-        self.wrong |= !reply.ok;
         reply.ok
+    }
+
+    /// Adds an outcome to the JSON object; notes count as printed lines.
+    fn report_reply(&mut self, reply: &Reply) {
+        for diagnostics in [&reply.diagnostics, &reply.broken] {
+            self.report.add(&reply.checked.sources, diagnostics, &self.style, self.globals);
+        }
+        self.terminal.printed.get_or_insert_default().extend_from_slice(&reply.notes);
+        self.report.written.get_or_insert_default().extend_from_slice(&reply.written);
+        self.interrupted |= reply.interrupted;
     }
 
     /// Prints diagnostics.

@@ -42,6 +42,9 @@ pub(super) struct Report {
     /// The verdicts on plan files; `None` for commands that judge none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
+    /// The links of documentation that lead nowhere; `None` for commands that write none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub broken_links: Option<Vec<JsonLink>>,
     /// The number of programs of folders that were checked; `None` if no folder was named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub programs: Option<usize>,
@@ -58,6 +61,17 @@ pub(super) struct JsonTest {
     pub name: String,
     /// True if it passed.
     pub passed: bool,
+}
+
+/// A link of documentation that leads nowhere.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonLink {
+    /// The title of the page: `std.smores`, or the path of a program.
+    pub page: String,
+    /// The declaration that it documents; empty for the file itself.
+    pub entry: String,
+    /// The link as it is written.
+    pub link: String,
 }
 
 /// The verdict on a plan file.
@@ -151,11 +165,16 @@ fn counted(n: usize, word: &str) -> Option<String> {
 /// Reports a wrong call.
 pub(super) fn call_error(globals: &Globals, message: &str) {
     if globals.json {
-        let object = serde_json::json!({ "ok": false, "call_error": message });
-        print_json(&format!("{object:#}"));
+        json_call_error(message);
     } else {
         print_error(&format!("modl: {message}\n"));
     }
+}
+
+/// Reports a wrong call as a JSON object.
+pub(super) fn json_call_error(message: &str) {
+    let object = serde_json::json!({ "ok": false, "call_error": message });
+    print_json(&format!("{object:#}"));
 }
 
 /// Returns the style of diagnostics on this terminal; `folder` is put before the names of the project's files.

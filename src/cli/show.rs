@@ -17,20 +17,17 @@ use std::process::{Command, Stdio};
 /// A message if the file can't be read, or a page can't be written or opened.
 pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-    let (ending, written) =
-        if is_plan { plan_file(file, globals)? } else { program::run_and_list(file, Task::Show, globals)? };
-    let page = written.iter().rev().find(|path| path.ends_with(".html"));
-    if let Some(page) = page.filter(|_| open) {
-        open_page(page)?;
+    if is_plan {
+        return plan_file(file, open, globals);
     }
-    Ok(ending)
+    program::run(&[file.to_owned()], Task::Show { open }, globals)
 }
 
-/// Writes the page of a plan file, which is verified again; returns its path, too.
+/// Writes the page of a plan file, which is verified again.
 ///
 /// # Errors
-/// A message if the file can't be read or the page can't be written.
-fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), CallError> {
+/// A message if the file can't be read, or the page can't be written or opened.
+fn plan_file(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let bytes = judge::read(file)?;
     listen_for_cancel();
     let name = file.to_string_lossy().into_owned();
@@ -41,7 +38,7 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
             let (sources, diagnostic) = *fault;
             report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
             report.finish(false, globals);
-            return Ok((Ending::Wrong, vec![]));
+            return Ok(Ending::Wrong);
         }
     };
     let verdict = judge::judged(&plan);
@@ -60,9 +57,12 @@ fn plan_file(file: &Path, globals: &Globals) -> Result<(Ending, Vec<String>), Ca
     if !globals.json {
         print_error(&format!("wrote {written}\n"));
     }
-    report.written = Some(vec![written.clone()]);
+    if open {
+        open_page(&written)?;
+    }
+    report.written = Some(vec![written]);
     report.finish(ok, globals);
-    Ok((if ok { Ending::Fine } else { Ending::Wrong }, vec![written]))
+    Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
 /// Returns the title of a page: the robot's name, or the stem of the file.

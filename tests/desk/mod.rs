@@ -6,6 +6,7 @@ pub mod cli;
 pub mod documentation;
 pub mod folders;
 pub mod interrupt;
+pub mod json;
 pub mod plots;
 pub mod repl;
 pub mod system;
