@@ -171,7 +171,7 @@ impl Motion {
 /// A piece of a signal; see [`Motion::pieces`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SignalPiece {
-    /// The beginning, s.
+    /// The beginning of the piece, s.
     pub(super) start: f64,
     /// The end, s; infinite for an endless piece.
     pub(super) end: f64,

@@ -43,7 +43,8 @@ pub(super) struct Run<'a> {
     pub(super) steps: u64,
     /// The number of pieces of motion made.
     pub(super) segments: u64,
-    /// The nesting depth of phases and stretches of this run.
+    /// The number of cycles (phases, stretches) within which this run is, each a run of its own; at most
+    /// [`Settings::cycles_max`].
     pub(super) cycles: u64,
     tasks: Vec<Task<'a>>,
     frames: Vec<Frame<'a>>,

@@ -60,7 +60,7 @@ pub(super) enum DefItem<'a> {
 
 /// The state of checking of one declaration.
 pub(super) struct DefInfo<'a> {
-    /// Its name.
+    /// The name of the declaration.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -101,7 +101,7 @@ pub(super) struct Signature {
 /// A type parameter of a function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TypeParam {
-    /// Its name.
+    /// The name of the type parameter.
     pub name: Symbol,
     /// The types that it may stand for.
     pub bound: Bound,
@@ -123,11 +123,11 @@ pub(super) enum Bound {
 /// A parameter of a signature.
 #[derive(Clone, Debug)]
 pub(super) struct ParamInfo {
-    /// Its name.
+    /// The name of the parameter.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// Its type.
+    /// The type of the parameter.
     pub ty: Type,
     /// True if it has a default.
     pub has_default: bool,
@@ -163,7 +163,7 @@ pub(super) struct Members<'a> {
 
 /// A member by its text.
 pub(super) struct MemberInfo<'a> {
-    /// Its name.
+    /// The name of the member.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -195,7 +195,7 @@ pub(super) enum MemberInfoKind<'a> {
 
 /// A joint of a module by its text.
 pub(super) struct JointInfo<'a> {
-    /// Its name.
+    /// The name of the joint.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -211,7 +211,7 @@ pub(super) struct JointInfo<'a> {
 
 /// A port of a module by its text.
 pub(super) struct PortInfo {
-    /// Its name.
+    /// The name of the port, or of the array of ports.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,

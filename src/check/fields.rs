@@ -67,7 +67,8 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, field, want)
     }
 
-    /// Resolves `.joint` or `.port` behind an expression that is already the one or the other.
+    /// Resolves `.joint` or `.port` behind `object`: the object itself, if it is already the one or the other, else
+    /// its field of this name.
     pub(super) fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
         match (field.text.as_str(), object.kind) {
             ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub(crate) struct Inside {
     /// The group under which it is listed.
     pub group: Group,
-    /// Its name.
+    /// The name of the declaration.
     pub name: Symbol,
     /// Its text without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,

@@ -52,7 +52,7 @@ impl Program {
 /// A declaration of a program, checked.
 #[derive(Clone, Debug)]
 pub struct Def {
-    /// Its name.
+    /// The name of the declaration.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -135,11 +135,11 @@ pub struct NativeDef {
 /// A parameter with its type and default.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// Its name.
+    /// The name of the parameter.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// Its type.
+    /// The type of the parameter.
     pub ty: Type,
     /// The default value, evaluated in the frame of the callee after the parameters before it; `None` if an
     /// argument is needed.
@@ -173,9 +173,9 @@ pub struct RecordBuild {
 /// A field of a record.
 #[derive(Clone, Debug)]
 pub struct RecordField {
-    /// Its name.
+    /// The name of the field.
     pub name: Symbol,
-    /// Its type.
+    /// The type of the field.
     pub ty: Type,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
@@ -206,11 +206,11 @@ pub struct ConnectorDef {
 /// is the current instance in all of them; from outside a member is `object.name`.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// Its name.
+    /// The name of the member.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
-    /// Its type.
+    /// The type of the member.
     pub ty: Type,
     /// Its kind, with the expression that gives its value.
     pub kind: MemberKind,
@@ -296,7 +296,7 @@ pub struct ConfigDef {
 pub struct PartDef {
     /// The member of the configuration that stands for the part: an index into [`ConfigDef::members`].
     pub member: MemberId,
-    /// Its name.
+    /// The name of the part, or of the list of parts.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -328,7 +328,7 @@ pub enum PartCount {
 /// A `behavior` of a configuration. Its parameters are the first locals of the body.
 #[derive(Clone, Debug)]
 pub struct BehaviorDef {
-    /// Its name.
+    /// The name of the behaviour.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -366,7 +366,7 @@ pub enum ExemptionKind {
     Overload(Option<Expr>),
 }
 
-/// A clause of a configuration that depends on values.
+/// A clause of a configuration that is elaborated for each instance, in the order of the text.
 #[derive(Clone, Debug)]
 pub enum ConfigClause {
     /// A connection that bonds two ports: `connect a -- b turn angle`.

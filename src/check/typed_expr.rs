@@ -19,7 +19,7 @@ pub struct Body {
 /// A `test` of the file that is run.
 #[derive(Clone, Debug)]
 pub struct Test {
-    /// Its name.
+    /// The name of the test.
     pub name: String,
     /// The span of the name.
     pub span: Span,
@@ -32,7 +32,7 @@ pub struct Test {
 pub struct Stmt {
     /// The span of the statement.
     pub span: Span,
-    /// Its kind.
+    /// The kind of statement.
     pub kind: StmtKind,
 }
 
@@ -82,7 +82,7 @@ pub struct Expr {
     pub span: Span,
     /// Its type, fully resolved; [`Type::Error`] after a mistake.
     pub ty: Type,
-    /// Its kind.
+    /// The kind of expression.
     pub kind: ExprKind,
 }
 

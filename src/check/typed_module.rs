@@ -41,7 +41,7 @@ pub struct ModuleDef {
 /// A `link` of a module.
 #[derive(Clone, Debug)]
 pub struct LinkDef {
-    /// Its name.
+    /// The name of the link.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -56,7 +56,7 @@ pub struct LinkDef {
 /// A `joint` of a module.
 #[derive(Clone, Debug)]
 pub struct JointDef {
-    /// Its name.
+    /// The name of the joint.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -100,7 +100,7 @@ pub type Linear = Vec<(usize, Expr)>;
 /// A port of a module, or an array of ports.
 #[derive(Clone, Debug)]
 pub struct PortGroup {
-    /// Its name.
+    /// The name of the port, or of the array of ports.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,
@@ -113,7 +113,7 @@ pub struct PortGroup {
 /// A `motor` of a module.
 #[derive(Clone, Debug)]
 pub struct MotorDef {
-    /// Its name.
+    /// The name of the motor.
     pub name: Symbol,
     /// The span of the name.
     pub span: Span,

@@ -57,7 +57,7 @@ pub(super) struct Report {
 pub(super) struct JsonTest {
     /// The file that contains it.
     pub file: String,
-    /// Its name.
+    /// The name of the test.
     pub name: String,
     /// True if it passed.
     pub passed: bool,

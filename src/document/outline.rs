@@ -20,7 +20,7 @@ pub(super) struct Page {
 
 /// The entry of a declaration.
 pub(super) struct PageEntry {
-    /// Its name.
+    /// The name of the declaration.
     pub name: String,
     /// Its keyword: `module`, `config`, `fn`.
     pub word: &'static str,

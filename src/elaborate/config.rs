@@ -16,7 +16,7 @@ use std::rc::Rc;
 
 /// A requirement with the variables of its scope: it is checked when the body is complete.
 pub(super) struct Deferred<'d> {
-    /// The clause.
+    /// The clause with its condition and message.
     pub require: &'d Require,
     /// The variables of the body at the clause.
     pub frame: Frame,

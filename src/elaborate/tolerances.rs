@@ -6,7 +6,7 @@ pub(super) struct Tolerances {
     pub node_distance: f64,
     /// Struts may be this much outside of their range, m: a rounding of what was meant.
     pub strut_length: f64,
-    /// A turn of a bond within this of an allowed one, as a part of a whole turn, counts as that: a rounding of
+    /// A turn of a bond within this of an allowed one, as a fraction of a whole turn, counts as that: a rounding of
     /// `360deg / 4`.
     pub turn: f64,
     /// Loops of bonds may miss closing by this much, m: rounding, not slack.

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// The span of a cause in the source, and the call that led there.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
-    /// The expression that gives the command.
+    /// The span of the expression that gives the command.
     pub span: Span,
     /// The arguments of an action as (what it commands, span of the argument); empty for other commands.
     pub args: Vec<(Part, Span)>,

@@ -23,7 +23,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns a frame of `size` unknown values.
+    /// Returns a frame of `size` slots with unknown values, for a body of `this`; `None` outside of declarations with
+    /// instances.
     pub fn new(size: usize, this: Option<Rc<Instance>>) -> Frame {
         Frame { slots: vec![Value::Unknown; size], this }
     }
@@ -33,7 +34,7 @@ impl Frame {
         self.set_slot(local.0 as usize, value);
     }
 
-    /// Puts a value into a slot; a frame that is too small is enlarged.
+    /// Puts a value into a slot, counted from 0; a frame that is too small is enlarged.
     pub fn set_slot(&mut self, slot: usize, value: Value) {
         if slot >= self.slots.len() {
             self.slots.resize(slot + 1, Value::Unknown);

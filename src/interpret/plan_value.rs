@@ -41,7 +41,7 @@ type AtTimes<T> = (Rc<Vec<f64>>, Rc<Vec<T>>);
 pub(super) struct Judged {
     /// The options of the judge.
     pub settings: Settings,
-    /// The worlds that were assumed.
+    /// The worlds that were assumed, in order of time.
     pub worlds: Vec<WorldFrom>,
     /// The verdict of the judge.
     pub verdict: Rc<Verdict>,

@@ -41,17 +41,17 @@ pub struct Routines {
     pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
     /// Assembles the robot of a design, once; `None` where the design is broken or no robot.
     pub robot_of: fn(&mut Interpreter, &Rc<Design>, Span) -> Assembled,
-    /// Finds the joint of the connection at a port; a fault where there is none.
+    /// Finds the joint of the connection at a port; a fault at the span where there is none.
     pub hinge_of: fn(&mut Interpreter, &PortValue, Span) -> Eval<Value>,
-    /// Elaborates a declaration with its defaults and checks all that its body declares.
+    /// Elaborates a declaration with its defaults and checks all that its body declares; faults are reported.
     pub check_declaration: fn(&mut Interpreter, DefId) -> Eval<()>,
     /// Writes a value on one line.
     pub show: fn(&Interpreter, &Value) -> String,
-    /// Writes a value on as many lines as it needs.
+    /// Writes a value on as many lines as it needs, the first of which can stand alone.
     pub display: fn(&mut Interpreter, &Value) -> Eval<String>,
-    /// Writes what a declaration declares on one line.
+    /// Writes a line about what a declaration declares, with its defaults; a halt ends its elaboration.
     pub describe_declaration: fn(&mut Interpreter, DefId) -> Eval<String>,
-    /// Draws every robot, lattice and truss that the program declares.
+    /// Draws every robot, lattice and truss that the program declares, through the host.
     pub draw_declared: fn(&mut Interpreter) -> Eval<()>,
 }
 

@@ -19,19 +19,19 @@ use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
 
 // The names of arguments that diagnostics of `fold` are about.
-/// The parameter for the shape.
+/// The name of the parameter for the shape.
 pub(super) const TARGET: &str = "target";
-/// The parameter for the panel.
+/// The name of the parameter for the panel.
 pub(super) const MODULE: &str = "module";
-/// The parameter for the face at rest.
+/// The name of the parameter for the face at rest.
 pub(super) const ROOT: &str = "root";
-/// The parameter for the kind of search.
+/// The name of the parameter for the kind of search.
 pub(super) const METHOD: &str = "method";
-/// The parameter for the duration of a step.
+/// The name of the parameter for the duration of a step.
 pub(super) const STEP: &str = "step";
-/// The parameter for the order of hinges.
+/// The name of the parameter for the order of hinges.
 pub(super) const SEQUENCE: &str = "sequence";
-/// The parameter for a given layout.
+/// The name of the parameter for a given layout.
 pub(super) const HINGES: &str = "hinges";
 
 /// The built-ins whose bodies stand in this file; their order means nothing.

@@ -12,13 +12,13 @@ use std::sync::Arc;
 
 /// A layout with the designs of its panels, by face.
 pub(super) struct Joined<'t> {
-    /// The surface that is folded.
+    /// The surface that is folded, whose faces are the panels.
     pub target: &'t Target,
-    /// The flat pattern.
+    /// The layout of the surface: its flat pattern.
     pub layout: &'t Layout,
     /// The panels, by face: entry k is that of face k of the target.
     pub designs: &'t [Rc<Design>],
-    /// The call that joins them.
+    /// The span of the call that joins them.
     pub span: Span,
 }
 

@@ -17,10 +17,10 @@ use std::sync::Arc;
 /// The parameter that states a panel's sides.
 const SIDES: &str = "sides";
 
-/// A module that is a panel.
+/// A design of a module that is a panel, with its geometry.
 #[derive(Clone)]
 pub(super) struct PanelDesign {
-    /// The module.
+    /// The design of the module.
     pub design: Rc<Design>,
     /// Its geometry, mass and hinges, as the planner knows them.
     pub panel: Panel,
@@ -211,7 +211,7 @@ fn panel_of(
 pub(super) struct Sheet {
     /// The design of each panel, by face: entry k is that of face k of the target.
     pub designs: Vec<Rc<Design>>,
-    /// The panels as data of the planner.
+    /// The panels as data of the planner, by face.
     pub panels: Panels,
 }
 

@@ -13,7 +13,7 @@ pub type Row = (Vec<(usize, f64)>, f64);
 pub struct LinearProgram {
     /// c, one cost for every variable.
     pub costs: Vec<f64>,
-    /// The rows of `E x = e`.
+    /// The rows of `E x = e`; the multipliers of a solution are in their order.
     pub equal: Vec<Row>,
     /// The rows of `G x ≤ g`.
     pub at_most: Vec<Row>,

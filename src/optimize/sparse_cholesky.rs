@@ -3,7 +3,8 @@
 use super::cholesky::{Cholesky, PivotRule, SymmetricMatrix};
 use super::cuthill_mckee;
 
-/// A pivot below this part of the diagonal's entry means that the matrix is not positive definite: rounding is 1e-16.
+/// A pivot below this fraction of the diagonal's entry means that the matrix is not positive definite: rounding is
+/// 1e-16.
 const PIVOT_MIN: f64 = 1e-14;
 
 /// `L Lᵀ = P A Pᵀ`, where the permutation P keeps the envelope of L small.

@@ -14,7 +14,7 @@ pub struct CauseId(pub u32);
 pub struct Cause {
     /// The path of the file, relative to the project root; `std/smores.mod` in the standard library.
     pub file: String,
-    /// The line, from 1.
+    /// The line of the cause in its file, from 1.
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,

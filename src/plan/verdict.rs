@@ -302,7 +302,7 @@ pub struct Verdict {
     pub dynamics: Option<Dynamics>,
     /// The number of samples judged, refinements included.
     pub samples: usize,
-    /// Tip-overs and rolls in words, with their times (s), in order of time.
+    /// Tip-overs and rolls as (time, s; words), in order of time.
     pub events: Vec<(f64, String)>,
 }
 

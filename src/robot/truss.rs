@@ -11,21 +11,21 @@ const NODES_DENSE: usize = 60;
 
 /// Tolerances of the examination of rigidity, all relative and without unit.
 pub(super) struct RigidityTolerances {
-    /// Singular values at most this part of the largest count as zero. 1e-9: far above rounding, far below the
+    /// Singular values at most this fraction of the largest count as zero. 1e-9: far above rounding, far below the
     /// stiffness of any truss that is worth building.
     pub singular: f64,
-    /// Displacements at most this part of the largest count as none, and vectors of which others leave at most this
+    /// Displacements at most this fraction of the largest count as none, and vectors of which others leave at most this
     /// part count as dependent. 1e-6: between rounding and the motions of nodes that do move.
     pub displacement: f64,
-    /// A strut carries a self-stress if more than this part of its row lies in the span of the others. 1e-9: far
+    /// A strut carries a self-stress if more than this fraction of its row lies in the span of the others. 1e-9: far
     /// above rounding.
     pub redundant: f64,
-    /// The least singular value, as a part of the largest, above which a truss is clearly rigid, so that the banded
+    /// The least singular value, as a fraction of the largest, above which a truss is clearly rigid, so that the banded
     /// decomposition decides. 1e-7: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
     pub clearly_rigid: f64,
-    /// An iteration has converged when its value changes by at most this part. 1e-11: below what is shown.
+    /// An iteration has converged when its value changes by at most this fraction. 1e-11: below what is shown.
     pub converged: f64,
-    /// Nodes nearer to a line than this part of its length lie on it. 1e-6: far above rounding.
+    /// Nodes nearer to a line than this fraction of its length lie on it. 1e-6: far above rounding.
     pub on_line: f64,
 }
 

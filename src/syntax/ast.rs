@@ -60,7 +60,7 @@ pub struct Item {
     pub span: Span,
     /// The text of the `///` lines before the item, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// Its kind.
+    /// The kind of item.
     pub kind: ItemKind,
 }
 
@@ -155,7 +155,7 @@ pub struct UseName {
 /// A declaration of a value: `let name: type = value`.
 #[derive(Clone, Debug)]
 pub struct Let {
-    /// Its name.
+    /// The name of the definition.
     pub name: Name,
     /// The declared type; `None` if it is to be inferred.
     pub ty: Option<TypeExpr>,
@@ -166,11 +166,11 @@ pub struct Let {
 /// A function: `fn name(params) -> result = body`.
 #[derive(Clone, Debug)]
 pub struct Fn {
-    /// Its name.
+    /// The name of the function.
     pub name: Name,
     /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The declared type of the result; `None` if it is to be inferred.
     pub result: Option<TypeExpr>,
@@ -181,11 +181,11 @@ pub struct Fn {
 /// A native function, whose body is in Rust: `extern fn sqrt<D: Dimension>(x: Quantity<D^2>) -> Quantity<D>`.
 #[derive(Clone, Debug)]
 pub struct ExternFn {
-    /// Its name.
+    /// The name of the function.
     pub name: Name,
     /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The declared type of the result; `None` if there is no result.
     pub result: Option<TypeExpr>,
@@ -194,7 +194,7 @@ pub struct ExternFn {
 /// A type parameter of a function.
 #[derive(Clone, Debug)]
 pub struct TypeParam {
-    /// Its name.
+    /// The name of the type parameter.
     pub name: Name,
     /// The bound after `:`, one of `Dimension`, `Quantity`, `Module` and `Config` in a correct program; `None` if the
     /// parameter may be any type.
@@ -204,7 +204,7 @@ pub struct TypeParam {
 /// A record: `record Design { bend: Angle = 30deg, speed: Speed }`.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Its name.
+    /// The name of the record.
     pub name: Name,
     /// The fields, in order; `docs` has one entry for each.
     pub fields: Vec<Param>,
@@ -216,7 +216,7 @@ pub struct Record {
 /// A record type of the standard library: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`.
 #[derive(Clone, Debug)]
 pub struct ExternType {
-    /// Its name.
+    /// The name of the record type.
     pub name: Name,
     /// The record that it extends; `None` if it stands alone.
     pub is: Option<Name>,
@@ -232,18 +232,18 @@ pub struct ExternType {
 pub struct ExternField {
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// Its name.
+    /// The name of the field.
     pub name: Name,
-    /// Its type.
+    /// The type of the field.
     pub ty: TypeExpr,
 }
 
 /// A parameter. In an `extern fn` its name may be a reserved word (`for:`), and it may be variadic.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// Its name.
+    /// The name of the parameter.
     pub name: Name,
-    /// Its type.
+    /// The type of the parameter.
     pub ty: TypeExpr,
     /// The default value; `None` if an argument is needed.
     pub default: Option<Expr>,
@@ -254,9 +254,9 @@ pub struct Param {
 /// A type as written.
 #[derive(Clone, Debug)]
 pub struct TypeExpr {
-    /// Its span.
+    /// The span of the type.
     pub span: Span,
-    /// Its kind.
+    /// The kind of type.
     pub kind: TypeKind,
 }
 
@@ -290,7 +290,7 @@ pub enum TypeKind {
 /// A unit: a product of powers such as `N*m` or `m/s^2`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitExpr {
-    /// Its span.
+    /// The span of the unit.
     pub span: Span,
     /// The units with their exponents, in order; the exponent of one after `/` is negative. Exponents are from -99 to
     /// 99.
@@ -302,7 +302,7 @@ pub struct UnitExpr {
 /// A connector: `connector Name { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Connector {
-    /// Its name.
+    /// The name of the connector.
     pub name: Name,
     /// The clauses, in order.
     pub clauses: Vec<ConnectorClause>,
@@ -340,9 +340,9 @@ pub enum ConnectorClause {
 /// A module: `module Name(params) { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Module {
-    /// Its name.
+    /// The name of the module.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The clauses, in order.
     pub clauses: Vec<ModuleClause>,
@@ -351,11 +351,11 @@ pub struct Module {
 /// A clause of a module with its documentation.
 #[derive(Clone, Debug)]
 pub struct ModuleClause {
-    /// Its span.
+    /// The span of the clause.
     pub span: Span,
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// Its kind.
+    /// The kind of clause.
     pub kind: ModuleClauseKind,
 }
 
@@ -448,7 +448,7 @@ pub enum ModuleClauseKind {
 /// A port of a module, or one element of a port array.
 #[derive(Clone, Debug)]
 pub struct ModulePort {
-    /// Its name.
+    /// The name of the port, or of the array that it belongs to.
     pub name: Name,
     /// The index in the port array, from 0; `None` for a single port.
     pub index: Option<Expr>,
@@ -467,7 +467,7 @@ pub struct ModulePort {
 /// A pose: `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    /// Its span.
+    /// The span of the clause.
     pub span: Span,
     /// The position, a vector of lengths.
     pub position: Expr,
@@ -500,9 +500,9 @@ impl FactsFamily {
 pub struct Facts {
     /// Its family.
     pub family: FactsFamily,
-    /// Its name.
+    /// The name of the declaration.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The facts as (name, value), in the order of the text.
     pub facts: Vec<(Name, Expr)>,
@@ -513,9 +513,9 @@ pub struct Facts {
 /// A configuration: `config Name(params) closed { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// Its name.
+    /// The name of the configuration.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The span of the word `closed`; `None` if it is not written.
     pub closed: Option<Span>,
@@ -526,11 +526,11 @@ pub struct Config {
 /// A clause of a configuration with its documentation.
 #[derive(Clone, Debug)]
 pub struct ConfigClause {
-    /// Its span.
+    /// The span of the clause.
     pub span: Span,
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// Its kind.
+    /// The kind of clause.
     pub kind: ConfigClauseKind,
 }
 
@@ -597,7 +597,7 @@ pub enum ConfigClauseKind {
 /// A part of a configuration: `part leg[i in 0..4]: Leg(left: i < 2)`.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Its name.
+    /// The name of the part, or of the list of parts.
     pub name: Name,
     /// The length of a list of parts; `None` for a single part.
     pub count: Option<PartCount>,
@@ -626,9 +626,9 @@ pub enum PartCount {
 /// A behaviour of a configuration: `behavior name(params) allows exemptions = body`.
 #[derive(Clone, Debug)]
 pub struct Behavior {
-    /// Its name.
+    /// The name of the behaviour.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The exemptions, in order.
     pub allows: Vec<Exemption>,
@@ -639,18 +639,18 @@ pub struct Behavior {
 /// An exemption of a behaviour: `unstable`, `slip`, `collision(a, b)`, `overload(j)`.
 #[derive(Clone, Debug)]
 pub struct Exemption {
-    /// Its name.
+    /// The name of the exemption.
     pub name: Name,
     /// Its arguments.
     pub args: Vec<Expr>,
-    /// Its span.
+    /// The span of the exemption.
     pub span: Span,
 }
 
 /// A requirement: `require condition, message`.
 #[derive(Clone, Debug)]
 pub struct Require {
-    /// Its span.
+    /// The span of the clause.
     pub span: Span,
     /// The condition that must hold.
     pub condition: Expr,
@@ -661,7 +661,7 @@ pub struct Require {
 /// A path `body.side[i]`, `m[0].left`: a name, then steps `.name` and `[index]`.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// Its span.
+    /// The span of the path.
     pub span: Span,
     /// The first name.
     pub root: Name,
@@ -688,9 +688,9 @@ pub enum PathStep {
 /// A lattice: `lattice Name(params) of cell = value`.
 #[derive(Clone, Debug)]
 pub struct Lattice {
-    /// Its name.
+    /// The name of the lattice.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The path of the cell that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
@@ -701,9 +701,9 @@ pub struct Lattice {
 /// A truss: `truss Name(params) of strut { clauses }`, or `= value` instead of clauses.
 #[derive(Clone, Debug)]
 pub struct Truss {
-    /// Its name.
+    /// The name of the truss.
     pub name: Name,
-    /// The parameters.
+    /// The parameters, in order.
     pub params: Vec<Param>,
     /// The path of the strut that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
@@ -723,9 +723,9 @@ pub enum TrussBody {
 /// A clause of a truss.
 #[derive(Clone, Debug)]
 pub struct TrussClause {
-    /// Its span.
+    /// The span of the clause.
     pub span: Span,
-    /// Its kind.
+    /// The kind of clause.
     pub kind: TrussClauseKind,
 }
 
@@ -790,9 +790,9 @@ pub struct Test {
 /// A statement with its span.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// Its span.
+    /// The span of the statement.
     pub span: Span,
-    /// Its kind.
+    /// The kind of statement.
     pub kind: StmtKind,
 }
 
@@ -837,9 +837,9 @@ pub enum StmtKind {
 /// An expression.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// Its span.
+    /// The span of the expression.
     pub span: Span,
-    /// Its kind.
+    /// The kind of expression.
     pub kind: ExprKind,
 }
 

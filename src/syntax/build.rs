@@ -110,7 +110,7 @@ impl<'t> Builder<'t> {
         name
     }
 
-    /// Returns the words of a path as names.
+    /// Returns the words of a path as names, in order.
     pub(super) fn words(&mut self, node: Node) -> Vec<Name> {
         node.into_inner().map(|word| self.word(word)).collect()
     }

@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
-    /// Builds a `config`.
+    /// Builds a `config` from its node.
     pub(super) fn config(&mut self, node: Node) -> Config {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -15,7 +15,7 @@ impl Builder<'_> {
         Config { name, params, closed, clauses: self.config_clauses(next(&mut nodes)) }
     }
 
-    /// Builds the clauses of a configuration.
+    /// Builds the clauses of a configuration, in order.
     pub(super) fn config_clauses(&mut self, body: Node) -> Vec<ConfigClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.config_clause(node)).collect()
@@ -121,7 +121,7 @@ impl Builder<'_> {
         ConfigClauseKind::Connect { a, b, turn: nodes.next().map(|turn| self.expr(turn)) }
     }
 
-    /// Builds a path.
+    /// Builds a path from its node: a name, then steps.
     pub(super) fn path(&mut self, node: Node) -> Path {
         let span = self.span(&node);
         let mut nodes = node.into_inner();

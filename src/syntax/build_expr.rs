@@ -15,7 +15,7 @@ pub(super) struct Tall {
 }
 
 impl Tall {
-    /// Returns an expression of a height.
+    /// Returns an expression of a height, which counts its root and the longest path below it.
     pub(super) fn new(span: Span, kind: ExprKind, height: usize) -> Tall {
         Tall { expr: Expr { span, kind }, height }
     }
@@ -283,7 +283,7 @@ impl Builder<'_> {
         self.grown(span, kind, height.max(object.height))
     }
 
-    /// Builds the arguments of a call.
+    /// Builds the arguments of a call, in order.
     pub(super) fn args(&mut self, node: Node) -> Vec<Arg> {
         self.tall_args(node).0
     }

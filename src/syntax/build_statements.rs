@@ -10,7 +10,7 @@ use crate::source::Span;
 type TallStmt = (Stmt, usize);
 
 impl Builder<'_> {
-    /// Builds the statements of a test, a loop or a branch.
+    /// Builds the statements of a test, a loop or a branch, in order.
     pub(super) fn statements(&mut self, block: Node) -> Vec<Stmt> {
         self.tall_statements(block).0
     }
@@ -47,7 +47,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Block { statements, value }, height)
     }
 
-    /// Builds the expression or block behind `=`.
+    /// Builds the expression or block behind `=`, from its node.
     pub(super) fn body(&mut self, node: Node) -> Expr {
         self.tall_body(node).expr
     }
@@ -91,7 +91,7 @@ impl Builder<'_> {
         (Let { name, ty, value: value.expr }, value.height)
     }
 
-    /// Builds a `let`.
+    /// Builds a `let` from its node.
     pub(super) fn let_item(&mut self, node: Node) -> Let {
         self.tall_let(node).0
     }
@@ -104,7 +104,7 @@ impl Builder<'_> {
         (condition.expr, message.map(|message| message.expr), height)
     }
 
-    /// Builds a `require`.
+    /// Builds a `require` from its node.
     pub(super) fn require(&mut self, node: Node) -> Require {
         let span = self.span(&node);
         let (condition, message, _) = self.condition(node);
@@ -140,7 +140,7 @@ impl Builder<'_> {
         (kind, height)
     }
 
-    /// Builds an `if` expression.
+    /// Builds an `if` expression with its `else` branches; too many of them are reported, and give an `Error` node.
     pub(super) fn if_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let Some((branches, last)) = self.branches(node) else {

@@ -4,7 +4,7 @@
 /// A token: bytes `start..end` of the text. White space belongs to none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
-    /// Its kind.
+    /// The kind of token.
     pub kind: TokenKind,
     /// The offset in bytes of its first byte.
     pub start: usize,

@@ -123,9 +123,9 @@ pub(super) fn curve(mut points: Vec<(f64, f64)>, least: Option<(f64, f64)>) -> V
     points.iter().map(|(time, value)| json!([number(*time), number(value * 1e3)])).collect()
 }
 
-/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint as a part of its limit (1 is the
-/// limit), in the order of `joints`, at so many moments that a page holds them. `joints` are the numbers of the joints
-/// as in their `JointId`, ascending. Null if no load is known.
+/// Returns `{joints, moments: [[time, [ratio, ...]], ...]}`: the load of each joint as a fraction of its limit (1 is
+/// the limit), in the order of `joints`, at so many moments that a page holds them. `joints` are the numbers of the
+/// joints as in their `JointId`, ascending. Null if no load is known.
 pub(super) fn loads(moments: &[Moment]) -> Value {
     let weighed: Vec<&Moment> = moments.iter().filter(|m| !m.loads.is_empty()).collect();
     let mut joints: Vec<usize> =

@@ -4,7 +4,7 @@ use super::colour::Rgb;
 use super::mesh::Mesh;
 use crate::geometry::Vec3;
 
-/// The near plane: nothing nearer to the camera than this part of the distance to the target is drawn.
+/// The near plane: nothing nearer to the camera than this fraction of the distance to the target is drawn.
 const NEAR: f64 = 0.02;
 
 /// Lines are drawn as if nearer by this factor, so that they are visible on the surfaces they lie on.

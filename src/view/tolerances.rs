@@ -19,10 +19,10 @@ pub(super) struct Tolerances {
     pub size: f64,
     /// The least radius, m, of the scene of a picture.
     pub radius: f64,
-    /// The height above a surface, as a part of the scene's radius, at which the shadow map is read for it, so that it
-    /// does not shade itself.
+    /// The height above a surface, as a fraction of the scene's radius, at which the shadow map is read for it, so
+    /// that it does not shade itself.
     pub shadow: f64,
-    /// The depth below the surface in the shadow map, as a part of the scene's radius, from which a point is in the
+    /// The depth below the surface in the shadow map, as a fraction of the scene's radius, from which a point is in the
     /// shade.
     pub shadow_depth: f64,
     /// The part of a step between ticks within which a value lies on a tick: rounding.

@@ -40,7 +40,7 @@ const GAP_CLOSED_MIN: f64 = 0.05;
 /// The first step of an ascent is the last step of its parent's ascent divided by this.
 const STEP_RESTART: f64 = 0.5;
 
-/// The step length, as a part of the gap, below which an ascent has converged.
+/// The step length, as a fraction of the gap, below which an ascent has converged.
 const LENGTH_MIN: f64 = 0.01;
 
 /// The remaining budget divided by this is the budget of one tabu search for a layout that lies flat.

@@ -20,7 +20,7 @@ const SAMPLED_PAIRS_MAX: usize = 400_000;
 /// Layouts that are evaluated at least.
 const LAYOUTS_MIN: usize = 8;
 
-/// Thin panels are shrunk by this part in collision samples, so that nothing is refused that the judge may let
+/// Thin panels are shrunk by this fraction in collision samples, so that nothing is refused that the judge may let
 /// through.
 const SHRINKAGE: f64 = 0.02;
 

@@ -73,7 +73,7 @@ pub struct Preferred {
     pub measure: f64,
     /// The number of pairs of a layout and a root asked for with this measure, up to ties.
     pub ties: u64,
-    /// The extent of the enumeration, over which alone the layout is the best.
+    /// The extent of the enumeration: the layout is the best of those visited.
     pub walked: Traversal,
 }
 

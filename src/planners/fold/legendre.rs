@@ -48,7 +48,7 @@ impl Default for Rule {
 pub(super) struct Series([f64; TERMS]);
 
 impl Rule {
-    /// Returns the Legendre series of the function with these values at [`Rule::points`].
+    /// Returns the Legendre series of the function with these values at [`Rule::points`], in their order.
     pub(super) fn series(&self, values: &[f64; TERMS]) -> Series {
         Series(self.terms.map(|term| term.iter().zip(values).map(|(t, v)| t * v).sum()))
     }

@@ -125,7 +125,7 @@ pub struct BestPattern {
     pub reached: f64,
     /// The lower bound on that quantity for all layouts with the leaves folded first, N·m; at most `reached`.
     pub bound: f64,
-    /// The gap between `reached` and `bound` as a part of `reached`; 0 where the bound proves the value.
+    /// The gap between `reached` and `bound` as a fraction of `reached`; 0 where the bound proves the value.
     pub gap: f64,
 }
 

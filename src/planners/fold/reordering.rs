@@ -30,7 +30,7 @@ const DEPTHS: [usize; 3] = [4, 32, 256];
 /// Pairs of panels that are sampled in all.
 const PAIRS_MAX: usize = 10_000_000;
 
-/// The least increase of the torque limit that is tried next, as a part of it.
+/// The least increase of the torque limit that is tried next, as a fraction of it.
 const LIMIT_STEP: f64 = 0.02;
 
 /// The search for a layout that folds in any order.

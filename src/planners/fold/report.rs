@@ -13,7 +13,7 @@ use num_bigint::BigInt;
 /// The figures of a folding and of its search.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// The target, as the problem states it.
+    /// The surface that is folded, as the problem states it.
     pub target: Target,
     /// The layout that folds, rooted at its root.
     pub layout: Layout,
@@ -67,7 +67,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns the gap between the bound and the value reached, as a part of that value, 0 to 1; 0 where it is less
+    /// Returns the gap between the bound and the value reached, as a fraction of that value, 0 to 1; 0 where it is less
     /// than `TOLERANCES.proof`. If the steps are minimised, both are energies.
     pub fn gap(&self) -> f64 {
         gap(self.effort.minimised(self.minimise), self.bound)
@@ -84,7 +84,7 @@ impl Report {
     }
 }
 
-/// Returns the gap between a value and its lower bound, as a part of the value; 0 where the bound proves the value.
+/// Returns the gap between a value and its lower bound, as a fraction of the value; 0 where the bound proves the value.
 pub(super) fn gap(value: f64, bound: f64) -> f64 {
     if TOLERANCES.prove(value, bound) { 0.0 } else { 1.0 - bound / value }
 }

@@ -28,7 +28,7 @@ const SAMPLES_THIN: usize = 8;
 /// The number of sampled states of each step, of panels with thickness.
 const SAMPLES_THICK: usize = 24;
 
-/// The part by which thin panels are shrunk, so that neighbours do not collide.
+/// The fraction by which thin panels are shrunk, so that neighbours do not collide.
 const SHRINKAGE: f64 = 0.02;
 
 /// The time of a check of panels with thickness, as a multiple of that of panels without.

@@ -31,7 +31,7 @@ pub(super) struct Task<'p> {
     pub problem: &'p Problem,
     /// The settings of the planner.
     pub settings: &'p Settings,
-    /// The observer of the search.
+    /// The observer, which gets the reports of the search and may end it.
     pub observer: &'p Observer<'p>,
     /// The surface that is folded.
     pub target: &'p Target,

@@ -42,7 +42,7 @@ pub struct Settings {
     pub stride: f64,
     /// The cost that each step minimises. Springs, (17): the most robust.
     pub objective: Objective,
-    /// The contacts that keep their positions. Three.
+    /// The contacts that keep their positions during a step. Default [`Hold::Three`].
     pub hold: Hold,
     /// True if the truss may fall over an edge onto other nodes; false if it places a node beyond the edge
     /// first, where it can, as variable topology trusses roll without impact. True, as in the paper.

@@ -21,7 +21,7 @@ pub(super) struct Weights {
     /// The weight of the squared distances from surface to target, relative to that of those from target to surface,
     /// without unit.
     pub surface_to_target: f64,
-    /// The fraction of a squared distance that counts only across the surface (point to plane).
+    /// The fraction, 0 to 1, of a squared distance that counts only across the surface (point to plane).
     pub point_to_plane: f64,
     /// The weight of the mean of the squared strut lengths (the springs of Hoppe et al., "Mesh optimization"),
     /// relative to that of the distances, without unit.

@@ -73,7 +73,7 @@ pub fn bond(a: Side, b: Side) -> [Side; 2] {
 pub struct LatticeSheet {
     /// The corners of each panel, by its index.
     pub corners: Vec<Corners>,
-    /// The panel on each cell that is covered, by the cell's name ([`cell`]).
+    /// The index of the panel on each cell that is covered, by the cell's name ([`cell`]).
     pub cells: BTreeMap<Point, usize>,
     /// The connections as by [`bond`]: a tree of the panels.
     pub bonds: BTreeSet<[Side; 2]>,

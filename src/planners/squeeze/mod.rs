@@ -159,7 +159,7 @@ pub enum Refusal {
     },
     /// The cells do not shrink to half their size, as every method but the accordion needs.
     Stiff {
-        /// The least size of a cell, as a part of its full size, without unit.
+        /// The least size of a cell, as a fraction of its full size, without unit.
         smallest: Ratio,
     },
     /// A shape is neither flat nor a box, and has too many cells to melt.

@@ -63,7 +63,7 @@ impl Dock {
         self.dock % FACES
     }
 
-    /// Returns true for a dock -Z.
+    /// Returns true for a dock -Z, one of the two by which modules form a snake.
     pub fn is_red(self) -> bool {
         self.face() == RED
     }

@@ -12,8 +12,8 @@ use crate::geometry::Vec3;
 use crate::robot::{Assembly, Bond, Capture, Kinematics, PortRef, mate};
 use std::collections::BTreeMap;
 
-/// The overlaps of pairs of links at the nominal poses of their bonds, m, by what decides them: the types and ports
-/// of the two modules, and the turn.
+/// The overlaps of pairs of links at the nominal poses of their bonds, m, by what decides them: the types and ports of
+/// the two modules, and the turn, as indices.
 #[derive(Debug, Default)]
 pub(super) struct NominalOverlaps(BTreeMap<[usize; 5], f64>);
 

@@ -18,7 +18,7 @@ use crate::units::{Dimension, quantity};
 pub struct Rollout<'a> {
     /// The motion.
     pub tracks: &'a Tracks,
-    /// The worlds, in order of time.
+    /// The worlds that the plan assumes, in order of time.
     pub worlds: &'a [WorldFrom],
     /// The exemptions of the plan.
     pub exemptions: &'a [Exemption],

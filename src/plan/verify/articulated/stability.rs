@@ -26,7 +26,7 @@ pub(super) struct Monitor<'a> {
 /// An interval of time without support.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SupportLoss {
-    /// The time at which it begins, s.
+    /// The time at which the interval without support begins, s.
     pub since: f64,
     /// The time at which it ends, s.
     pub until: f64,

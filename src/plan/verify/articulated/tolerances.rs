@@ -33,10 +33,10 @@ pub struct Tolerances {
     pub fall_floor: f64,
     /// Gap up to which a contact point bears weight. Default 1 mm: real contacts yield.
     pub gap_loaded: f64,
-    /// Least stiffness of the ground under a contact point, as a part of that without a gap. Default 1e-3: the
+    /// Least stiffness of the ground under a contact point, as a fraction of that without a gap. Default 1e-3: the
     /// distribution of normal forces stays unique.
     pub stiffness_min: f64,
-    /// Normal force, as a part of the weight, below which a contact point does not steer the guess of the next
+    /// Normal force, as a fraction of the weight, below which a contact point does not steer the guess of the next
     /// attitude. Default 1e-6: rounding of the distribution.
     pub load_min: f64,
     /// Gap, m, up to which a contact point belongs to the exact support polygon. Default 10 µm.
@@ -153,10 +153,10 @@ pub(super) struct Numerics {
     pub extremum: f64,
     /// The least spread of a sliding patch, m² (0.1 mm): a point resists spinning a little.
     pub patch_spread: f64,
-    /// Slips shorter than this part of the greatest motion are smoothed. 1e-4: the power then has a derivative
+    /// Slips shorter than this fraction of the greatest motion are smoothed. 1e-4: the power then has a derivative
     /// everywhere.
     pub smoothed_slip: f64,
-    /// The rounds of the displacement of least friction end when it changes by less than this part of the greatest
+    /// The rounds of the displacement of least friction end when it changes by less than this fraction of the greatest
     /// motion. 1e-10.
     pub power_change: f64,
     /// Weight that keeps the normal equations of a balance regular, in parts of the weight. 1e-15.

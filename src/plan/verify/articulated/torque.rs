@@ -354,7 +354,7 @@ impl<'a> Monitor<'a> {
         &self.failures
     }
 
-    /// Records energy, notes and the statuses.
+    /// Records the energy that the joints spend, notes on uneven forces, and the status of each check of loads.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.energy;
         if let Some(uneven) = &self.uneven {

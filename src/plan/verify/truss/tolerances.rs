@@ -27,7 +27,7 @@ pub(super) struct Tolerances {
     /// Depth of a node or strut below uneven ground beyond what it may have. Default 1e-6 m: the advancement over
     /// a height field then needs few samples.
     pub uneven_ground: f64,
-    /// Height up to which a node bears weight, as a part of the mean strut length at the start. Default 1e-4:
+    /// Height up to which a node bears weight, as a fraction of the mean strut length at the start. Default 1e-4:
     /// real trusses deflect.
     pub contact: f64,
     /// Distance of the centre of mass outside the support polygon at a sample; twice that between samples.
