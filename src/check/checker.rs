@@ -287,7 +287,7 @@ impl<'a> Checker<'a> {
         &mut self.defs[id.0 as usize]
     }
 
-    /// Adds a diagnostic.
+    /// Adds a diagnostic to those so far.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }

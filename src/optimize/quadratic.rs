@@ -56,7 +56,8 @@ impl QuadraticProgram {
         self.rows.len() - 1
     }
 
-    /// Changes the right side of the row of this number. Panics if there is no such row.
+    /// Changes the right side of the row of this number, from 0 in the order of the rows. Panics if there is no such
+    /// row.
     pub fn set(&mut self, row: usize, right: f64) {
         self.rows[row].0.1 = right;
         if let Some(active) = &mut self.active {

@@ -182,7 +182,7 @@ impl Body {
     /// Checks references and orders; `causes` is the number of causes of the plan.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(super) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         match self {
             Body::Tracks(tracks) => tracks.validate(causes),
@@ -202,7 +202,7 @@ impl Body {
     /// Checks that numbers are in their ranges, after the references are checked.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(super) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         match self {
             Body::Tracks(tracks) => tracks.check_ranges(library),

@@ -160,7 +160,7 @@ impl<'a> PlanJson<'a> {
     /// indices.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(super) fn into_valid_plan(self) -> Result<Plan, PlanFault> {
         let names = self.names();
         let dynamics: Vec<DynamicsModel> = self.worlds.iter().map(|w| w.world.dynamics).collect();

@@ -14,9 +14,10 @@ use std::cmp::Ordering;
 pub struct Change {
     /// For x, y and z, true if some face moves along that axis.
     pub axes: [bool; 3],
-    /// The greatest absolute displacement along an axis, with the number of its cell.
+    /// The greatest absolute displacement along an axis, in grid lines and counted twice, with the number of its cell.
     pub farthest: (i64, u32),
-    /// The sum of the displacements along x, y and z: zero if the centre of mass stays.
+    /// The sum of the displacements along x, y and z, in grid lines, each counted twice: zero if the centre of mass
+    /// stays.
     pub drift: [i128; 3],
     /// The greatest absolute change of an edge length, in grid lines (counted once), with the number of its cell.
     pub resized: (i64, u32),
@@ -27,9 +28,9 @@ pub struct Change {
     /// Four times the sum of the cross products of position and displacement, x, y and z, in squared grid lines: zero
     /// without angular momentum.
     pub turning: [i128; 3],
-    /// The sum of the squared norms of the displacements.
+    /// The sum of the squared norms of the displacements, in squared grid lines, each displacement counted twice.
     pub squares: i128,
-    /// The greatest squared norm of a displacement.
+    /// The greatest squared norm of a displacement, in squared grid lines, the displacement counted twice.
     pub square: i128,
 }
 

@@ -14,7 +14,7 @@ impl NodePaths {
     /// plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.strut, library.struts.len(), "strut type")?;
         let count = self.node_names.len();
@@ -41,7 +41,7 @@ impl NodePaths {
     /// Checks that numbers are finite, obstacles solids, and that struts and rolls have a length.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(in crate::plan) fn check_ranges(&self) -> Result<(), PlanFault> {
         need_finite("the keyframes", &self.keyframes)?;
         need_finite("the limits", &self.limits)?;

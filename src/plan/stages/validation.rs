@@ -15,7 +15,7 @@ impl Stages {
     /// the plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(in crate::plan) fn validate(&self, library: &Library, causes: usize) -> Result<(), PlanFault> {
         need_index(self.cell, library.cells.len(), "cell type")?;
         need(self.count <= CELLS_MAX, || StagesFault::CellCount { most: CELLS_MAX })?;

@@ -16,7 +16,7 @@ impl Tracks {
     /// `causes`: the number of causes of the plan.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(in crate::plan) fn validate(&self, causes: usize) -> Result<(), PlanFault> {
         robot(&self.robot)?;
         let (joints, bonds) = (self.robot.joints().count(), self.robot.bonds.len());
@@ -86,7 +86,7 @@ impl Tracks {
     /// must have been checked, or it panics. `library`: that of the plan.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(in crate::plan) fn check_ranges(&self, library: &Arc<Library>) -> Result<(), PlanFault> {
         // The library of the plan has been checked, and is that of its robot, as a rule.
         if !Arc::ptr_eq(library, &self.robot.library) {
@@ -125,7 +125,7 @@ fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
 /// Checks the references of an assembly, and that its modules have names of their own.
 ///
 /// # Errors
-/// The first fault.
+/// The first [`PlanFault`] found.
 pub(super) fn robot(robot: &Assembly) -> Result<(), PlanFault> {
     need_index(robot.base, robot.modules.len(), "module")?;
     let mut names = BTreeSet::new();

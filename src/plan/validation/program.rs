@@ -41,7 +41,7 @@ impl Names<'_> {
     /// Checks every node of a program.
     ///
     /// # Errors
-    /// The first fault.
+    /// The first [`PlanFault`] found.
     pub(super) fn nodes(&self, graph: &Graph) -> Result<(), PlanFault> {
         graph.nodes.iter().try_for_each(|node| match &***node {
             Node::Action(action) => self.action(action),

@@ -14,7 +14,8 @@ const BACKTRACKS_MAX: usize = 20;
 /// A rollout with its end; `None` if it may go on.
 type Tried<'a> = (Rollout<'a>, Option<End>);
 
-/// Returns the finished rollout that the search decides for.
+/// Returns the rollout in which `rollout` goes on by the policies that make the fastest progress, up to its end:
+/// arrival, the limit of steps, an end by `monitor`, or, once no policy gets on, that with the least distance left.
 pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
     let mut alternatives: VecDeque<Vec<Tried<'a>>> = VecDeque::new();
     let mut backtracks = 0;

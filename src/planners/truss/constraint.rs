@@ -83,8 +83,8 @@ impl Constraint {
         }
     }
 
-    /// Returns the gradient of [`value`](Constraint::value) over the position of each node that it depends on, without
-    /// unit, each with the index of the node before it; gradients of a node that is named twice add up.
+    /// Returns the gradient of [`value`](Constraint::value) as (index of a node, derivative by its position), without
+    /// unit, for each node that it depends on; gradients of a node that is named twice add up.
     pub fn gradient(self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         match self {
             // d|a - b| is the unit vector along the strut: a row of the rigidity matrix.

@@ -68,13 +68,13 @@ const EDGES: usize = 4;
 
 /// A query for contact forces in one stance.
 pub(super) struct ContactQuery<'a> {
-    /// The robot.
+    /// The robot, compiled.
     pub model: &'a Model<'a>,
-    /// Its loads.
+    /// The structure of the robot's loads.
     pub structure: &'a Structure,
-    /// Its stance.
+    /// The stance of the robot for which forces are sought.
     pub stance: &'a Stance,
-    /// Its cuts in that stance.
+    /// The cuts of the robot in that stance.
     pub sections: &'a [Section],
     /// The weights of the links as wrenches.
     pub gravity_wrenches: &'a [Wrench],

@@ -126,7 +126,7 @@ const HALVINGS_MAX: usize = 50;
 /// A state from which a rollout continues.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
-    /// The time, s.
+    /// The time from the start of the plan, s.
     pub time: f64,
     /// The stance at that time.
     pub stance: Stance,
