@@ -40,7 +40,7 @@ pub(super) fn docked(
     Ok(nearest(robot, a, b, &X_PQ))
 }
 
-/// Returns `true` where two ports of different modules have connectors that mate.
+/// Returns true if two ports are of different modules and their connectors mate.
 pub(super) fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
     let connector = |p: PortRef| robot.module_type(p.module).ports[p.port].connector;
     a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))

@@ -99,8 +99,8 @@ pub enum IssueKind {
 
 /// Returns the issues of every action in the order of [`Graph::actions`], each action once however often it is
 /// repeated. The durations of moves to a position are not checked, since they depend on the position before: see
-/// [`schedule`](super::schedule()). `tol` is the part of a limit or range by which it may be exceeded: rounding, see
-/// [`Settings`](super::Settings).
+/// [`schedule`](super::schedule()). `tol` is the fraction of a limit or range by which it may be exceeded: rounding,
+/// see [`Settings`](super::Settings).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     let facts = facts(robot);
     let mut found = Vec::new();

@@ -21,13 +21,13 @@ pub struct Problem {
     /// The robot, with the bonds that its start state knows, closed or open.
     pub robot: Assembly,
     /// The state that the behaviour begins in, at rest: one position (rad or m) for every joint, by the number in its
-    /// `JointId`, one flag for every bond, by its index.
+    /// `JointId`, and one flag for every bond, by its index, true if it holds.
     pub start: State,
     /// The behaviour, a series-parallel graph of actions.
     pub program: Arc<Node>,
-    /// The causes of start positions, each with its joint, which become those of the tracks.
+    /// The causes of start positions as (joint, cause), which become those of the tracks.
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The causes of bonds, each with the index of its bond, which become those of the tracks.
+    /// The causes of bonds as (index in the robot's bonds, cause), which become those of the tracks.
     pub bond_causes: Vec<(usize, CauseId)>,
     /// The limits and tolerances of scheduling.
     pub settings: Settings,
@@ -50,7 +50,7 @@ pub struct Settings {
     /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m. 1e-6:
     /// rounding, which can't be seen.
     pub tol_begin: f64,
-    /// The part of the least duration by which a stated one may be shorter. 1e-9: rounding.
+    /// The fraction of the least duration by which a stated one may be shorter. 1e-9: rounding.
     pub tol_duration: f64,
 }
 

@@ -68,7 +68,7 @@ pub struct PlanCauses {
 }
 
 impl PlanCauses {
-    /// Returns the number of a cause in the plan, a new one where the plan does not name it yet.
+    /// Returns the number of a cause in the plan, from 0; a new one where the plan does not name it yet.
     pub fn number(&mut self, cause: CauseId) -> CauseId {
         *self.known.entry(cause).or_insert_with(|| {
             self.ids.push(cause);

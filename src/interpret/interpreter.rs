@@ -103,7 +103,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Makes room for `declarations` declarations; values of any beyond them are dropped.
+    /// Makes room for the values of `declarations` declarations; those of any beyond them are dropped.
     pub fn resize(&mut self, declarations: usize) {
         self.globals.resize(declarations, Lazy::Waiting);
         self.designs.resize(declarations, Vec::new());

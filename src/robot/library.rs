@@ -153,9 +153,9 @@ pub enum JointKind {
 pub struct Joint {
     /// The declared name.
     pub name: String,
-    /// Index of the link that carries, in [`ModuleType::links`].
+    /// Index in [`ModuleType::links`] of the link that carries.
     pub parent: usize,
-    /// Index of the link that is carried, in [`ModuleType::links`].
+    /// Index in [`ModuleType::links`] of the link that is carried.
     pub child: usize,
     /// The degree of freedom.
     pub kind: JointKind,

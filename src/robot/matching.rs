@@ -27,7 +27,7 @@ pub struct Matching {
 }
 
 impl Matching {
-    /// Returns the image in A of a port of B.
+    /// Returns the image in A of a port of B, both by index of the module and of the port in its type.
     pub fn port(&self, port: PortRef) -> PortRef {
         let turned = &self.turned[port.module];
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
