@@ -52,6 +52,11 @@ impl Project {
         })
     }
 
+    /// Returns the path of an existing folder or file from the root; `None` if it is not below the root.
+    pub(super) fn path_below(&self, path: &Path) -> Option<String> {
+        relative_name(fs::canonicalize(path).ok()?.strip_prefix(&self.root).ok()?)
+    }
+
     /// Returns the same project without its program, so that its file is read again when needed.
     pub(super) fn unread(self) -> Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }

@@ -13,6 +13,7 @@ mod explain;
 mod fmt;
 mod folders;
 mod judge;
+mod manifest;
 mod new;
 mod output;
 mod pages;

@@ -32,6 +32,61 @@ pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, W
     Ok(folder.join(relative).to_string_lossy().into_owned())
 }
 
+/// Writes `bytes` to `path` below `folder` as [`write`] does, unless a file with these bytes is there already. Returns
+/// true if it was written.
+///
+/// # Errors
+/// The path leads out of the folder, or the system refuses.
+pub(super) fn write_changed(folder: &Path, path: &str, bytes: &[u8]) -> Result<bool, WriteError> {
+    let there = folder.join(path);
+    let found = fs::symlink_metadata(&there);
+    if found.is_ok_and(|found| found.is_file() && found.len() == bytes.len() as u64)
+        && fs::read(&there).is_ok_and(|found| found == bytes)
+    {
+        return Ok(false);
+    }
+    write(folder, path, bytes).map(|_| true)
+}
+
+/// The fate of a file that was to be removed.
+pub(super) enum Removed {
+    /// It is gone.
+    Yes,
+    /// It is not as it was written, or no regular file below the folder, and was left.
+    Left,
+    /// There was none.
+    Absent,
+}
+
+/// Removes the file `path` below `folder` if its bytes are `as_written`, and the folders that this leaves empty.
+/// Links are not followed.
+///
+/// # Errors
+/// The system refuses.
+pub(super) fn remove(
+    folder: &Path,
+    path: &str,
+    as_written: impl Fn(&[u8]) -> bool,
+) -> Result<Removed, WriteError> {
+    let Ok(root) = fs::canonicalize(folder) else { return Ok(Removed::Absent) };
+    let target = root.join(path);
+    match fs::symlink_metadata(&target) {
+        Err(_) => return Ok(Removed::Absent),
+        Ok(found) if !found.is_file() => return Ok(Removed::Left),
+        Ok(_) => {}
+    }
+    let parent = target.parent().unwrap_or(&root);
+    let direct = fs::canonicalize(parent).is_ok_and(|real| real == parent) && parent.starts_with(&root);
+    if !direct || !fs::read(&target).is_ok_and(|bytes| as_written(&bytes)) {
+        return Ok(Removed::Left);
+    }
+    fs::remove_file(&target).map_err(failed)?;
+    let within = parent.ancestors().take_while(|folder| *folder != root);
+    // A folder that is not empty is not removed.
+    let _ = within.map(fs::remove_dir).take_while(Result::is_ok).count();
+    Ok(Removed::Yes)
+}
+
 /// Replaces the contents of an existing file, following links; whole or not at all. Its permissions are
 /// kept.
 ///

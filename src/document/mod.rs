@@ -10,4 +10,5 @@ mod outline;
 mod pictures;
 mod site;
 
+pub use pictures::{Drawing, Sources, digest};
 pub use site::{LinkFault, Request, Site, site};

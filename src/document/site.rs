@@ -3,7 +3,7 @@
 use super::html;
 use super::markdown::{Targets, to_html};
 use super::outline::{Page, PageEntry, page};
-use super::pictures::drawn;
+use super::pictures::{Drawing, draw};
 use crate::check::{self, Checked, Entry};
 use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, FileId, Files, library};
@@ -21,6 +21,8 @@ pub struct Request<'r> {
     pub library: bool,
     /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
+    /// The drawings of an earlier site whose sources are as they were, by program; they are not made anew.
+    pub known: &'r BTreeMap<String, Drawing>,
 }
 
 /// The generated site.
@@ -31,6 +33,8 @@ pub struct Site {
     pub faults: Vec<LinkFault>,
     /// The programs that are left out because of errors, as (checked program, its errors).
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
+    /// The drawings on its pages by program, for the next site.
+    pub drawings: BTreeMap<String, Drawing>,
 }
 
 /// A broken link.
@@ -48,7 +52,8 @@ pub struct LinkFault {
 /// file, an index, a guide and a search. Mistakes in programs and links are part of the result. Nothing is
 /// written.
 pub fn site(request: &Request) -> Site {
-    let mut site = Site { files: Vec::new(), faults: Vec::new(), wrong: Vec::new() };
+    let mut site =
+        Site { files: Vec::new(), faults: Vec::new(), wrong: Vec::new(), drawings: BTreeMap::new() };
     let mut pages = Vec::new();
     for path in request.programs {
         // Private names are left out.
@@ -64,8 +69,9 @@ pub fn site(request: &Request) -> Site {
         pages.extend(library_pages(request.files));
     }
     for page in &mut pages {
-        site.files.extend(drawn(page, request.files, &request.cancel_state));
+        draw(page, request, &mut site.drawings);
     }
+    site.files.extend(site.drawings.values().filter_map(|drawing| drawing.picture.clone()));
     write(&pages, request, &mut site);
     site
 }

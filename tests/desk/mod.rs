@@ -4,6 +4,7 @@ pub mod acceptance;
 pub mod browser;
 pub mod cli;
 pub mod documentation;
+pub mod documentation_again;
 pub mod folders;
 pub mod interrupt;
 pub mod json;
