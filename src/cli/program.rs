@@ -95,6 +95,9 @@ fn run_all(
         one(file, project, task, &mut terminal, &mut tally, globals);
     }
     tally.report.printed = terminal.printed.take().filter(|_| !matches!(task, Task::Check));
+    if tally.report.printed.is_some() {
+        tally.report.values = Some(std::mem::take(&mut terminal.values));
+    }
     if matches!(task, Task::Test(_)) && !globals.json {
         let programs = match files.len() {
             1 => String::new(),
@@ -210,7 +213,8 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let verb = if pages { "show" } else { "run" };
     let command = format!("modl {verb} {name}{seed}");
     let limits = limits(globals);
-    Options { filter, seed: globals.seed, pages, command, picture: None, limits, threads: threads(globals) }
+    let (seed, values, threads) = (globals.seed, globals.json, threads(globals));
+    Options { filter, seed, pages, command, picture: None, limits, values, threads }
 }
 
 /// Returns the number of threads for planners: that of the command line, or one per processor.

@@ -104,6 +104,7 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
     let ending = repl.ending();
     if globals.json {
         repl.report.printed = repl.terminal.printed.take();
+        repl.report.values = Some(std::mem::take(&mut repl.terminal.values));
         repl.report.finish(ending == Ending::Fine, globals);
     }
     Ok(ending)
@@ -120,6 +121,7 @@ impl<'g> Repl<'g> {
         let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
         let options = Options {
             seed: globals.seed,
+            values: globals.json,
             command: format!("modl repl{seed}"),
             limits: program::limits(globals),
             threads: program::threads(globals),

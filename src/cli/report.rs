@@ -2,6 +2,7 @@
 
 use super::arguments::{Color, Globals};
 use super::terminal::{print_error, print_json, print_styled};
+use crate::interpret::printed::PrintedValue;
 use crate::plan::Verdict;
 use crate::plan::facts::Facts;
 use crate::source::json::{JsonDiagnostic, to_json};
@@ -33,6 +34,9 @@ pub(super) struct Report {
     /// The lines that the program printed; `None` for commands that print none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<Vec<String>>,
+    /// The values that were printed; `None` for commands that run no program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub values: Option<Vec<JsonValue>>,
     /// The paths of the files written; `None` for commands that write none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<Vec<String>>,
@@ -50,6 +54,16 @@ pub(super) struct Report {
     pub programs: Option<usize>,
     #[serde(skip)]
     seen: HashSet<String>,
+}
+
+/// A value that was printed.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonValue {
+    /// The index in `printed` of the line that shows it, or of the first of its lines, from 0.
+    pub line: usize,
+    /// Its text, and what it is.
+    #[serde(flatten)]
+    pub printed: PrintedValue,
 }
 
 /// The result of a test.

@@ -3,7 +3,9 @@
 use super::arguments::Globals;
 use super::disk::system_words;
 use super::output;
+use super::report::JsonValue;
 use super::watch::Watched;
+use crate::interpret::printed::PrintedValue;
 use crate::interpret::{Host, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::escape::{escaped, escaped_json};
@@ -186,6 +188,8 @@ pub(super) struct Terminal {
     folder: PathBuf,
     /// The printed lines, if they go into a JSON object; `None` if they go to standard output.
     pub printed: Option<Vec<String>>,
+    /// The printed values, each with the index of its line in `printed`; empty without JSON.
+    pub values: Vec<JsonValue>,
     /// The record of the files that the run depends on, for a run that ends once they change; `None` for others.
     pub watched: Option<Arc<Watched>>,
     shows_progress: bool,
@@ -203,6 +207,7 @@ impl Terminal {
         Terminal {
             folder: globals.out.clone(),
             printed: globals.json.then(Vec::new),
+            values: Vec::new(),
             watched: None,
             shows_progress,
             progress_shown: false,
@@ -224,6 +229,12 @@ impl Host for Terminal {
         match &mut self.printed {
             Some(lines) => lines.push(line.to_owned()),
             None => print(&format!("{line}\n")),
+        }
+    }
+
+    fn print_value(&mut self, value: PrintedValue) {
+        if let Some(lines) = &self.printed {
+            self.values.push(JsonValue { line: lines.len(), printed: value });
         }
     }
 

@@ -1,15 +1,17 @@
 //! The display of values: on one line, as `print` shows them (`value`), and as a session shows a result,
-//! on several lines (`pretty`).
+//! on several lines (`pretty`), and by their kind for other programs (`typed`).
 
 mod motion;
 mod pretty;
 mod robot;
 mod shape;
 mod truss;
+mod typed;
 mod value;
 
 use crate::check::typed::DefId;
 use crate::interpret::interpreter::Interpreter;
+use crate::interpret::printed::TypedValue;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 
@@ -17,6 +19,12 @@ use crate::interpret::value::Value;
 /// words. A text stays as it is, and a report of the judge has several lines.
 pub fn show(interpreter: &Interpreter, value: &Value) -> String {
     interpreter.show_value(value)
+}
+
+/// Returns a value by its kind, for programs in other languages. The bytes that it takes are drawn from `bytes_left`; what
+/// goes beyond is left out.
+pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -> TypedValue {
+    interpreter.typed_value(value, 0, bytes_left)
 }
 
 /// Returns a value as a session shows it, on as many lines as it needs, the first of which can stand alone;

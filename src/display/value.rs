@@ -159,7 +159,7 @@ impl Interpreter<'_> {
 
 /// Returns the dimension without radians where that gives one with a name, `2rad/s * 45mm` is a speed; else
 /// itself.
-fn without_radians(dimension: Dimension) -> Dimension {
+pub(super) fn without_radians(dimension: Dimension) -> Dimension {
     let dropped = Dimension { angle: 0, ..dimension };
     let named = dimension.name().is_none() && dropped.name().is_some();
     if named && dimension.fits(dropped) { dropped } else { dimension }

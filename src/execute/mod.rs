@@ -24,6 +24,7 @@ static ROUTINES: Routines = Routines {
     hinge_of: elaborate::hinge_of,
     check_declaration: elaborate::check_declaration,
     show: display::show,
+    typed: display::typed,
     display: display::display,
     describe_declaration: display::describe_declaration,
     draw_declared: natives::draw_declared,

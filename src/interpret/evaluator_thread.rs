@@ -4,6 +4,7 @@
 //! Files and host stay on the thread of the caller, which serves requests.
 
 use super::host::{Host, WriteError};
+use super::printed::PrintedValue;
 use crate::interrupt::{self, CancelState};
 use crate::source::{Files, ReadError};
 use std::cell::Cell;
@@ -37,6 +38,8 @@ const WAITING_MAX: usize = 256;
 enum Request {
     /// Print a line.
     Print(String),
+    /// Receive a value that the next lines show.
+    PrintValue(PrintedValue),
     /// Show a progress report.
     Progress(String),
     /// Write a file of the output folder.
@@ -66,6 +69,11 @@ impl HostProxy {
     /// [`interrupt::catch`] once the work is cancelled or nobody serves requests any more, as all requests do.
     pub fn print(&self, line: String) {
         self.send(Request::Print(line));
+    }
+
+    /// Tells a value that the next lines show.
+    pub fn print_value(&self, value: PrintedValue) {
+        self.send(Request::PrintValue(value));
     }
 
     /// Returns a function that sends a line of progress to the host. A call waits while the queue of requests
@@ -238,7 +246,8 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
             match request {
                 Request::Done => break,
                 // After cancelling, output is not shown any more.
-                Request::Print(_) | Request::Progress(_) if self.cancel_state.is_cancelled() => {}
+                Request::Print(_) | Request::PrintValue(_) | Request::Progress(_)
+                    if self.cancel_state.is_cancelled() => {}
                 request => answer(request, files, host),
             }
             if self.cancel_state.is_abandoned() {
@@ -278,6 +287,7 @@ fn answer(request: Request, files: &dyn Files, host: &mut dyn Host) {
     match request {
         Request::Done | Request::GivenUp => {}
         Request::Print(line) => host.print(&line),
+        Request::PrintValue(value) => host.print_value(value),
         Request::Progress(line) => host.progress(&line),
         Request::Write(path, bytes, reply) => drop(reply.send(host.write(&path, &bytes))),
         Request::Read(path, reply) => drop(reply.send(files.read(&path))),

@@ -1,5 +1,6 @@
 //! The interface of a running program to the outside, and the outcome of a run.
 
+use super::printed::PrintedValue;
 use crate::interrupt::CancelState;
 use crate::source::Diagnostic;
 
@@ -16,6 +17,9 @@ pub enum WriteError {
 pub trait Host {
     /// Prints one line of the program, without its line end.
     fn print(&mut self, line: &str);
+
+    /// Receives a value that the next printed line, or lines, show; only where [`Options::values`] asks for that.
+    fn print_value(&mut self, _value: PrintedValue) {}
 
     /// Writes a whole file below the output folder, or nothing; returns the path to show. `path` is relative to
     /// the output folder, with forward slashes.
@@ -67,6 +71,8 @@ pub struct Options {
     pub picture: Option<(usize, usize)>,
     /// Bounds on what the program may use.
     pub limits: Limits,
+    /// True if the host is told the values that are printed, besides their text.
+    pub values: bool,
     /// The number of threads that a planner may use; 0 counts as 1. No result depends on it.
     pub threads: usize,
 }

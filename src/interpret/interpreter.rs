@@ -72,6 +72,8 @@ pub struct Reported {
     known: HashSet<(Code, Option<Span>, Option<String>)>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
+    /// The size of the values that were told besides their text, in bytes.
+    pub values_bytes: usize,
     /// The results of the tests that were run, in order.
     pub tests: Vec<TestResult>,
     /// True if a condition of the present test is unknown because of an error reported before.

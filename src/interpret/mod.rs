@@ -38,6 +38,7 @@ pub mod planning;
 pub mod record;
 pub mod verdicts;
 
+pub mod printed;
 pub mod recalled;
 pub mod routines;
 mod run;

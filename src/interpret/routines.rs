@@ -7,12 +7,16 @@
 use super::design::Design;
 use super::interpreter::Interpreter;
 use super::native::Native;
+use super::printed::{PrintedValue, TypedValue};
 use super::robot::Robot;
 use super::stop::Eval;
 use super::value::{PortValue, Value};
 use crate::check::typed::DefId;
 use crate::source::{Span, Symbol};
 use std::rc::Rc;
+
+/// The greatest size of the values of one run that are told besides their text, as JSON, in bytes.
+const VALUES_BYTES_MAX: usize = 1 << 24;
 
 /// The arguments in the order of the parameters; `None`: the default is wanted.
 pub struct Args {
@@ -47,6 +51,8 @@ pub struct Routines {
     pub check_declaration: fn(&mut Interpreter, DefId) -> Eval<()>,
     /// Writes a value on one line.
     pub show: fn(&Interpreter, &Value) -> String,
+    /// Tells a value by its kind, in as many bytes as are left.
+    pub typed: fn(&Interpreter, &Value, &mut usize) -> TypedValue,
     /// Writes a value on as many lines as it needs, the first of which can stand alone.
     pub display: fn(&mut Interpreter, &Value) -> Eval<String>,
     /// Writes a line about what a declaration declares, with its defaults; a halt ends its elaboration.
@@ -68,6 +74,18 @@ impl Interpreter<'_> {
     /// Returns a value on one line, as it could be written in a program, with units that suit its size.
     pub fn show(&self, value: &Value) -> String {
         (self.shared.routines.show)(self, value)
+    }
+
+    /// Tells the host a value that is printed next as `text`, if the options ask for values.
+    pub fn print_value(&mut self, value: &Value, text: &str) {
+        if !self.shared.options.values {
+            return;
+        }
+        let mut left = VALUES_BYTES_MAX.saturating_sub(self.reported.values_bytes);
+        let before = left;
+        let value = (self.shared.routines.typed)(self, value, &mut left);
+        self.reported.values_bytes += before - left;
+        self.shared.host.print_value(PrintedValue { text: text.to_string(), value });
     }
 
     /// Returns a value on as many lines as it needs, the first of which can stand alone.

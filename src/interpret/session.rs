@@ -325,6 +325,7 @@ impl<'a> Interpreter<'a> {
             return Ok(());
         }
         let display = self.display(value)?;
+        self.print_value(value, &display);
         // An instance is called by its type.
         let shown = match shown {
             Shown::All if !matches!(value, Value::Instance(_)) => match display.split_once('\n') {

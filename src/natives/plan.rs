@@ -58,12 +58,16 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         && let Some(table) = interpreter.table(value).and_then(|table| interpreter.show_table(&table))
     {
         interpreter.check_text(table.len(), call.span)?;
+        interpreter.print_value(value, table.trim_end());
         table.lines().for_each(|line| interpreter.shared.host.print(line.to_string()));
         return Ok(Value::Nothing);
     }
     let shown: Vec<String> = values.iter().map(|value| interpreter.show(value)).collect();
     let line = shown.join(" ");
     interpreter.check_text(line.len(), call.span)?;
+    for (value, text) in values.iter().zip(&shown) {
+        interpreter.print_value(value, text);
+    }
     interpreter.shared.host.print(line);
     Ok(Value::Nothing)
 }

@@ -4,7 +4,7 @@ use crate::formats::{RecordCell, RecordColumn, RecordTable};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::table::{Column, Table, in_unit};
 use crate::interpret::value::Value;
-use crate::units::{Dimension, base_units};
+use crate::units::{base_units, dimension_name};
 
 /// Returns a table as files hold it: its columns with their units, cells by record.
 pub(super) fn for_file(interpreter: &Interpreter, table: &Table) -> RecordTable {
@@ -30,8 +30,4 @@ fn column_for_file(interpreter: &Interpreter, column: &Column) -> RecordColumn {
         quantity: column.dimension().map(|dimension| (base_units(dimension), dimension_name(dimension))),
         cells: column.cells.iter().map(cell).collect(),
     }
-}
-
-fn dimension_name(dimension: Dimension) -> String {
-    dimension.name().map_or_else(|| format!("Quantity<{}>", base_units(dimension)), str::to_string)
 }

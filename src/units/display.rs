@@ -126,6 +126,11 @@ pub fn base_units(dimension: Dimension) -> String {
     }
 }
 
+/// Returns a dimension as the type of its quantities is written in programs: `Length`, `Quantity<kg*m^2>`.
+pub fn dimension_name(dimension: Dimension) -> String {
+    dimension.name().map_or_else(|| format!("Quantity<{}>", base_units(dimension)), str::to_string)
+}
+
 /// Returns the usual unit of a dimension, for messages: `rad/s` for an angular speed, base units if none is usual;
 /// empty for a plain number.
 pub fn usual_unit(dimension: Dimension) -> String {

@@ -5,5 +5,7 @@ mod display;
 mod table;
 
 pub use dimension::{Dimension, NAMED};
-pub use display::{base_units, fitting_unit, fixed, is_unit, number, quantity, quantity_in, usual_unit};
+pub use display::{
+    base_units, dimension_name, fitting_unit, fixed, is_unit, number, quantity, quantity_in, usual_unit,
+};
 pub use table::{UNITS, Unit, to_si, unit};

@@ -1,7 +1,8 @@
 //! `--json`: which commands have it, before and behind them, and that what they print is documented.
 
 use super::cli::{Sandbox, json};
-use serde_json::Value;
+use crate::support::fences::fences;
+use serde_json::{Value, json as object};
 
 /// A command with arguments, and the fields of its answer; those of [`REPORT`] stand for every report.
 struct Row {
@@ -27,18 +28,18 @@ const fn wrong(command: &'static str, arguments: &'static [&'static str]) -> Row
 
 /// Every command, with what it answers.
 const ANSWERS: &[Row] = &[
-    row("run", &["a.mod"], &["report", "printed", "written"]),
+    row("run", &["a.mod"], &["report", "printed", "values", "written"]),
     row("check", &["a.mod"], &["report"]),
     row("check", &["."], &["report", "programs"]),
-    row("test", &["a.mod"], &["report", "printed", "tests"]),
+    row("test", &["a.mod"], &["report", "printed", "values", "tests"]),
     row("verify", &["p.plan.json"], &["report", "plans"]),
-    row("show", &["a.mod"], &["report", "printed", "written"]),
+    row("show", &["a.mod"], &["report", "printed", "values", "written"]),
     row("show", &["p.plan.json"], &["report", "written"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
     row("fmt", &["--check", "a.mod"], &["report", "written"]),
     row("explain", &["E0301"], &["code", "title", "page"]),
     row("explain", &[], &["codes"]),
-    row("-e", &["1mm + 2mm"], &["report", "printed", "written"]),
+    row("-e", &["1mm + 2mm"], &["report", "printed", "values", "written"]),
     wrong("watch", &["-"]),
     wrong("run", &["nothing.mod"]),
     wrong("verify", &["nothing.plan.json"]),
@@ -148,5 +149,119 @@ fn questions_tell_their_errors_and_files_in_json() {
         json(&sandbox.run(&["-e", "let a = 2mm", "-e", "3 * a", "-e", "1m + 1s", "-e", "4", "--json"]));
     assert_eq!((&answer["ok"], &answer["errors"]), (&false.into(), &1.into()));
     assert_eq!(answer["diagnostics"][0]["code"], "E0201");
-    assert_eq!(answer["printed"], serde_json::json!(["6mm"]));
+    assert_eq!(answer["printed"], object!(["6mm"]));
+}
+
+/// The answer of `modl run --json` to a program without mistakes.
+fn answer(program: &str) -> Value {
+    let sandbox = Sandbox::new(&[("a.mod", program.as_bytes())]);
+    let ran = sandbox.run(&["run", "--json", "a.mod"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{}", ran.out);
+    json(&ran)
+}
+
+/// The values that a program prints, without text and line.
+fn values(program: &str) -> Vec<Value> {
+    let answer = answer(program);
+    answer["values"].as_array().expect("a list").iter().map(|entry| entry["value"].clone()).collect()
+}
+
+#[test]
+fn the_documented_values_are_those_that_are_printed() {
+    let page = include_str!("../../docs/json.md");
+    let section = page.split("## Printed values").nth(1).expect("the section");
+    let all = fences(section.split("\n## ").next().unwrap_or(section), "docs/json.md");
+    let [program, wanted] = all.as_slice() else { panic!("a program and its values") };
+    assert_eq!((program.tag.as_str(), wanted.tag.as_str()), ("modl", "json"));
+    let wanted: Value = serde_json::from_str(&wanted.code).expect("JSON");
+    assert_eq!(answer(&program.code)["values"], wanted);
+}
+
+#[test]
+fn printed_values_are_told_by_their_kind_in_si_units() {
+    let length = |x: f64| object!({ "number": x, "unit": "m", "dimension": "Length" });
+    for (written, wanted) in [
+        ("3", object!({ "number": 3 })),
+        ("-2.5", object!({ "number": -2.5 })),
+        ("76mm", length(0.076)),
+        ("180deg", object!({ "number": std::f64::consts::PI, "unit": "rad", "dimension": "Angle" })),
+        ("3N*m", object!({ "number": 3.0, "unit": "kg*m^2/s^2", "dimension": "Torque" })),
+        ("3J", object!({ "number": 3.0, "unit": "kg*m^2/s^2", "dimension": "Energy" })),
+        ("2kg*m^2", object!({ "number": 2.0, "unit": "kg*m^2", "dimension": "Quantity<kg*m^2>" })),
+        ("2rad/s * 500mm", object!({ "number": 1.0, "unit": "m/s", "dimension": "Speed" })),
+        ("2^64", object!({ "number": 18446744073709551616.0, "digits": "18446744073709551616" })),
+        ("1 == 1", object!({ "bool": true })),
+        ("\"a\\nb\"", object!({ "text": "a\nb" })),
+        ("[1m, 20mm]", object!({ "list": [length(1.0), length(0.02)] })),
+        ("[[1], []]", object!({ "list": [{ "list": [{ "number": 1 }] }, { "list": [] }] })),
+        ("Z", object!({ "vector": [0.0, 0.0, 1.0] })),
+        ("2m * Y", object!({ "vector": [0.0, 2.0, 0.0], "unit": "m", "dimension": "Length" })),
+        ("0..4", object!({ "from": { "number": 0 }, "to": { "number": 4 } })),
+        ("0m..1m", object!({ "from": length(0.0), "to": length(1.0) })),
+        ("first([1mm, 2mm])", length(0.001)),
+        ("last([x for x in [1] if x > 1])", object!({ "missing": true })),
+        ("ln", object!({ "shown": "the function ln" })),
+    ] {
+        assert_eq!(values(&format!("print({written})\n")), [wanted], "{written}");
+    }
+    let tall = values("print((10^400))\n").remove(0);
+    assert_eq!((&tall["number"], tall["digits"].as_str().map(str::len)), (&Value::Null, Some(401)));
+}
+
+#[test]
+fn printed_poses_and_margins_without_limit_are_told_by_their_kind() {
+    let told = values(
+        "use std.smores.Chain3\nlet c = Chain3()\nlet head = pose(c.head)\n\
+         print(head, position(head), pose(c.m[1]))\n\
+         print(verify(c, world: world(ground: off, gravity: off)).margin)\nprint(c)\n",
+    );
+    assert_eq!(told[0]["pose"]["p"], told[1]["vector"]);
+    let q: Vec<f64> =
+        told[0]["pose"]["q"].as_array().expect("a list").iter().flat_map(Value::as_f64).collect();
+    assert!(q.len() == 4 && (q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-12, "{q:?}");
+    // The base is where the frame is.
+    assert_eq!(told[2], object!({ "pose": { "p": [0.0, 0.0, 0.0], "q": [1.0, 0.0, 0.0, 0.0] } }));
+    assert_eq!(told[3], object!({ "infinite": 1, "unit": "m", "dimension": "Length" }));
+    assert_eq!(told[4], object!({ "shown": "Chain3" }));
+}
+
+#[test]
+fn printed_values_say_which_line_shows_them() {
+    let answer = answer(
+        "record A { x: Length, n: Int }\nlet as = [A(x: 1m, n: 1), A(x: 2m, n: 2)]\n\
+         print(\"first\")\nprint(as)\nprint(1, 2)\nprint()\nprint(as[0] with { n: 3 })\n",
+    );
+    let printed: Vec<&str> =
+        answer["printed"].as_array().expect("lines").iter().flat_map(Value::as_str).collect();
+    assert_eq!(printed, ["first", "x [m]  n", "    1  1", "    2  2", "1 2", "", "A(x: 1m, n: 3)"]);
+    let entries = answer["values"].as_array().expect("values");
+    let lines: Vec<u64> = entries.iter().flat_map(|entry| entry["line"].as_u64()).collect();
+    assert_eq!(lines, [0, 1, 4, 4, 6]);
+    assert_eq!(entries[1]["text"], "x [m]  n\n    1  1\n    2  2");
+    let n = |value: &Value| value["fields"]["n"]["number"].as_u64();
+    assert_eq!(
+        entries[1]["value"]["list"].as_array().map(|l| l.iter().map(n).collect()),
+        Some(vec![Some(1), Some(2)])
+    );
+    assert_eq!((&entries[4]["value"]["record"], n(&entries[4]["value"])), (&"A".into(), Some(3)));
+}
+
+#[test]
+fn values_too_many_or_too_deep_are_left_out_and_counted() {
+    // What is told of it all is bounded, and what is left out is counted.
+    let told = values("let many = [i for i in 0..400_000]\nprint(many)\nprint(1)\n");
+    let list = told[0]["list"].as_array().expect("a list").len();
+    assert_eq!(list as u64 + told[0]["omitted"].as_u64().expect("a number"), 400_000);
+    assert!((200_000..300_000).contains(&list), "{list}");
+    assert_eq!(told[1], object!({ "omitted": true }));
+    // A reader of JSON need not nest deeper than 128 levels, which `json` holds it to.
+    let chain = "record Node { n: Int, next: Node? }\n\
+                 print(reduce([i for i in 0..90], (next, n) => Node(n: n, next: next), from: Node(n: 90, next: _)))\n";
+    let mut value = values(chain).remove(0);
+    let mut levels = 0;
+    while value["fields"]["next"] != Value::Null {
+        value = value["fields"]["next"].take();
+        levels += 1;
+    }
+    assert_eq!((levels, value), (25, object!({ "omitted": true })));
 }

@@ -293,6 +293,7 @@ fn a_value_that_is_lost_without_a_word_is_reported() {
         hinge_of: modl::elaborate::hinge_of,
         check_declaration: modl::elaborate::check_declaration,
         show: modl::display::show,
+        typed: modl::display::typed,
         display: modl::display::display,
         describe_declaration: modl::display::describe_declaration,
         draw_declared: modl::natives::draw_declared,
