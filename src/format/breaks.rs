@@ -122,7 +122,8 @@ impl<'l, 't> Measured<'l, 't> {
         (0..self.line.len() - 1).find(opened).map(|i| i + 1).into_iter().collect()
     }
 
-    /// Returns where a line is broken at the braces at the base that hold clauses, statements or a branch.
+    /// Returns where a line is broken at the braces at the base that hold clauses, statements or a branch: at all of
+    /// them, but where they are only fields that a record is changed in, at the widest.
     fn blocks(&self) -> Vec<usize> {
         let open = |&i: &usize| {
             self.line[i].text == "{"
@@ -130,7 +131,13 @@ impl<'l, 't> Measured<'l, 't> {
                 && self.line.get(i + 1).is_some_and(|p| p.begins)
         };
         let pairs = (0..self.line.len()).filter(open).filter_map(|open| Some((open, self.closers[open]?)));
-        pairs.flat_map(|(open, close)| self.within(open, close)).collect()
+        let mut pairs: Vec<(usize, usize)> = pairs.collect();
+        let with = |&(open, _): &(usize, usize)| open > 0 && self.line[open - 1].text == "with";
+        if pairs.iter().all(with) {
+            let widest = pairs.iter().copied().max_by_key(|&(open, close)| self.columns(open + 1, close));
+            pairs = widest.into_iter().collect();
+        }
+        pairs.into_iter().flat_map(|(open, close)| self.within(open, close)).collect()
     }
 
     /// Returns the clauses and statements of a range that begin at a depth, without its first piece.

@@ -314,6 +314,63 @@ let f = 3  // neither is a comment behind short code, however long it is, since 
     assert!(skeleton(text).is_some() && skeleton(text) == skeleton(wanted));
 }
 
+#[test]
+fn records_that_are_too_wide_have_a_line_for_each_field() {
+    let text = "\
+record Design { the_first_of_the_fields: Angle = 30deg, the_second_of_the_fields: Speed = 20mm/s, others: List<Length> = [] }  // all
+let d = Design(the_first_of_the_fields: 30deg + another_angle, the_second_of_the_fields: 20mm/s, others: [1mm, 2mm, 3mm, 4mm])
+let e = d with { the_first_of_the_fields: 30deg + another_angle, the_second_of_the_fields: 20mm/s, others: [1mm, 2mm, 3mm] }
+let f = [Design(the_first_of_the_fields: 30deg, the_second_of_the_fields: 20mm/s), d with { the_first_of_the_fields: 10deg }]
+let g = best(d with { the_first_of_the_fields: bend, the_second_of_the_fields: 20mm/s, others: lengths }, among: all_designs)
+fn changed(d: Design) -> Design = d with { the_first_of_the_fields: 30deg } with { the_second_of_the_fields: 20mm/s, others: [] }
+fn chosen(d: Design) -> Design = if d.the_first_of_the_fields > 30deg { d with { others: [] } } else { Design(others: [1mm, 2mm]) }
+config C { part a: Arm(design: Design(the_first_of_the_fields: 30deg, the_second_of_the_fields: 20mm/s, others: the_lengths(of: 4))) }
+";
+    let wanted = "\
+record Design {
+  the_first_of_the_fields: Angle = 30deg,
+  the_second_of_the_fields: Speed = 20mm/s,
+  others: List<Length> = []
+}  // all
+let d = Design(
+  the_first_of_the_fields: 30deg + another_angle,
+  the_second_of_the_fields: 20mm/s,
+  others: [1mm, 2mm, 3mm, 4mm]
+)
+let e = d with {
+  the_first_of_the_fields: 30deg + another_angle,
+  the_second_of_the_fields: 20mm/s,
+  others: [1mm, 2mm, 3mm]
+}
+let f = [
+  Design(the_first_of_the_fields: 30deg, the_second_of_the_fields: 20mm/s),
+  d with { the_first_of_the_fields: 10deg }
+]
+let g = best(
+  d with { the_first_of_the_fields: bend, the_second_of_the_fields: 20mm/s, others: lengths },
+  among: all_designs
+)
+fn changed(d: Design) -> Design = d with { the_first_of_the_fields: 30deg } with {
+  the_second_of_the_fields: 20mm/s,
+  others: []
+}
+fn chosen(d: Design) -> Design = if d.the_first_of_the_fields > 30deg {
+  d with { others: [] }
+} else {
+  Design(others: [1mm, 2mm])
+}
+config C {
+  part a: Arm(
+    design: Design(the_first_of_the_fields: 30deg, the_second_of_the_fields: 20mm/s, others: the_lengths(of: 4))
+  )
+}
+";
+    assert_eq!(formatted(text), wanted);
+    assert_eq!(formatted(wanted), wanted);
+    assert!(text.lines().all(|line| line.chars().count() > WIDTH), "each line is too wide");
+    assert!(skeleton(text).is_some() && skeleton(text) == skeleton(wanted));
+}
+
 /// The program on as few lines as may be, so that lines are long.
 fn unbroken(text: &str) -> String {
     let tokens = modl::syntax::Outline::of(text).expect("short").tokens;
