@@ -27,8 +27,9 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("random", parameters![seed: usize, count: usize], random),
 ];
 
-/// The part of a step by which the last of several steps may pass the end of a range, for rounding.
-const STEP_ROUNDING: f64 = 1e-9;
+/// The part of a step by which the last of several steps may pass the end of a range, or fall short of that of a plan, for
+/// rounding.
+pub(super) const STEP_ROUNDING: f64 = 1e-9;
 
 /// Runs `reduce(list, f, from)`: carries a value through a list.
 fn reduce(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -2,6 +2,7 @@
 
 use super::Native;
 use super::robot::pose_in;
+use super::sequence::STEP_ROUNDING;
 use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::design::{Instance, Subject, port_ref};
 use crate::interpret::interpreter::Interpreter;
@@ -41,9 +42,6 @@ pub(super) const TABLE: &[Native] = &[
     ),
     Native::on_run("State.contacts", parameters![self: &StateValue], state_contacts),
 ];
-
-/// The largest part of a step by which a plan may be longer than its steps, and that is rounding.
-const STEP_ROUNDING: f64 = 1e-9;
 
 fn signal(robot: Option<Subject>, measure: Measure) -> Value {
     Value::Signal(Rc::new(SignalValue { robot, measure }))
