@@ -293,7 +293,13 @@ impl<'a> Checker<'a> {
             );
             return error_expr(span);
         }
-        expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed })
+        let call =
+            expr_of(span, f.result.clone(), ExprKind::CallValue { callee: Box::new(callee), args: typed });
+        // A function that gives a torque may stand for one that gives an energy, and shows what it gives as its own.
+        if !f.result.holds_torques() {
+            return call;
+        }
+        expr_of(span, f.result.clone(), ExprKind::SetDimension(Box::new(call)))
     }
 
     /// Returns checked arguments in the order of the parameters of `signature`; `None` for one that is left out.

@@ -157,6 +157,17 @@ impl Type {
         }
     }
 
+    /// Returns true for torques and energies, and for lists, vectors and ranges of them.
+    pub(super) fn holds_torques(&self) -> bool {
+        match self {
+            Type::Quantity(d) => *d == Dimension::TORQUE,
+            Type::List(inner) | Type::Vec3(inner) | Type::Range(inner) | Type::Optional(inner) => {
+                inner.holds_torques()
+            }
+            _ => false,
+        }
+    }
+
     /// Returns the type, which `other` fits, for values of both: an energy only where both are energies.
     pub(super) fn shown_beside(&self, other: &Type) -> Type {
         let inner = |a: &Type, b: &Type| Arc::new(a.shown_beside(b));

@@ -47,6 +47,15 @@ print(torques, energies, energies[0], [x for x in energies], first(energies), me
 print([e, t], [e, e], [e] ++ [t], max(e, t), max(t, e), max(e, 2 * e), if true { e } else { t }, 1J..2J)
 //> [20N*m, 10N*m] [20J, 20J] [20N*m, 10N*m] 20N*m 20N*m 40J 20N*m 1J..2J
 
+--- a function value gives what its type says
+fn moment(arm: Length) -> Torque = 2N * arm
+fn moments(arm: Length) -> List<Torque> = [2N * arm]
+fn energy_by(f: fn(Length) -> Energy) = f(3m)
+fn energies_by(f: fn(Length) -> List<Energy>) = f(3m)
+fn torque_by(f: fn(Length) -> Torque) = f(3m)
+print(energy_by(moment), energies_by(moments), energy_by(x => 1N * x), torque_by(moment), torque_by(x => x / 1m * 1J))
+//> 6J [6J] 3J 6N*m 3N*m
+
 --- sums of energies and their multiples are energies, other results are known by their dimension alone
 let e: Energy = 20J
 let t = 10N*m
