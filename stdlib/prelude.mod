@@ -477,6 +477,10 @@ extern fn show(
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
 ///
+/// A plan of a robot with joints, a behaviour, or a robot at rest is an `.mjcf.xml` file: a model for the simulator
+/// MuJoCo, with its masses, shapes, joints, servos, bonds and friction, and with the keyframe `start` in which the plan
+/// begins; see docs/mujoco.md.
+///
 /// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
 /// edges that meet in the end, and the folded form after every step as further frames. A plot is a `.svg` or `.png`
@@ -492,13 +496,15 @@ extern fn show(
 /// use std.mori.Mori
 /// use std.rofi.Snake
 /// use std.shapes.octahedron
+/// use std.smores.Driver1
+/// save(plan(Driver1().drive(t: 1s)), "drive.mjcf.xml")
 /// save(Snake(n: 4), "snake.rofi")
 /// save(Snake(n: 4), "snake.json")
 /// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
 /// record Design { name: Text, bend: Angle, mass: Mass }
 /// save([Design(name: "flat", bend: 0deg, mass: 4kg), Design(name: "bent", bend: 30deg, mass: 4kg)], "designs.csv")
 /// ```
-extern fn save<T>(what: Config | Folding | Layout | Plot | List<T>, file: Text)
+extern fn save<T>(what: Plan | Behavior | Config | Layout | Plot | List<T>, file: Text)
 
 /// A plot, to be shown or saved.
 extern type Plot {

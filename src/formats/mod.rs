@@ -1,6 +1,6 @@
 //! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY and STL; PLY and XYZ for clouds.
 //!
-//! Writers of foldings (FOLD) and of robots of RoFI modules.
+//! Writers of foldings (FOLD), of robots of RoFI modules, and of robots with their plans as models of MuJoCo.
 //!
 //! A reader turns bytes into a [`Content`] or says what is wrong. To add one, write its file and add its
 //! line to [`MESH_FORMATS`] or [`CLOUD_FORMATS`]. A writer turns data into text. To add one, write its file
@@ -9,6 +9,7 @@
 mod content;
 mod fault;
 mod fold;
+pub mod mjcf;
 mod obj;
 mod off;
 mod ply;

@@ -5,7 +5,9 @@ use super::plan::{output_path, write_output};
 use super::rofi;
 use super::save_table;
 use super::show::{Form, picture_of, plot_of};
-use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS};
+use crate::formats::{
+    Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS, mjcf,
+};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -20,12 +22,16 @@ use crate::view::Side;
 /// The built-ins whose bodies stand in this file; their order means nothing.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
-/// Runs `save`: writes a robot or a folding in the format that the ending of the name asks for.
+/// Runs `save`: writes a value in the format that the ending of the name asks for.
 fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
-    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    let ending = ending_of(&name);
     let what = call.arg("what");
-    let bytes = if let Some(plot) = plot_of(what) {
+    let bytes = if ending == mjcf::ENDING && moves(what) {
+        let Some(planned) = interpreter.plan_of(what, call.at("what"))? else { return Ok(Value::Unknown) };
+        let model = mjcf::write(&planned.plan).map_err(|fault| call.refuse("what", fault.to_string()))?;
+        model.into_bytes()
+    } else if let Some(plot) = plot_of(what) {
         let form = match ending {
             "svg" => Form::Svg,
             "png" => Form::Png { time: 0.0, side: Side::Corner },
@@ -43,23 +49,16 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             return Err(wrong_ending(call, ending, "a list of records"));
         };
         (format.write)(&save_table::for_file(interpreter, &table)).into_bytes()
-    } else if let Value::Record(record) = what {
-        let planned = match &**record {
-            Record::Plan(planned) => Some(planned),
-            Record::Native(record) => record.plan(),
-            _ => None,
-        };
-        let Some(planned) = planned else {
-            return Err(call.refuse("what", "a robot, a folding, a plot or a list of records is wanted"));
-        };
+    } else if let Some(planned) = plan_in(what) {
         let Some(folded) = planned.report::<Report>() else {
-            let message = "this plan folds no pattern: `emit` writes plans, `save` the patterns of `fold`";
-            return Err(call.refuse("what", message));
+            return Err(wrong_ending(call, ending, "a plan"));
         };
         let Some(format) = ExportFormat::of_ending(FOLDING_FORMATS, ending) else {
             return Err(wrong_ending(call, ending, "a folding"));
         };
         (format.write)(&creases(planned, folded)).into_bytes()
+    } else if let Value::Behavior(_) = what {
+        return Err(wrong_ending(call, ending, "a plan"));
     } else {
         let Some(format) = ExportFormat::of_ending(ROBOT_FORMATS, ending) else {
             return Err(wrong_ending(call, ending, "a robot"));
@@ -71,11 +70,38 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
+/// Returns the end of a name after its last dot, or after the one before it where a format has two; empty without a
+/// dot.
+fn ending_of(name: &str) -> &str {
+    let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|stem| stem.ends_with('.'));
+    [mjcf::ENDING]
+        .into_iter()
+        .find(ends)
+        .unwrap_or_else(|| name.rsplit_once('.').map_or("", |(_, ending)| ending))
+}
+
+/// Returns the plan that a value is or reports on; `None` for other values.
+fn plan_in(value: &Value) -> Option<&PlanValue> {
+    let Value::Record(record) = value else { return None };
+    match &**record {
+        Record::Plan(planned) => Some(planned),
+        Record::Native(record) => record.plan().map(|planned| &**planned),
+        _ => None,
+    }
+}
+
+/// Returns true for a plan, a behaviour, and a robot at rest.
+fn moves(value: &Value) -> bool {
+    matches!(value, Value::Instance(_) | Value::Behavior(_)) || plan_in(value).is_some()
+}
+
 /// Returns the fault of a name whose ending does not fit the value: what fits, or everything that `save` knows.
 fn wrong_ending(call: &Call, ending: &str, value: &str) -> Stop {
+    let model = format!("`.{}`", mjcf::ENDING);
     let known = [
-        ("a robot", ExportFormat::endings(ROBOT_FORMATS)),
-        ("a folding", ExportFormat::endings(FOLDING_FORMATS)),
+        ("a plan", model.clone()),
+        ("a robot", format!("{model}, {}", ExportFormat::endings(ROBOT_FORMATS))),
+        ("a folding", format!("{model} or {}", ExportFormat::endings(FOLDING_FORMATS))),
         ("a plot", "`.svg` or `.png`".to_string()),
         ("a list of records", ExportFormat::endings(TABLE_FORMATS)),
     ];
@@ -94,6 +120,9 @@ fn wrong_ending(call: &Call, ending: &str, value: &str) -> Stop {
     };
     let fault = Diagnostic::error(code::BAD_VALUE, message)
         .label(call.at("file"), format!("{value} is saved as {own}"));
+    if value == "a plan" {
+        return fault.hint("`emit` writes the plan itself, and `show` draws it").into();
+    }
     if hint.is_empty() { fault.into() } else { fault.hint(hint).into() }
 }
 

@@ -82,7 +82,7 @@ save([A(a: 1)], "a.rofi")
 --- an unknown ending lists the known ones
 use std.smores.Car
 save(Car(), "car.urdf")
-//          ^^^^^^^^^^ E0506 `.urdf` is no format that `save` knows | a folding as `.fold`, a plot as `.svg` or `.png`, a list of records as `.csv` or `.json`
+//          ^^^^^^^^^^ E0506 `.urdf` is no format that `save` knows | a plan as `.mjcf.xml`, a robot as `.mjcf.xml`, `.rofi` or `.json`, a folding as `.mjcf.xml` or `.fold`, a plot as
 
 --- a name without an ending
 save([1, 2], "a")
@@ -94,10 +94,46 @@ let none: List<A> = []
 save(none, "a.csv")
 //   ^^^^ E0506 an empty list has no records
 
---- a plan is emitted and not saved
+--- of a plan a model is saved; the plan itself is emitted
 use std.smores.Car
 save(plan(Car().drive(t: 1s)), "a.csv")
-//   ^^^^^^^^^^^^^^^^^^^^^^^^ E0202
+//                             ^^^^^^^ E0506 a plan is saved as `.mjcf.xml`; `.csv` is for a list of records | `emit` writes the plan itself
+save(Car().drive(t: 1s), "a.plan.json")
+//                       ^^^^^^^^^^^^^ E0506 a plan is saved as `.mjcf.xml`; `.json` is for a robot
+save(Car().drive(t: 1s), "a.xml")
+//                       ^^^^^^^ E0506 `.xml` is no format that `save` knows
+
+--- a name of the ending alone
+use std.smores.Car
+save(Car(), "mjcf.xml")
+//          ^^^^^^^^^^ E0506 `.xml` is no format
+
+--- a lattice has no links and joints
+use std.crystal.ExpandingCube
+lattice A of ExpandingCube = row(4)
+lattice B of ExpandingCube = column(4)
+save(squeeze(A, B), "a.mjcf.xml")
+//   ^^^^^^^^^^^^^ E0506 a model for MuJoCo is one of links and joints
+
+--- a list is no robot
+save([1, 2], "a.mjcf.xml")
+//   ^^^^^^ E0506 a list of records is wanted
+
+--- a lattice is no robot
+use std.crystal.ExpandingCube
+lattice A of ExpandingCube = row(4)
+save(A(), "a.mjcf.xml")
+//   ^^^ E0202
+
+--- a chain that MuJoCo does not read
+use std.smores.Smores
+config Chain(n: Int) {
+  part m[n]: Smores
+  for i in 0..n - 1 { connect m[i].top -- m[i + 1].bottom }
+  base m[0]
+}
+save(Chain(n: 166), "a.mjcf.xml")
+//   ^^^^^^^^^^^^^ E0506 498 links hang on each other in a row, and MuJoCo reads 496 at most
 
 --- outside of the output folder
 record A { a: Int }

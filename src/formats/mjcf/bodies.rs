@@ -1,0 +1,224 @@
+//! Links as bodies: masses, collision shapes, joints.
+
+use super::servo;
+use super::tree::Trees;
+use super::xml::{Attribute, Xml, number, numbers, placed, vector};
+use crate::geometry::pose::shifted;
+use crate::geometry::{Placed, Pose, Shape, Vec3};
+use crate::robot::{Link, Motion, Step, mate};
+use nalgebra::Matrix3;
+use std::collections::BTreeSet;
+
+/// The least mass of a body, kg: MuJoCo moves none without.
+const MASS_MIN: f64 = 1e-9;
+/// The least moment of inertia of a body, kg·m².
+const INERTIA_MIN: f64 = 1e-12;
+/// The part of a moment of inertia by which it stays below the sum of the other two: MuJoCo computes them again.
+const ROUNDING: f64 = 1e-12;
+/// Half the distance between the two points that a constraint holds together on the axis of a hinge, m.
+const HINGE_ARM: f64 = 0.05;
+
+/// Returns the shapes of a link and their poses in the link's frame, with unions taken apart.
+fn pieces(link: &Link) -> Vec<(Pose, &Shape)> {
+    let mut pieces = Vec::new();
+    let mut open: Vec<(Pose, &Placed)> = link.collides.iter().rev().map(|p| (Pose::identity(), p)).collect();
+    while let Some((X_LP, part)) = open.pop() {
+        let X_LS = X_LP * part.pose;
+        match &part.shape {
+            Shape::Union { parts } => open.extend(parts.iter().rev().map(|part| (X_LS, part))),
+            shape => pieces.push((X_LS, shape)),
+        }
+    }
+    pieces
+}
+
+/// Returns the points of a hull or mesh, m; `None` for other shapes.
+fn points(shape: &Shape) -> Option<&[Vec3]> {
+    match shape {
+        Shape::Hull { points } | Shape::Mesh { vertices: points, .. } => Some(points),
+        _ => None,
+    }
+}
+
+/// Returns the name of the mesh of a piece of a link; modules of one type share it.
+fn mesh_name(trees: &Trees, link: usize, piece: usize) -> String {
+    let (kind, index) = trees.kind(link);
+    let kinds = &trees.robot.library.modules;
+    let declared = &kinds[kind];
+    let twins = kinds[..kind].iter().filter(|other| other.name == declared.name).count();
+    let other = if twins > 0 { format!(" ({})", twins + 1) } else { String::new() };
+    format!("{}{other}.{}.{piece}", declared.name, declared.links[index].name)
+}
+
+/// Adds the meshes of all hulls and meshes.
+pub(super) fn assets(xml: &mut Xml, trees: &Trees) {
+    let mut known = BTreeSet::new();
+    let mut meshes: Vec<(String, &[Vec3])> = Vec::new();
+    let mut hollow = false;
+    for link in trees.depth_first() {
+        if known.insert(trees.kind(link)) {
+            for (piece, (_, shape)) in pieces(trees.link(link)).into_iter().enumerate() {
+                meshes.extend(points(shape).map(|points| (mesh_name(trees, link, piece), points)));
+                hollow |= matches!(shape, Shape::Mesh { .. });
+            }
+        }
+    }
+    if meshes.is_empty() {
+        return;
+    }
+    xml.open("asset", &[]);
+    if hollow {
+        xml.comment("MuJoCo takes the convex hull of a mesh.");
+    }
+    for (name, points) in meshes {
+        xml.leaf("mesh", &[("name", name), ("vertex", numbers(points.iter().flat_map(|p| [p.x, p.y, p.z])))]);
+    }
+    xml.close("asset");
+}
+
+/// Adds all bodies. The base is fixed in the world if it is `held`; other trees float. `friction` is the factor on
+/// the friction of links.
+pub(super) fn bodies(xml: &mut Xml, trees: &Trees, held: bool, friction: f64) {
+    for (index, (root, X_WR)) in trees.roots.iter().enumerate() {
+        let mut open = vec![Some(*root)];
+        while let Some(next) = open.pop() {
+            let Some(link) = next else {
+                xml.close("body");
+                continue;
+            };
+            let (X, step) = match &trees.steps[link] {
+                Some(step) => (step.child_pose(&Pose::identity(), &trees.zero), Some(step)),
+                None => (*X_WR, None),
+            };
+            let mut attributes = vec![("name", trees.link_name(link))];
+            attributes.extend(placed(&X));
+            xml.open("body", &attributes);
+            match step {
+                Some(step) => joint(xml, trees, link, step),
+                None if held && index == 0 => {}
+                None => xml.leaf("freejoint", &[("name", format!("{}.free", trees.link_name(link)))]),
+            }
+            contents(xml, trees, link, friction);
+            open.push(None);
+            open.extend(trees.children[link].iter().rev().map(|child| Some(*child)));
+        }
+    }
+}
+
+/// Adds the joint of a link.
+fn joint(xml: &mut Xml, trees: &Trees, link: usize, step: &Step) {
+    let Some(joint) = trees.joint_of[link] else { return };
+    let mut attributes: Vec<Attribute> = vec![("name", trees.joint_name(joint))];
+    match (step.motion, step.motion.axis()) {
+        (_, Some(axis)) => {
+            attributes.push(("type", "hinge".into()));
+            if step.offset != Vec3::zeros() {
+                attributes.push(("pos", vector(&-step.offset)));
+            }
+            attributes.push(("axis", vector(&axis)));
+        }
+        (Motion::Along(direction), _) => {
+            attributes.push(("type", "slide".into()));
+            attributes.push(("axis", vector(&(step.turn.inverse() * direction))));
+        }
+        _ => return,
+    }
+    if let Some(range) = trees.range(joint) {
+        attributes.push(("range", numbers(range)));
+    }
+    if trees.is_driven(joint) {
+        attributes.push(("class", servo::class(trees, joint).into()));
+    }
+    xml.leaf("joint", &attributes);
+}
+
+/// Adds the mass of a link, its shapes, and the sites of the constraints at its ports.
+fn contents(xml: &mut Xml, trees: &Trees, link: usize, friction: f64) {
+    let declared = trees.link(link);
+    if declared.mass < MASS_MIN {
+        xml.comment("This link has no mass; MuJoCo wants some.");
+    }
+    xml.leaf(
+        "inertial",
+        &[
+            ("pos", vector(&declared.com)),
+            ("mass", number(declared.mass.max(MASS_MIN))),
+            ("fullinertia", numbers(sound_inertia(declared))),
+        ],
+    );
+    for (piece, (X_LS, shape)) in pieces(declared).into_iter().enumerate() {
+        let mut attributes = vec![("type", geom_type(shape).to_owned())];
+        let along = |axis: &Vec3, length: f64| {
+            let (p, half) = (X_LS.translation.vector, X_LS.rotation * axis.normalize() * (length / 2.0));
+            numbers((p - half).iter().chain((p + half).iter()).copied())
+        };
+        match shape {
+            Shape::Box { size } => attributes.push(("size", vector(&(size / 2.0)))),
+            Shape::Sphere { radius } => attributes.push(("size", number(*radius))),
+            Shape::Cylinder { radius, length, axis } | Shape::Capsule { radius, length, axis } => {
+                attributes.push(("size", number(*radius)));
+                if *length > 0.0 {
+                    attributes.push(("fromto", along(axis, *length)));
+                }
+            }
+            Shape::Hull { .. } | Shape::Mesh { .. } | Shape::Union { .. } => {
+                attributes.push(("mesh", mesh_name(trees, link, piece)));
+            }
+        }
+        if !attributes.iter().any(|(name, _)| *name == "fromto") {
+            attributes.extend(placed(&X_LS));
+        }
+        attributes.push(("friction", number(declared.friction * friction)));
+        xml.leaf("geom", &attributes);
+    }
+    sites(xml, trees, link);
+}
+
+fn geom_type(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Box { .. } => "box",
+        Shape::Cylinder { .. } => "cylinder",
+        Shape::Capsule { length, .. } if *length > 0.0 => "capsule",
+        Shape::Sphere { .. } | Shape::Capsule { .. } => "sphere",
+        Shape::Hull { .. } | Shape::Mesh { .. } | Shape::Union { .. } => "mesh",
+    }
+}
+
+/// Returns the inertia of a link (kg·m²: xx, yy, zz, xy, xz, yz), made larger by a multiple of the unit matrix where
+/// MuJoCo would refuse it: its moments must be positive, and none may exceed the sum of the other two.
+fn sound_inertia(link: &Link) -> [f64; 6] {
+    let [xx, yy, zz, xy, xz, yz] = link.inertia;
+    let mut moments: [f64; 3] =
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues().into();
+    moments.sort_by(f64::total_cmp);
+    let [least, middle, most] = moments;
+    let missing = most * (1.0 + ROUNDING) - middle - least;
+    let more = missing.max(INERTIA_MIN - least).max(0.0);
+    [xx + more, yy + more, zz + more, xy, xz, yz]
+}
+
+/// Returns the names of the sites of a bond's constraint, on its first and second port. A bond that turns has two
+/// pairs, on either side along its axis.
+pub(super) fn site_names(trees: &Trees, bond: usize) -> Vec<[String; 2]> {
+    let name = trees.bond_name(bond);
+    let ends: &[&str] = if trees.robot.hinge(bond).is_some() { &[", low", ", high"] } else { &[""] };
+    ends.iter().map(|end| ["first", "second"].map(|side| format!("{name}: {side}{end}"))).collect()
+}
+
+/// Adds the sites of a link for the constraints of bonds. While a bond holds, its first and second site coincide.
+fn sites(xml: &mut Xml, trees: &Trees, link: usize) {
+    let robot = trees.robot;
+    for &(bond, second) in &trees.constraints_at[link] {
+        let declared = robot.bonds[bond];
+        let at = if second { declared.b } else { declared.a };
+        let X_LQ = robot.module_type(at.module).ports[at.port].pose;
+        // The frame of the first port, moved by the hinge, if there is one.
+        let X_LP = if second { X_LQ * mate(robot, bond).inverse() } else { X_LQ };
+        for (names, end) in site_names(trees, bond).iter().zip([-HINGE_ARM, HINGE_ARM]) {
+            let arm = robot.hinge(bond).map_or(Vec3::zeros(), |hinge| hinge.axis * end);
+            let mut attributes = vec![("name", names[usize::from(second)].clone())];
+            attributes.extend(placed(&(X_LP * shifted(arm))));
+            xml.leaf("site", &attributes);
+        }
+    }
+}

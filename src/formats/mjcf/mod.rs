@@ -1,0 +1,131 @@
+//! Robots with their plans as models of MuJoCo (MJCF, `.mjcf.xml`).
+//!
+//! A model is written with explicit masses, so that nothing is inferred from shapes: a body for each link, with the
+//! frame that the link has here. Links that hang together during the whole plan are one tree of bodies. Bonds that
+//! close loops, and those that dock or undock on the way, are constraints. The servos and the stiffness of contacts and
+//! constraints, which the language does not state yet, stand in [`servo`] and here, and in the `default` element of the
+//! model.
+#![allow(non_snake_case)]
+
+mod bodies;
+mod connections;
+mod fault;
+mod servo;
+mod tree;
+mod xml;
+
+use crate::plan::verify::articulated::base_at;
+use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
+use crate::robot::JointOwner;
+pub use fault::MjcfFault;
+use tree::Trees;
+use xml::{Xml, number, numbers};
+
+/// The end of the names of its files, after the first dot.
+pub const ENDING: &str = "mjcf.xml";
+
+/// The step of the simulation, s.
+const TIME_STEP: f64 = 1e-3;
+/// The ratio of the stiffness of friction to that of the normal force. With MuJoCo's own, 1, feet creep.
+const FRICTION_STIFFNESS: f64 = 20.0;
+/// The time constant of constraints, s; two steps at least. MuJoCo's own, 0.02 s, is soft for a bond.
+const BOND_TIME: f64 = 4e-3;
+/// The time constant of contacts, s. With MuJoCo's own, 0.02 s, the ground is softer than the servos, and a robot on
+/// many feet has all of them down, which it has not.
+const CONTACT_TIME: f64 = 5e-3;
+/// The coefficient of friction of the floor. It is not used: links have the higher priority, and theirs counts.
+const FLOOR_FRICTION: f64 = 1e-3;
+
+/// The greatest number of bodies inside each other that MuJoCo's reader takes, by trial with its version 4.0.
+const DEPTH_MAX: usize = 496;
+
+/// Returns the model of a plan's robot, with the state in which the plan starts as the keyframe `start`: the base
+/// stands where the judge places it. The text is the same for the same plan.
+///
+/// # Errors
+/// A [`MjcfFault`] for a lattice or truss, for a plan that is not valid, and for a chain of too many links.
+pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
+    let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
+    validation::check(plan).map_err(MjcfFault::Invalid)?;
+    let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
+    let trees = Trees::new(tracks, &X_WB);
+    let depth = trees.depth();
+    if depth > DEPTH_MAX {
+        return Err(MjcfFault::TooDeep { depth, most: DEPTH_MAX });
+    }
+    Ok(model(plan, tracks, &trees))
+}
+
+fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
+    let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
+    let mut xml = Xml::new();
+    xml.open("mujoco", &[("model", tracks.robot.name.clone())]);
+    notes(&mut xml, plan, tracks);
+    xml.leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
+    // A robot that floats is judged without weight.
+    let gravity = if world.ground == Ground::Off { 0.0 } else { world.gravity };
+    xml.leaf(
+        "option",
+        &[
+            ("timestep", number(TIME_STEP)),
+            ("gravity", numbers([0.0, 0.0, -gravity])),
+            ("integrator", "implicitfast".into()),
+            ("cone", "elliptic".into()),
+            ("impratio", number(FRICTION_STIFFNESS)),
+        ],
+    );
+    xml.open("default", &[]);
+    let contact = numbers([CONTACT_TIME, 1.0]);
+    xml.leaf("geom", &[("condim", "3".into()), ("priority", "1".into()), ("solref", contact)]);
+    xml.leaf("equality", &[("solref", numbers([BOND_TIME, 1.0]))]);
+    servo::defaults(&mut xml);
+    xml.close("default");
+    bodies::assets(&mut xml, trees);
+    xml.open("worldbody", &[]);
+    if world.has_floor() {
+        xml.comment("Links have the higher priority, so that the friction of a contact is theirs.");
+        xml.leaf(
+            "geom",
+            &[
+                ("name", "floor".into()),
+                ("type", "plane".into()),
+                ("size", numbers([0.0, 0.0, 1.0])),
+                ("priority", "0".into()),
+                ("friction", number(FLOOR_FRICTION)),
+            ],
+        );
+    }
+    let held = matches!(world.ground, Ground::Fixed | Ground::Held);
+    bodies::bodies(&mut xml, trees, held, world.friction);
+    xml.close("worldbody");
+    connections::exclusions(&mut xml, trees);
+    connections::couplings(&mut xml, trees, &tracks.start.bonds);
+    servo::actuators(&mut xml, trees);
+    connections::start(&mut xml, trees, held, &tracks.start.joints);
+    xml.close("mujoco");
+    xml.into_text()
+}
+
+/// Adds comments that say what the model is of, and what it leaves out.
+fn notes(xml: &mut Xml, plan: &Plan, tracks: &Tracks) {
+    let robot = &tracks.robot;
+    xml.comment(&format!(
+        "{}, from modl. SI units, z up; bodies, joints and constraints have the plan's names.",
+        robot.name
+    ));
+    if plan.worlds.len() > 1 {
+        let later: Vec<String> = plan.worlds[1..].iter().map(|w| format!("{} s", number(w.from))).collect();
+        xml.comment(&format!(
+            "The world is that of the start; in the plan it changes at {}.",
+            later.join(", ")
+        ));
+    }
+    for event in &tracks.events {
+        let what = match event.kind {
+            DockingKind::Dock => "docks",
+            DockingKind::Undock => "undocks",
+        };
+        let name = robot.joint_name(JointOwner::Bond(event.bond));
+        xml.comment(&format!("At {} s {name} {what}.", number(event.time)));
+    }
+}

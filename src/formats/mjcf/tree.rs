@@ -1,0 +1,219 @@
+//! The robot as MuJoCo sees it: trees of links that hang together during the whole plan, and the bonds besides.
+
+use crate::geometry::Pose;
+use crate::plan::{DockingKind, Tracks};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, PortRef, Step};
+
+/// The least extent of a joint's range, rad or m.
+const RANGE_MIN: f64 = 1e-6;
+
+/// The trees of a plan's robot over the bonds that hold during the whole plan, and the names of its links and joints.
+pub(super) struct Trees<'a> {
+    /// The robot.
+    pub(super) robot: &'a Assembly,
+    /// The roots: the body of the base module first, then that of a module of each further tree; each with its world
+    /// pose at the start.
+    pub(super) roots: Vec<(usize, Pose)>,
+    /// The links that hang on each link, by number among all links ([`Kinematics::link`]).
+    pub(super) children: Vec<Vec<usize>>,
+    /// The step from its parent to each link; `None` for roots.
+    pub(super) steps: Vec<Option<Step>>,
+    /// The joint that moves each link against its parent; `None` for roots and links that nothing moves against it.
+    pub(super) joint_of: Vec<Option<usize>>,
+    /// The bonds that hold at some time and are in no tree, ascending.
+    pub(super) constraints: Vec<usize>,
+    /// The ports of those bonds on each link: the bond, and true if it is its second port.
+    pub(super) constraints_at: Vec<Vec<(usize, bool)>>,
+    /// A position of 0 for every joint.
+    pub(super) zero: Vec<f64>,
+    /// The kinematics of the whole robot at the start, from its base.
+    pub(super) start: Kinematics,
+    /// The module, and the index there, of every link.
+    links: Vec<(usize, usize)>,
+    /// The owner of every joint, by id.
+    joints: Vec<JointOwner>,
+}
+
+impl<'a> Trees<'a> {
+    /// Returns the trees of a robot whose base has the world pose `X_WB` at the start.
+    pub(super) fn new(tracks: &'a Tracks, X_WB: &Pose) -> Trees<'a> {
+        let robot = &tracks.robot;
+        let links: Vec<(usize, usize)> = (0..robot.modules.len())
+            .flat_map(|module| (0..robot.module_type(module).links.len()).map(move |link| (module, link)))
+            .collect();
+        let mut trees = Trees {
+            robot,
+            roots: Vec::new(),
+            children: vec![Vec::new(); links.len()],
+            steps: vec![None; links.len()],
+            joint_of: vec![None; links.len()],
+            constraints: Vec::new(),
+            constraints_at: vec![Vec::new(); links.len()],
+            zero: vec![0.0; tracks.start.joints.len()],
+            start: Kinematics::new(robot, &tracks.start.bonds, robot.base),
+            links,
+            joints: robot.joints().collect(),
+        };
+        let poses = trees.start_poses(tracks, X_WB);
+        let mut lasting = tracks.start.bonds.clone();
+        let mut ever = lasting.clone();
+        for event in &tracks.events {
+            lasting[event.bond] = false;
+            ever[event.bond] |= event.kind == DockingKind::Dock;
+        }
+        let mut reached = vec![false; robot.modules.len()];
+        let mut next = Some(robot.base);
+        while let Some(root) = next {
+            let kinematics = Kinematics::new(robot, &lasting, root);
+            for &(module, bond) in &kinematics.tree.order {
+                reached[module] = true;
+                bond.into_iter().for_each(|bond| ever[bond] = false);
+            }
+            let root = kinematics.link(root, 0);
+            trees.roots.push((root, poses[root]));
+            trees.add(kinematics);
+            next = reached.iter().position(|reached| !reached);
+        }
+        for bond in (0..ever.len()).filter(|&bond| ever[bond]) {
+            trees.constraints.push(bond);
+            for (port, second) in [(robot.bonds[bond].a, false), (robot.bonds[bond].b, true)] {
+                let link = trees.port_link(port);
+                trees.constraints_at[link].push((bond, second));
+            }
+        }
+        trees
+    }
+
+    /// Returns the world poses of all links at the start. Modules that no bond connects with the base then are where
+    /// the other bonds would put them.
+    fn start_poses(&self, tracks: &Tracks, X_WB: &Pose) -> Vec<Pose> {
+        let all = Kinematics::new(self.robot, &vec![true; self.robot.bonds.len()], self.robot.base);
+        let mut poses = vec![Pose::identity(); self.links.len()];
+        all.link_poses(&tracks.start.joints, X_WB, &mut poses);
+        self.start.link_poses(&tracks.start.joints, X_WB, &mut poses);
+        poses
+    }
+
+    fn add(&mut self, kinematics: Kinematics) {
+        for &(module, bond) in &kinematics.tree.order {
+            if let Some(bond) = bond {
+                let declared = &self.robot.bonds[bond];
+                let at = if declared.b.module == module { declared.b } else { declared.a };
+                let link = self.port_link(at);
+                self.joint_of[link] = kinematics.hinge(bond);
+            }
+            for (index, joint) in self.robot.module_type(module).joints.iter().enumerate() {
+                let [a, b] = [joint.parent, joint.child].map(|link| kinematics.link(module, link));
+                let step = |link, parent| kinematics.step(link).filter(|step| step.parent == parent);
+                let moved = step(b, a).or_else(|| step(a, b));
+                let moved = moved.filter(|step| joint.kind != JointKind::Fixed && !step.terms().is_empty());
+                if let Some(step) = moved {
+                    self.joint_of[step.link] = Some(kinematics.joint(module, index));
+                }
+            }
+        }
+        for step in kinematics.steps {
+            self.children[step.parent].push(step.link);
+            let link = step.link;
+            self.steps[link] = Some(step);
+        }
+    }
+
+    /// Returns the links of all trees in the order of MuJoCo's bodies: tree by tree, depth
+    /// first.
+    pub(super) fn depth_first(&self) -> Vec<usize> {
+        let mut order = Vec::new();
+        for &(root, _) in &self.roots {
+            let mut open = vec![root];
+            while let Some(link) = open.pop() {
+                order.push(link);
+                open.extend(self.children[link].iter().rev());
+            }
+        }
+        order
+    }
+
+    /// Returns the number of links in the longest row from a root outwards.
+    pub(super) fn depth(&self) -> usize {
+        let mut depth = vec![1; self.steps.len()];
+        for link in self.depth_first() {
+            if let Some(step) = &self.steps[link] {
+                depth[link] = depth[step.parent] + 1;
+            }
+        }
+        depth.into_iter().max().unwrap_or(0)
+    }
+
+    /// Returns the joints of the model and the links that they move, in the order of MuJoCo's joints.
+    pub(super) fn moved(&self) -> Vec<(usize, usize)> {
+        self.depth_first().into_iter().filter_map(|link| Some((self.joint_of[link]?, link))).collect()
+    }
+
+    /// Returns the number of a port's link.
+    pub(super) fn port_link(&self, port: PortRef) -> usize {
+        self.start.link(port.module, self.robot.module_type(port.module).ports[port.port].link)
+    }
+
+    /// Returns the declaration of a link.
+    pub(super) fn link(&self, link: usize) -> &'a Link {
+        let (module, index) = self.links[link];
+        &self.robot.module_type(module).links[index]
+    }
+
+    /// Returns the index of the module type of a link, and the link's index there.
+    pub(super) fn kind(&self, link: usize) -> (usize, usize) {
+        let (module, index) = self.links[link];
+        (self.robot.modules[module].kind, index)
+    }
+
+    /// Returns the name of a link in the model: its module's path name and its own.
+    pub(super) fn link_name(&self, link: usize) -> String {
+        format!("{}.{}", self.robot.modules[self.links[link].0].name, self.link(link).name)
+    }
+
+    /// Returns the name of a joint, as in plan files.
+    pub(super) fn joint_name(&self, joint: usize) -> String {
+        self.robot.joint_name(self.joints[joint])
+    }
+
+    /// Returns the names of a bond's two ports, as in plan files.
+    pub(super) fn bond_name(&self, bond: usize) -> String {
+        self.robot.joint_name(JointOwner::Bond(bond))
+    }
+
+    /// Returns the range of a joint, rad or m, as two numbers of which the second is larger, as MuJoCo wants them;
+    /// `None` if it has no end.
+    pub(super) fn range(&self, joint: usize) -> Option<[f64; 2]> {
+        let (low, high) = self.limits(joint).range?;
+        Some([low, high.max(low + RANGE_MIN)])
+    }
+
+    /// Returns the limits of a joint.
+    pub(super) fn limits(&self, joint: usize) -> Limits {
+        match self.joints[joint] {
+            JointOwner::Module { module, joint } => self.robot.module_type(module).joints[joint].limits,
+            JointOwner::Bond(bond) => self.robot.hinge(bond).map_or(Limits::default(), |hinge| hinge.limits),
+        }
+    }
+
+    /// Returns true if a joint slides; its positions are then in m.
+    pub(super) fn slides(&self, joint: usize) -> bool {
+        match self.joints[joint] {
+            JointOwner::Module { module, joint } => {
+                self.robot.module_type(module).joints[joint].kind == JointKind::Prismatic
+            }
+            JointOwner::Bond(_) => false,
+        }
+    }
+
+    /// Returns true if a joint has a motor that takes commands.
+    pub(super) fn is_driven(&self, joint: usize) -> bool {
+        match self.joints[joint] {
+            JointOwner::Module { module, joint } => {
+                let joint = &self.robot.module_type(module).joints[joint];
+                !joint.passive && joint.mimic.is_none() && joint.kind != JointKind::Fixed
+            }
+            JointOwner::Bond(_) => true,
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! XML text: elements with attributes, a line each.
+
+use crate::geometry::{Pose, Vec3};
+
+/// An XML document that grows from its start to its end.
+pub(super) struct Xml {
+    text: String,
+    /// The number of elements that are open.
+    depth: usize,
+}
+
+/// An attribute: its name and its value, not yet escaped.
+pub(super) type Attribute<'a> = (&'a str, String);
+
+/// Numbers of a magnitude from here to [`WIDE`] are written without an exponent.
+const NARROW: f64 = 1e-4;
+const WIDE: f64 = 1e15;
+
+impl Xml {
+    /// Returns a document without elements.
+    pub(super) fn new() -> Xml {
+        Xml { text: String::new(), depth: 0 }
+    }
+
+    /// Returns the text.
+    pub(super) fn into_text(self) -> String {
+        self.text
+    }
+
+    /// Adds the start of an element that has others inside.
+    pub(super) fn open(&mut self, name: &str, attributes: &[Attribute]) {
+        self.tag(name, attributes, ">");
+        self.depth += 1;
+    }
+
+    /// Ends the element that was opened last, whose name is `name`.
+    pub(super) fn close(&mut self, name: &str) {
+        self.depth -= 1;
+        self.indent();
+        self.text.push_str(&format!("</{name}>\n"));
+    }
+
+    /// Adds an element without others inside.
+    pub(super) fn leaf(&mut self, name: &str, attributes: &[Attribute]) {
+        self.tag(name, attributes, "/>");
+    }
+
+    /// Adds a line of comment. Two hyphens in a row, which end a comment, are set apart.
+    pub(super) fn comment(&mut self, words: &str) {
+        let mut plain = words.replace("--", "- -").replace("--", "- -");
+        if plain.ends_with('-') {
+            plain.push(' ');
+        }
+        self.indent();
+        self.text.push_str(&format!("<!-- {} -->\n", escaped(&plain)));
+    }
+
+    fn tag(&mut self, name: &str, attributes: &[Attribute], end: &str) {
+        self.indent();
+        self.text.push_str(&format!("<{name}"));
+        for (key, value) in attributes {
+            self.text.push_str(&format!(" {key}=\"{}\"", escaped(value)));
+        }
+        self.text.push_str(end);
+        self.text.push('\n');
+    }
+
+    fn indent(&mut self) {
+        self.text.extend(std::iter::repeat_n("  ", self.depth));
+    }
+}
+
+/// Returns a text as it stands inside an attribute. Control characters, which XML does not have, become U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => plain.push_str("&amp;"),
+            '<' => plain.push_str("&lt;"),
+            '>' => plain.push_str("&gt;"),
+            '"' => plain.push_str("&quot;"),
+            control if control.is_control() => plain.push('\u{fffd}'),
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+/// Returns the shortest text of a number that reads back to it; one text for both zeros.
+pub(super) fn number(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        size if (NARROW..WIDE).contains(&size) => format!("{x}"),
+        _ => format!("{x:e}"),
+    }
+}
+
+/// Returns numbers with blanks between them.
+pub(super) fn numbers(all: impl IntoIterator<Item = f64>) -> String {
+    all.into_iter().map(number).collect::<Vec<_>>().join(" ")
+}
+
+/// Returns the three numbers of a vector.
+pub(super) fn vector(v: &Vec3) -> String {
+    numbers(v.iter().copied())
+}
+
+/// Returns the quaternion of a pose in MuJoCo's order: w x y z.
+pub(super) fn quaternion(X: &Pose) -> String {
+    let q = &X.rotation;
+    numbers([q.w, q.i, q.j, q.k])
+}
+
+/// Returns the attributes `pos` (m) and `quat` of a pose, each only where it is not the default.
+pub(super) fn placed(X: &Pose) -> Vec<Attribute<'static>> {
+    let mut attributes = Vec::new();
+    if X.translation.vector != Vec3::zeros() {
+        attributes.push(("pos", vector(&X.translation.vector)));
+    }
+    if X.rotation.w != 1.0 {
+        attributes.push(("quat", quaternion(X)));
+    }
+    attributes
+}
