@@ -2,6 +2,7 @@
 
 mod behavior;
 mod desk;
+mod dynamics;
 mod house;
 mod judge;
 mod language;

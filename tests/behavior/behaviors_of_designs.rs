@@ -6,7 +6,7 @@ use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 
 /// A robot and what it does; how far it gets at least, in millimetres, straight ahead.
-const BEHAVIORS: &[(&str, &str, f64)] = &[
+pub const BEHAVIORS: &[(&str, &str, f64)] = &[
     ("Driver1", "x.drive()", 452.0),
     ("Driver1", "x.turn()", 0.0),
     ("Chain3", "x.half_wave(75deg, 3s)", 0.0),

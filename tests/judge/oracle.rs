@@ -182,7 +182,7 @@ fn robot(n: &mut Numbers) -> Assembly {
 }
 
 /// Motions of most joints, of degree 1 to 5, in one to three pieces, some with pauses and jumps of speed.
-fn plan(seed: u64) -> Plan {
+pub fn plan(seed: u64) -> Plan {
     let mut n = Numbers(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let mut motion = Motion::new(robot(&mut n));
     let wide = n.between(0.05, 0.8);

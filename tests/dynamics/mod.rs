@@ -1,0 +1,3 @@
+//! Robots as models of MuJoCo, and what a simulation of them shows.
+
+mod mjcf;

@@ -1,0 +1,188 @@
+"""Plays a plan file on its MuJoCo model (`save(plan, "x.mjcf.xml")`) and prints what happens, as JSON.
+
+    mujoco_runner.py PLAN.plan.json MODEL.mjcf.xml [--kp N] [--kv N] [--friction-scale X] [--no-limits]
+        [--ground-only]
+
+Position servos follow the plan's joint trajectories, which are evaluated here from their control points. Bonds dock
+and undock at their times. Lengths in m, angles in rad; torques of joints that slide are forces. `travel`, `yaw` and
+`lean` are those of the base between the start, after 0.3 s of settling, and 0.3 s after the end; `sink` is the
+greatest speed downwards of the centre of mass; `lag` the farthest that a joint is behind the plan; `torque` the
+greatest mean over 50 ms in parts of the limit, and `needed` the same without limits.
+"""
+
+import argparse
+import json
+import math
+
+import mujoco
+import numpy
+
+SETTLE = 0.3  # s at the start posture before the plan begins
+REST = 0.3  # s at the end posture after it has ended
+WINDOW = 0.05  # s over which torque is averaged
+FALLS = 0.5  # m/s downwards at which the centre of mass falls and is not let down
+
+
+def bernstein(control, s):
+    """The value of a polynomial by its control points, and its derivative by s (de Casteljau)."""
+    points = list(control)
+    rate = 0.0
+    while len(points) > 1:
+        if len(points) == 2:
+            rate = (len(control) - 1) * (points[1] - points[0])
+        points = [a + s * (b - a) for a, b in zip(points, points[1:])]
+    return points[0], rate
+
+
+class Tracks:
+    """The joint trajectories of a plan file."""
+
+    def __init__(self, plan):
+        body = plan["body"]["tracks"]
+        self.names = body["robot"]["joints"]
+        self.duration = body["duration"]
+        self.base = body["robot"]["base"]
+        self.bonds = [bond["name"] for bond in body["robot"]["bonds"]]
+        self.events = [(e["time"], e["kind"] == "dock", self.bonds[e["bond"]]) for e in body["events"]]
+        self.start = dict(zip(self.names, body["start"]["joints"]))
+        self.segments = {self.names[t["joint"]]: t["segments"] for t in body["tracks"]}
+
+    def at(self, joint, t):
+        """Position and velocity of a joint at a time."""
+        position, velocity = self.start[joint], 0.0
+        for segment in self.segments.get(joint, []):
+            if t < segment["start"]:
+                break
+            length = segment["end"] - segment["start"]
+            s = (t - segment["start"]) / length
+            if s < 1:
+                position, rate = bernstein(segment["control"], s)
+                velocity = rate / length
+            else:
+                position, velocity = segment["control"][-1], 0.0
+        return position, velocity
+
+
+def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False):
+    """The model with servo gains, friction, torque limits and contacts changed, at the start of the plan."""
+    model = mujoco.MjModel.from_xml_string(text)
+    if kp is not None:
+        model.actuator_gainprm[:, 0] = kp
+        model.actuator_biasprm[:, 1] = -kp
+    if kv is not None:
+        model.actuator_biasprm[:, 2] = -kv
+    if not limits:
+        model.actuator_forcelimited[:] = 0
+    # A command leads by the velocity, so that damping acts on the error only; it may leave the joint's range.
+    model.actuator_ctrllimited[:] = 0
+    model.geom_friction[:, 0] *= friction_scale
+    if ground_only:
+        ground = model.geom_bodyid == 0
+        model.geom_contype[:], model.geom_conaffinity[:] = ground, ~ground
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def hold(model, data, holds, bond):
+    """Lets the constraints of a bond hold or not: one, or two of a bond that turns."""
+    for end in ("", ", low", ", high"):
+        constraint = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_EQUALITY, bond + end)
+        if constraint >= 0:
+            data.eq_active[constraint] = holds
+
+
+def play(plan, text, **options):
+    """Plays a plan on the text of its model; returns what happened."""
+    tracks = Tracks(plan)
+    model, data = load(text, **options)
+    servos = [model.actuator(a).name for a in range(model.nu)]
+    joints = model.actuator_trnid[:, 0]
+    qpos, lead = model.jnt_qposadr[joints], -model.actuator_biasprm[:, 2] / model.actuator_gainprm[:, 0]
+    effort = model.actuator_forcerange[:, 1]
+    step = model.opt.timestep
+    window = max(1, round(WINDOW / step))
+    history = numpy.zeros((window, model.nu))
+    mean = numpy.zeros(model.nu)
+    greatest, lag = numpy.zeros(model.nu), numpy.zeros(model.nu)
+    lean, sink, events = 0.0, 0.0, list(tracks.events)
+    start = None
+    moving = [a for a in range(model.nu) if servos[a] in tracks.segments]
+    plan_q = numpy.array([tracks.start[s] for s in servos])
+    plan_v = numpy.zeros(model.nu)
+    first, last = -round(SETTLE / step), round((tracks.duration + REST) / step)
+    for i in range(first, last):
+        t = i * step
+        for a in moving:
+            plan_q[a], plan_v[a] = tracks.at(servos[a], max(t, 0.0))
+        while events and events[0][0] <= t:
+            hold(model, data, *events.pop(0)[1:])
+        data.ctrl[:] = plan_q + lead * plan_v
+        height = data.subtree_com[0, 2]
+        mujoco.mj_step(model, data)
+        if i == -1:
+            # The base is the first body of the first tree.
+            start = data.xpos[1].copy(), data.xmat[1].reshape(3, 3).copy()
+        mean += (data.actuator_force - history[i % window]) / window
+        history[i % window] = data.actuator_force
+        if i < 0:
+            continue
+        greatest = numpy.maximum(greatest, numpy.abs(mean))
+        lag = numpy.maximum(lag, numpy.abs(data.qpos[qpos] - plan_q))
+        turn = data.xmat[1].reshape(3, 3) @ start[1].T
+        lean = max(lean, tilt(turn))
+        sink = max(sink, (height - data.subtree_com[0, 2]) / step)
+    travel = data.xpos[1] - start[0]
+    turn = data.xmat[1].reshape(3, 3) @ start[1].T
+    ratio = [(g / e, s) for g, e, s in zip(greatest, effort, servos) if e > 0]
+    return {
+        "duration": tracks.duration,
+        "travel": [float(x) for x in travel],
+        "yaw": math.atan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1]),
+        "lean_final": tilt(turn),
+        "lean_greatest": lean,
+        "sink": float(sink),
+        "fell": bool(sink > FALLS),
+        "lag": worst(zip(lag, servos)),
+        "torque": worst(ratio),
+        "warnings": int(sum(w.number for w in data.warning)),
+    }
+
+
+def tilt(turn):
+    """The angle by which a rotation leans the vertical."""
+    return math.acos(max(-1.0, min(1.0, turn[2, 2])))
+
+
+def worst(values):
+    """The greatest of values, with its joint; None without any."""
+    return max(((float(v), joint) for v, joint in values), default=None)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("plan")
+    parser.add_argument("model")
+    parser.add_argument("--kp", type=float, help="stiffness of servos, N·m/rad")
+    parser.add_argument("--kv", type=float, help="damping of servos, N·m·s/rad")
+    parser.add_argument("--friction-scale", type=float, default=1.0)
+    parser.add_argument("--no-limits", action="store_true", help="only the run without limits of torque")
+    parser.add_argument("--ground-only", action="store_true", help="links pass through each other")
+    options = parser.parse_args()
+    with open(options.plan, encoding="utf-8") as file:
+        plan = json.load(file)
+    settings = {name: getattr(options, name) for name in ("kp", "kv", "friction_scale", "ground_only")}
+    with open(options.model, encoding="utf-8") as file:
+        model = file.read()
+    print(json.dumps(both(plan, model, options.no_limits, **settings), indent=1))
+
+
+def both(plan, model, no_limits=False, **settings):
+    """What happens with limits of torque, and the torque that would be needed without, or only what happens then."""
+    free = play(plan, model, limits=False, **settings)
+    return free if no_limits else {**play(plan, model, **settings), "needed": free["torque"]}
+
+
+if __name__ == "__main__":
+    main()
