@@ -7,7 +7,8 @@ Position servos follow the plan's joint trajectories, which are evaluated here f
 and undock at their times. Lengths in m, angles in rad; torques of joints that slide are forces. `travel`, `yaw` and
 `lean` are those of the base between the start, after 0.3 s of settling, and 0.3 s after the end; `sink` is the
 greatest speed downwards of the centre of mass; `lag` the farthest that a joint is behind the plan; `torque` the
-greatest mean over 50 ms in parts of the limit, and `needed` the same without limits.
+greatest mean over 50 ms in parts of the limit, and `needed` the same without limits; `lags`, `torques` and `needs` are
+these of every joint.
 """
 
 import argparse
@@ -20,6 +21,7 @@ import numpy
 SETTLE = 0.3  # s at the start posture before the plan begins
 REST = 0.3  # s at the end posture after it has ended
 WINDOW = 0.05  # s over which torque is averaged
+LEVER = 0.1  # m at which the servo of a joint that slides is that of one that turns
 FALLS = 0.5  # m/s downwards at which the centre of mass falls and is not let down
 
 
@@ -66,11 +68,13 @@ class Tracks:
 def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False):
     """The model with servo gains, friction, torque limits and contacts changed, at the start of the plan."""
     model = mujoco.MjModel.from_xml_string(text)
+    slides = model.jnt_type[model.actuator_trnid[:, 0]] == int(mujoco.mjtJoint.mjJNT_SLIDE)
+    lever = numpy.where(slides, 1 / LEVER**2, 1.0)
     if kp is not None:
-        model.actuator_gainprm[:, 0] = kp
-        model.actuator_biasprm[:, 1] = -kp
+        model.actuator_gainprm[:, 0] = kp * lever
+        model.actuator_biasprm[:, 1] = -kp * lever
     if kv is not None:
-        model.actuator_biasprm[:, 2] = -kv
+        model.actuator_biasprm[:, 2] = -kv * lever
     if not limits:
         model.actuator_forcelimited[:] = 0
     # A command leads by the velocity, so that damping acts on the error only; it may leave the joint's range.
@@ -135,7 +139,8 @@ def play(plan, text, **options):
         sink = max(sink, (height - data.subtree_com[0, 2]) / step)
     travel = data.xpos[1] - start[0]
     turn = data.xmat[1].reshape(3, 3) @ start[1].T
-    ratio = [(g / e, s) for g, e, s in zip(greatest, effort, servos) if e > 0]
+    lags = {joint: float(l) for joint, l in zip(servos, lag)}
+    torques = {joint: float(g / e) for joint, g, e in zip(servos, greatest, effort) if e > 0}
     return {
         "duration": tracks.duration,
         "travel": [float(x) for x in travel],
@@ -144,8 +149,10 @@ def play(plan, text, **options):
         "lean_greatest": lean,
         "sink": float(sink),
         "fell": bool(sink > FALLS),
-        "lag": worst(zip(lag, servos)),
-        "torque": worst(ratio),
+        "lag": worst(lags),
+        "torque": worst(torques),
+        "lags": lags,
+        "torques": torques,
         "warnings": int(sum(w.number for w in data.warning)),
     }
 
@@ -156,8 +163,8 @@ def tilt(turn):
 
 
 def worst(values):
-    """The greatest of values, with its joint; None without any."""
-    return max(((float(v), joint) for v, joint in values), default=None)
+    """The greatest of the values by joint, with the joint; None without any."""
+    return max(((value, joint) for joint, value in values.items()), default=None)
 
 
 def main():
@@ -181,7 +188,7 @@ def main():
 def both(plan, model, no_limits=False, **settings):
     """What happens with limits of torque, and the torque that would be needed without, or only what happens then."""
     free = play(plan, model, limits=False, **settings)
-    return free if no_limits else {**play(plan, model, **settings), "needed": free["torque"]}
+    return free if no_limits else {**play(plan, model, **settings), "needed": free["torque"], "needs": free["torques"]}
 
 
 if __name__ == "__main__":
