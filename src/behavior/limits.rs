@@ -92,7 +92,7 @@ pub enum IssueKind {
     },
     /// A number is not finite or is negative where it must not be, or a condition is nested too deep.
     BadNumber {
-        /// The number, in SI units; of a condition the greatest depth.
+        /// The number, in SI units; of a condition the greatest depth that is allowed.
         value: f64,
     },
 }

@@ -353,7 +353,7 @@ pub struct Exemption {
     pub span: Span,
 }
 
-/// The kinds of exemptions.
+/// The check of the judge that may fail, and what that is restricted to, as expressions not yet evaluated.
 #[derive(Clone, Debug)]
 pub enum ExemptionKind {
     /// The robot may be unstable.

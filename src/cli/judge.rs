@@ -143,7 +143,8 @@ pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     disk::read(file, PLAN_BYTES_MAX)
 }
 
-/// The tolerance within which values of two verdicts are equal, SI.
+/// Threshold: the difference up to which values of two verdicts are equal, in SI units: the rounding of numbers in
+/// files.
 const TOL_VERDICT: f64 = 1e-6;
 
 /// Returns true if the stated verdict differs from the one found.

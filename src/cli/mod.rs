@@ -37,7 +37,7 @@ use std::process::ExitCode;
 enum Ending {
     /// Everything is fine.
     Fine,
-    /// The program (or the plan) is wrong.
+    /// The program, the plan or the file is found wrong.
     Wrong,
     /// The user cancelled it.
     Cancelled,
@@ -47,10 +47,12 @@ enum Ending {
 #[derive(Debug)]
 struct CallError(String);
 
-/// Parses the command line, runs the command, and returns the exit code: 0 if all is fine, 1 if the program
-/// is wrong, 2 if the call is wrong or standard output can't be written, 130 after Ctrl-C.
+/// Parses the command line, runs the command, and returns the exit code: 0 if all is fine, 1 if the program,
+/// plan or file is found wrong, 2 if the call is wrong, standard output can't be written or the system gives no memory
+/// for the thread, 130 after Ctrl-C.
 ///
-/// The command has a thread of its own, because the stack of the first one may be small.
+/// The command has a thread of its own, because the stack of the first one may be small. Panics if the command does (a
+/// defect).
 pub fn main() -> ExitCode {
     let command = std::thread::Builder::new().name("command".into()).stack_size(STACK_BYTES).spawn(command);
     match command.map(std::thread::JoinHandle::join) {

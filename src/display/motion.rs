@@ -26,7 +26,7 @@ const SKETCH_WIDTH: usize = 48;
 const SKETCH_ROWS: usize = 16;
 /// The greatest number of failures under a sketch.
 const FAILURES_SHOWN: usize = 3;
-/// Instants nearer to each other than this are one, s.
+/// Threshold: instants nearer to each other than this are one, s: rounding.
 const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 const NAME_MAX: usize = 2000;
 /// The evaluation steps that a declaration of the library may take.
 const STEPS_MAX: u64 = 200_000;
-/// The relative tolerance of numbers of a declaration whose name states arguments: names show six digits.
+/// Threshold: the relative tolerance of numbers of a declaration whose name states arguments: names show six digits.
 const TOL_ARGUMENT: f64 = 2e-5;
 
 /// A declaration of the standard library.

@@ -7,7 +7,7 @@ use super::pose::{Pose, Vec3};
 /// The greatest number of rounds of projections; parts that overlap take a few.
 const ROUNDS_MAX: usize = 64;
 
-/// The projections have converged where a step is shorter than this, m.
+/// Threshold: the projections have converged where a step is shorter than this, m: far less than shapes are known to.
 const TOL_STEP: f64 = 1e-7;
 
 /// Returns a point that is in both parts, or midway between their nearest points where they are apart, in a's frame

@@ -86,6 +86,7 @@ fn shrunk(a: &Part, b: &Part, X_AB: &Pose) -> Option<SignedDistance> {
 fn refined(a: &Part, b: &Part, X_AB: &Pose, mut best: SignedDistance) -> SignedDistance {
     const ROUNDS_MAX: usize = 20;
     const PULL: f64 = 0.01;
+    // Threshold: a round that lessens the depth by no more, in metres, is the last; less is rounding.
     const TOL_DEPTH: f64 = 1e-9;
     let pull = PULL * (a.radius + b.radius);
     for _ in 0..ROUNDS_MAX {

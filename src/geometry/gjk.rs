@@ -10,10 +10,11 @@ use super::distance::SignedDistance;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
 
-/// The bracket is close enough below this width: relative, and in metres.
+/// Threshold: the bracket is close enough below this width, a fraction of the distance, plus one in metres: near what
+/// rounding leaves.
 const TOL_BRACKET: (f64, f64) = (1e-9, 1e-9);
 
-/// A point this near to the origin is at it, m.
+/// Threshold: a point this near to the origin is at it, m: rounding.
 const TOL_ORIGIN: f64 = 1e-12;
 
 /// The greatest number of iterations: polytopes take about ten, round parts about thirty.

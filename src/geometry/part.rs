@@ -6,8 +6,8 @@
 
 use super::pose::{Pose, Vec3};
 
-/// The greatest sine of the angle between a direction and a cylinder's axis at which the direction counts as along
-/// it: what is left across the axis is rounding.
+/// Threshold: the greatest sine of the angle between a direction and a cylinder's axis at which the direction counts as
+/// along it: what is left across the axis is rounding.
 const TOL_STRAIGHT: f64 = 1e-9;
 
 /// The number of corners of the polygon around a rim: it is larger by 1/13000 of the radius.

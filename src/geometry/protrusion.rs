@@ -2,7 +2,7 @@
 //!
 //! The distance from a convex body is a convex function, so over a polytope, or over a triangle, it is greatest at a
 //! corner. The least of these maxima over several bodies is an upper bound of the distance from their union; surfaces
-//! are divided until that bound is near (branch and bound).
+//! are divided until that bound is near (branch and bound, Land and Doig 1960).
 
 use super::distance::{distance_apart, signed_distance};
 use super::hull;

@@ -7,7 +7,7 @@ use super::pose::{Pose, Vec3};
 use super::shape::{Placed, Shape};
 use super::soundness::{self, Unsound};
 
-/// Corners of a mesh may be this far inside its convex hull for the mesh to count as convex, m.
+/// Threshold: corners of a mesh may be this far inside its convex hull for the mesh to count as convex, m: rounding.
 const TOL_CONVEX: f64 = 1e-9;
 
 /// Hulls of more points than this are reduced to their corners.

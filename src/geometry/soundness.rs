@@ -15,7 +15,7 @@ pub const THICKNESS_MIN: f64 = 1e-6;
 /// as they do near the origin.
 pub const EXTENT_MAX: f64 = 1e3;
 
-/// The most by which the norm of a direction or of a rotation may differ from 1, without unit: rounding.
+/// Threshold: the most by which the norm of a direction or of a rotation may differ from 1, without unit: rounding.
 pub const TOL_UNIT: f64 = 1e-6;
 
 /// The fault by which a shape is no solid.

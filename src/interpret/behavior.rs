@@ -166,8 +166,9 @@ impl Interpreter<'_> {
         Err(fault(code::SIZE_LIMIT, span, message, format!("too many {what}")))
     }
 
-    /// Reports the commands in conflict and the actions beyond the limits of the joints, before any run;
-    /// returns true if there are none. `span`: the code that uses the behaviour.
+    /// Reports the commands in conflict and the actions beyond the limits of the joints, before any run.
+    /// Returns true if no error was reported: equal commands are only warned of. True also for a behaviour of no robot,
+    /// false where its robot is unknown. `span`: the code that uses the behaviour.
     ///
     /// # Errors
     /// A fault where the behaviour exceeds a limit of its size.

@@ -63,7 +63,7 @@ pub struct Options {
     pub filter: Option<String>,
     /// The seed of planners that are given none by `seed:`; every plan records the seed that it was made with.
     pub seed: u64,
-    /// True if a page is drawn of every plan that is emitted; where there is none, of the declared robots.
+    /// True if a page is drawn of every plan that is emitted, and of the declared robots if the run wrote no `.html`.
     pub pages: bool,
     /// The command that runs the program again, for the pages that it draws; may be empty.
     pub command: String,

@@ -84,7 +84,8 @@ pub struct Answer {
     pub diagnostics: Vec<Diagnostic>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
-    /// True if all went well. If not, the memory is as it was before.
+    /// True if all went well. If not, the memory is as it was before, but that an abandoned task may still change it
+    /// ([`Evaluator::wait_for_abandoned`]).
     pub ok: bool,
     /// True if the user cancelled or abandoned it.
     pub interrupted: bool,

@@ -79,8 +79,9 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns a comparison that is false with the values of its sides, `1.2mm > 2mm is false`; empty for
-    /// other expressions. The sides are evaluated again.
+    /// Returns the text in which a message shows a false comparison with the values of its sides, `1.2mm > 2mm is
+    /// false`; empty if `condition` is no comparison. `condition` must have come out false: that is not tested. Both
+    /// sides are evaluated again.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

@@ -91,7 +91,7 @@ fn convex(outline: &[Vec3]) -> bool {
     (least >= -TOL_TURN || greatest <= TOL_TURN) && whole.abs() < std::f64::consts::TAU + TOL_TURN
 }
 
-/// Corners that turn by less than this (rad) are straight.
+/// Threshold: corners that turn by less than this (rad) are straight: rounding.
 const TOL_TURN: f64 = 1e-9;
 
 fn hull(_: &mut Interpreter, call: &Call) -> Eval<Value> {

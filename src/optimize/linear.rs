@@ -19,7 +19,8 @@ pub struct LinearProgram {
     pub at_most: Vec<Row>,
 }
 
-/// A solution with its Lagrange multipliers: `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, to the solver's tolerance.
+/// A solution of a [`LinearProgram`], whose letters c, E and G these are, with its Lagrange multipliers:
+/// `c + Eᵀ y + Gᵀ z = 0`, `z ≥ 0`, to the tolerance that [`solve_linear_program`] states.
 #[derive(Clone, Debug)]
 pub struct LinearSolution {
     /// The variables, in the order of [`LinearProgram::costs`].

@@ -175,9 +175,9 @@ pub enum TracksFault {
     },
     /// Tracks that are not in ascending order of joint.
     TrackOrder,
-    /// A segment whose degree is too low or too high.
+    /// A segment whose degree is below 1 or above [`DEGREE_MAX`](crate::plan::polynomial::DEGREE_MAX).
     ControlPoints {
-        /// The time, s.
+        /// The time at which the segment begins, s.
         time: f64,
         /// The number of control points.
         count: usize,
@@ -210,7 +210,7 @@ pub enum TracksFault {
     },
     /// A joint that is moved farther from 0 than is allowed.
     FarJoint {
-        /// The greatest absolute value of its position, rad or m.
+        /// The greatest absolute value of its position that is allowed, rad or m.
         limit: f64,
     },
     /// A track of a joint that takes no commands.

@@ -1,5 +1,5 @@
 //! The tolerances (thresholds) of plans, and those that all judges share. Each family of plans has its judge, with
-//! tolerances of its own.
+//! tolerances of its own. In `geometry`, `optimize` and `robot` thresholds stand beside their algorithm, as `TOL_…`.
 
 /// Tolerances of plans of all families.
 #[derive(Clone, Copy, Debug)]

@@ -206,7 +206,8 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Returns the failure of a plan that is not well formed, or that can't be judged as a whole.
+    /// Returns the failure of a plan that is not well formed, or whose judgement could not be completed, with `message`
+    /// as the finding: at 0 s, without an end, subjects, amounts (0) or blame.
     pub fn form(message: String) -> Failure {
         Failure {
             kind: CheckKind::Form,

@@ -6,7 +6,8 @@
 use super::library::{Joint, JointKind, ModuleType, Port};
 use crate::geometry::{Pose, Shape, Vec3};
 
-/// The difference below which lengths (m), directions, masses (kg) and moments of inertia (kg·m²) are the same.
+/// Threshold: the difference below which lengths (m), directions (no unit), masses (kg) and moments of inertia (kg·m²)
+/// are the same: rounding.
 const TOL_SAME: f64 = 1e-9;
 
 /// A symmetry of a module, by the images of its parts: each list has, for every part in the order of the module type,

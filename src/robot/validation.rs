@@ -29,13 +29,13 @@ pub const CONTACT_MAX: f64 = 2e-2;
 /// The greatest number of turns of a connector: more are no discrete turns any more.
 pub const TURNS_MAX: u32 = 3600;
 
-/// The fraction of a link's inertia by which its principal moments may miss the triangle inequality, and by which
-/// they may exceed the bound of its extent: rounding, and the few digits of a data sheet.
+/// Threshold: the fraction of a link's inertia by which its principal moments may miss the triangle inequality, and by
+/// which they may exceed the bound of its extent: rounding, and the few digits of a data sheet.
 const TOL_INERTIA: f64 = 1e-3;
-/// The distance by which a centre of mass may be outside the box around its module, m: rounding of lengths.
+/// Threshold: the distance by which a centre of mass may be outside the box around its module, m: rounding of lengths.
 const TOL_COM: f64 = 1e-6;
-/// The distance by which a drawn shape may stick out of the shape that is judged without being stated, m: below the
-/// depth that the judge lets shapes touch.
+/// Threshold: the distance by which a drawn shape may stick out of the shape that is judged without being stated, m:
+/// below the depth that the judge lets shapes touch.
 const TOL_LEFT_OUT: f64 = 1e-5;
 
 /// The result of a check.
@@ -201,8 +201,9 @@ fn check_link(link: &Link) -> Checked {
     need(found <= stated, || LibraryFault::LeftOut { found, stated })
 }
 
-/// Returns an upper bound on the distance by which drawn shapes stick out of those that are judged, m: 0 up to the
-/// 1e-5 m that tolerances of shapes explain, infinite if there are none that are judged.
+/// Returns an upper bound on the distance by which the drawn shapes `shape` stick out of `collides`, those that are
+/// judged, m, both in the link's frame: 0 up to the 1e-5 m that tolerances of shapes explain; infinite if only
+/// `collides` is empty.
 ///
 /// # Errors
 /// The first fault of a shape that is not sound.

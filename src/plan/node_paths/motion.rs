@@ -1,4 +1,4 @@
-//! The body of plans of trusses: paths of the nodes; strut lengths follow.
+//! The body of plans of trusses: trajectories of the nodes, from which strut lengths follow.
 
 use super::limits::{Margins, Surroundings, TrussLimits};
 use crate::geometry::Vec3;
@@ -7,7 +7,7 @@ use crate::plan::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A truss whose nodes move between keyframes, on straight lines or as one rigid body.
+/// The trajectory of a truss: its nodes move between keyframes, on straight lines or as one rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NodePaths {

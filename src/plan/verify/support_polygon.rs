@@ -6,7 +6,7 @@ use crate::plan::tolerances::TOLERANCES;
 /// A point on the ground: x and y in the world, m.
 pub(super) type Point = [f64; 2];
 
-/// The position of a point relative to a support polygon.
+/// The position of a point, the projected centre of mass, relative to a support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// The distance to the nearest edge, m: positive inside, negative outside.
@@ -18,9 +18,9 @@ pub struct Margin {
     pub width: f64,
 }
 
-/// Returns the corners of the convex hull (Andrew's monotone chain), counter-clockwise seen from above, as indices in
-/// `points`; collinear points are left out. Of coinciding points the first is taken. One or two corners are left if
-/// the points do not span an area, none without points.
+/// Returns the corners of the support polygon, the convex hull of the points (Andrew's monotone chain),
+/// counter-clockwise seen from above, as indices in `points`; collinear points are left out. Of coinciding points the
+/// first is taken. One or two corners are left if the points do not span an area, none without points.
 pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
@@ -53,8 +53,8 @@ fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
     side
 }
 
-/// Returns the margin of the point `at` in the hull of `points`; `None` if they do not span an area, or one no wider
-/// than [`TOLERANCES`] allow for a line.
+/// Returns the static stability margin of the point `at`, the projected centre of mass, in the support polygon of
+/// `points`; `None` if they do not span an area, or one no wider than [`TOLERANCES`] allow for a line.
 pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
     let corners = hull(points);
     if corners.len() < 3 {

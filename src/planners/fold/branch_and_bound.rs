@@ -1,4 +1,4 @@
-//! Branch and bound for the layout (rooted spanning tree of the faces) of least energy.
+//! Branch and bound (Land and Doig 1960) for the layout (rooted spanning tree of the faces) of least energy.
 //!
 //! The bound of a node is the sum of shortest paths ([`shortest_paths`]) over the arcs that the node allows. If the
 //! paths form a tree, it is the node's best layout. Else the bound is raised by Lagrangian relaxation

@@ -1,5 +1,6 @@
 //! Lagrangian relaxation of the choice of one tree for all faces: a stronger lower bound than that of
-//! [`shortest_paths`], raised by subgradient ascent.
+//! [`shortest_paths`], raised by subgradient ascent (Held and Karp 1971; Fisher 1981, *The Lagrangian relaxation method
+//! for solving integer programming problems*).
 //!
 //! Let y_a be 1 if a layout enters a face across arc a, and x_a^j be 1 if the path to face j uses it. A
 //! layout is a choice of one arc into each face with x_a^j ≤ y_a. These inequalities are dualised with
@@ -13,7 +14,8 @@
 //!
 //! is a lower bound, since payments cancel at a layout. (Face v's own last arc needs no multiplier: it is its
 //! choice.) A subgradient of L is 1 where a path uses an arc that was not chosen and -1 where a chosen arc is
-//! not used; steps have Polyak's length. The greatest L is the bound of the linear program of multicommodity
+//! not used; steps have Polyak's length (Polyak 1969, *Minimization of unsmooth
+//! functionals*). The greatest L is the bound of the linear program of multicommodity
 //! flows.
 
 use super::shortest_paths::{self, Allowed, Arc, QueueEntry};

@@ -5,9 +5,9 @@ use crate::geometry::Vec3;
 use crate::planners::truss::Structure;
 use crate::planners::truss::step::QuadraticCost;
 
-/// The damping of `LENGTHS` and `RESTORING`: with less, runs were seen to get stuck.
+/// The damping of `LENGTHS` and `RESTORING`, without unit: with less, runs were seen to get stuck.
 const DAMPING: f64 = 1.0;
-/// The damping of `FEWEST`: just enough that there is one best step.
+/// The damping of `FEWEST`, 1/m: just enough that there is one best step.
 const DAMPING_FEWEST: f64 = 1e-3;
 
 /// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes, relative to that
@@ -41,7 +41,7 @@ impl Objective {
     pub const LENGTHS: Objective = Objective::Lengths { damping: DAMPING };
     /// [`Objective::Restoring`] with the default damping, 1.
     pub const RESTORING: Objective = Objective::Restoring { damping: DAMPING };
-    /// [`Objective::Fewest`] with the default damping, 1e-3.
+    /// [`Objective::Fewest`] with the default damping, 1e-3 per metre.
     pub const FEWEST: Objective = Objective::Fewest { damping: DAMPING_FEWEST };
 }
 

@@ -4,8 +4,8 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
 
-/// A motion of a lattice robot: configurations of all cells with the transitions between them. Lengths are in cell
-/// sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1.
+/// A motion (trajectory) of a lattice robot: configurations of all cells with the transitions between them. Lengths are
+/// in cell sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1.
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// The number of cells.

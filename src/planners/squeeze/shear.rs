@@ -1,14 +1,16 @@
 //! Shear: a row to a column in one go. Along x the row shrinks to a point while along y it grows from
-//! one, and the cells shrink to half their size and grow again. It meets the lower bound, and needs a
-//! torque from outside.
+//! one, and the cells shrink to half their size and grow again. It meets the lower bound unless the
+//! speed limit binds or accelerations are bounded in length, and needs a torque from outside.
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
 /// Returns the motion from a row of `count` cells along x, with cell `i` (from 0) at lattice site (i, 0, 0), to a
-/// column along y with cell `i` at (0, i, 0). It meets the lower bound on time and has angular momentum. Cells must be
-/// able to shrink to half their size.
+/// column along y with cell `i` at (0, i, 0). Where neither the speed limit binds nor `limits.euclidean` is set it
+/// takes √(2 (count - 1)) units of time, the [`lower_bound`](crate::plan::lattice::lower_bound::lower_bound); its
+/// angular momentum is not zero. The profile of `limits` is not used. Cells must be able to shrink to half their size,
+/// which is not checked.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -84,8 +84,9 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan`] does, and takes the steps from a cache if the same robot was unwound before with the same gravity
-/// and the same settings, but for the number of threads.
+/// Plans as [`plan`] does, and takes the steps from `cache` if the same robot was unwound from the same start (joint
+/// positions and bonds) with the same gravity and the same settings, but for the number of threads. Otherwise it
+/// searches, and stores what it finds. A failed search stores nothing.
 ///
 /// # Errors
 /// As [`plan`].

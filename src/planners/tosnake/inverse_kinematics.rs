@@ -135,10 +135,10 @@ pub struct LoopClosure<'a> {
 }
 
 impl LoopClosure<'_> {
-    /// Closes the loop from the joint positions `start` (rad, by module). Returns all postures of the descent, each by
-    /// module in rad, `start` first, the last of which is closed and without overlap; `None` if it does not converge.
-    /// `initial_bias` holds a step of each joint (rad, at index three times the module plus the joint) that the first
-    /// iterations prefer; it may be empty. `work` counts forward kinematics.
+    /// Closes the loop by inverse kinematics from the joint positions `start` (rad, by module). Returns all postures of
+    /// the descent, each by module in rad, `start` first, the last of which is closed and without overlap; `None` if it
+    /// does not converge. `initial_bias` holds a step of each joint (rad, at index three times the module plus the
+    /// joint) that the first iterations prefer; it may be empty. `work` counts forward kinematics.
     pub fn solve(&self, start: &[[f64; 3]], initial_bias: &[f64], work: &mut u64) -> Option<Vec<Joints>> {
         let LoopClosure { scene, lp, mode, settings } = *self;
         let tree = scene.tree;

@@ -1,5 +1,6 @@
 //! Conservative advancement for collisions and for the clearance, by bisection of intervals of time: pairs that
-//! a bound on motion proves to be separated over an interval are done with.
+//! a bound on motion proves to be separated over an interval are done with (Schwarzer, Saha and Latombe 2005; see
+//! [`collision`](super::collision)).
 
 use super::bodies::Bodies;
 use super::bonded::{BondedLinks, NominalOverlaps};

@@ -1,4 +1,6 @@
-//! Self-collision over a whole plan by conservative advancement: at every instant and not only at samples.
+//! Self-collision over a whole plan: at every instant and not only at samples. The method is exact collision checking
+//! by bisection with motion bounds (Schwarzer, Saha and Latombe 2005), a conservative advancement (Mirtich 1996) from
+//! the middle of each interval.
 //!
 //! An interval of time is examined in its middle, where everything is known exactly; the motion until its ends is
 //! bounded by motion bounds. Pairs that are thereby proved to be separated for the whole interval are discarded;

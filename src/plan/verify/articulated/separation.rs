@@ -1,5 +1,5 @@
-//! Separation of pairs of modules and bodies over an interval of time, for conservative advancement: lower bounds on
-//! their distance from bounding spheres and from separating slabs.
+//! Separation of pairs of modules and bodies over an interval of time, for conservative advancement (see
+//! [`collision`](super::collision)): lower bounds on their distance from bounding spheres and from separating slabs.
 
 use super::bodies::{Bodies, Body};
 use super::interval_state::IntervalState;
