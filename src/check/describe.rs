@@ -59,20 +59,27 @@ impl Checker<'_> {
 
     /// Returns a type as it is written.
     pub(super) fn name(&self, ty: &Type) -> String {
-        type_name(ty, &|id| self.def(id).name)
+        type_name(ty, &|id| self.def(id).name, &[])
     }
 }
 
 impl Program {
     /// Returns a type as it is written in programs, `List<Length>`; `?` for an error, `nothing` for no value.
     pub fn type_name(&self, ty: &Type) -> String {
-        type_name(ty, &|id| self.def(id).name)
+        type_name(ty, &|id| self.def(id).name, &[])
+    }
+
+    /// Returns a type as [`type_name`](Self::type_name) does, with the type parameters by their names in `params`, in
+    /// order: `Signal<Quantity<D/s>>`.
+    pub fn type_name_with(&self, ty: &Type, params: &[Symbol]) -> String {
+        type_name(ty, &|id| self.def(id).name, params)
     }
 }
 
-/// Returns a type as it is written; `def_name` gives the names of declarations.
-fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
-    let name = |ty: &Type| type_name(ty, def_name);
+/// Returns a type as it is written; `def_name` gives the names of declarations, and `params` holds those of the type
+/// parameters that it may mention, in order. Parameters without a name are told in words.
+fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol, params: &[Symbol]) -> String {
+    let name = |ty: &Type| type_name(ty, def_name, params);
     let args = |outer: &str, t: &Type| format!("{outer}<{}>", name(t));
     match ty {
         Type::Error => "?".into(),
@@ -112,7 +119,19 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol) -> String {
         Type::Instance(id) | Type::Record(id) => def_name(*id).to_string(),
         Type::AnyOf(family) => family.name().into(),
         Type::Opaque(_, name) => name.to_string(),
-        Type::Param(_) => "any type".into(),
-        Type::QuantityParam { .. } => "Quantity".into(),
+        Type::Param(i) => params.get(usize::from(*i)).map_or("any type".into(), Symbol::to_string),
+        Type::QuantityParam { param, power, times } => {
+            let named = params.get(usize::from(*param));
+            let units = named.and_then(|param| param_units(*param, *power, *times));
+            units.map_or("Quantity".into(), |units| format!("Quantity<{units}>"))
+        }
     }
+}
+
+/// Returns a power of a dimension parameter times a dimension in base units: `D`, `D^2`, `D/s`; `None` where an exponent
+/// is too large.
+fn param_units(param: Symbol, power: i8, times: Dimension) -> Option<String> {
+    let whole = Dimension::PARAM.power(i64::from(power))?.times(times)?;
+    // No unit has a capital D in it.
+    Some(base_units(whole).replacen('D', param.as_str(), 1))
 }

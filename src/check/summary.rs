@@ -60,14 +60,15 @@ pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     let program = &checked.program;
     let def = program.def(id);
     let params = params_of(program, id);
-    let written = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    let names = type_params(&def.kind);
+    let written = params.iter().map(|p| with_default(checked, names, p)).collect::<Vec<_>>().join(", ");
     let written = if params.is_empty() { String::new() } else { format!("({written})") };
     match &def.kind {
         DefKind::Let(binding) => format!("let {}: {}", def.name, program.type_name(&binding.ty)),
         DefKind::Fn(f) => called(def.name, &written, &program.type_name(&f.result)),
-        DefKind::Native(f) => called(def.name, &written, &program.type_name(&f.result)),
+        DefKind::Native(f) => called(def.name, &written, &program.type_name_with(&f.result, names)),
         DefKind::Record(record) if record.build.is_some() => {
-            let fields = params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+            let fields = params.iter().map(|p| with_default(checked, &[], p)).collect::<Vec<_>>().join(", ");
             if fields.is_empty() {
                 format!("record {} {{}}", def.name)
             } else {
@@ -98,16 +99,24 @@ fn called(name: Symbol, params: &str, result: &str) -> String {
 }
 
 /// Returns a parameter with its default: `n: Int = 4`.
-fn with_default(checked: &Checked, param: &Param) -> String {
+fn with_default(checked: &Checked, type_params: &[Symbol], param: &Param) -> String {
     let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
     let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
-    format!("{}{default}", param_text(&checked.program, param))
+    format!("{}{default}", param_text(&checked.program, type_params, param))
 }
 
-/// Returns a parameter without its default: `n: Int`.
-pub(crate) fn param_text(program: &Program, param: &Param) -> String {
+/// Returns a parameter without its default, `n: Int`; `type_params` are the names of the type parameters of its function.
+pub(crate) fn param_text(program: &Program, type_params: &[Symbol], param: &Param) -> String {
     let dots = if param.variadic { "..." } else { "" };
-    format!("{}: {}{dots}", param.name, program.type_name(&param.ty))
+    format!("{}: {}{dots}", param.name, program.type_name_with(&param.ty, type_params))
+}
+
+/// Returns the names of the type parameters of a built-in, in order; empty for other declarations, whose types name them.
+pub(crate) fn type_params(kind: &DefKind) -> &[Symbol] {
+    match kind {
+        DefKind::Native(native) => &native.type_params,
+        _ => &[],
+    }
 }
 
 /// Returns the parameters of a declaration that can be called, in order; empty for others.
@@ -130,10 +139,13 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         head,
         doc: doc.clone(),
     };
-    let params =
-        |params: &[Param]| params.iter().map(|p| with_default(checked, p)).collect::<Vec<_>>().join(", ");
+    let names = type_params(&def.kind);
+    let params = |params: &[Param], type_params: &[Symbol]| {
+        params.iter().map(|p| with_default(checked, type_params, p)).collect::<Vec<_>>().join(", ")
+    };
     let of_params = |params: &[Param]| -> Vec<Inside> {
-        let named = params.iter().map(|p| entry(Group::Parameter, p.name, with_default(checked, p), &None));
+        let named =
+            params.iter().map(|p| entry(Group::Parameter, p.name, with_default(checked, names, p), &None));
         named.collect()
     };
     // The `let`s and ports of a body.
@@ -171,7 +183,7 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
                 entry(Group::Part, part.name, head, &member.and_then(|member| member.doc.clone()))
             });
             let behaviors = config.behaviors.iter().map(|b| {
-                entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params)), &b.doc)
+                entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params, &[])), &b.doc)
             });
             let before = of_params(&config.params).into_iter().chain(parts);
             before.chain(of_members(&config.members)).chain(behaviors).collect()
@@ -181,7 +193,7 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
                 let built = record.build.iter().flat_map(|build| &build.params).find(|p| p.name == f.name);
                 let head = built.map_or_else(
                     || format!("{}: {}", f.name, program.type_name(&f.ty)),
-                    |param| with_default(checked, param),
+                    |param| with_default(checked, &[], param),
                 );
                 entry(Group::Field, f.name, head, &f.doc)
             });
@@ -189,10 +201,10 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
                 let method = program.def(*id);
                 let own = params_of(program, *id).get(1..).unwrap_or_default();
                 let result = match &method.kind {
-                    DefKind::Native(native) => program.type_name(&native.result),
+                    DefKind::Native(native) => program.type_name_with(&native.result, &native.type_params),
                     _ => String::new(),
                 };
-                let head = format!("{}({}) -> {result}", method.name, params(own));
+                let head = format!("{}({}) -> {result}", method.name, params(own, type_params(&method.kind)));
                 entry(Group::Method, method.name, head, &method.doc)
             });
             fields.chain(methods).collect()

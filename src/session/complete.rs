@@ -9,7 +9,7 @@ use super::locals::{LocalName, Origin, locals};
 pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
 use super::state::{Session, is_given, value_type};
-use crate::check::summary::{param_text, params_of};
+use crate::check::summary::{param_text, params_of, type_params};
 use crate::check::typed::Param;
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::{FileId, Files, Symbol, library};
@@ -74,10 +74,11 @@ pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
         return None;
     }
     let id = *meant(&knowledge.checked).get(&Symbol::new(callee))?;
-    let params = params_of(&knowledge.checked.program, id);
+    let program = &knowledge.checked.program;
+    let params = params_of(program, id);
     let given = arguments(inside).len().saturating_sub(1);
-    let rest: Vec<String> =
-        params.iter().skip(given).map(|p| param_text(&knowledge.checked.program, p)).collect();
+    let names = type_params(&program.def(id).kind);
+    let rest: Vec<String> = params.iter().skip(given).map(|p| param_text(program, names, p)).collect();
     let whole = format!("{})", rest.join(", "));
     let short = match whole.char_indices().nth(HINT_MAX) {
         Some((end, _)) => format!("{}...", &whole[..whole[..end].rfind(", ").map_or(end, |at| at + 2)]),

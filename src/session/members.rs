@@ -1,7 +1,7 @@
 //! The members of a type, with their own types, for completion behind a dot.
 
 use crate::check::summary::{param_text, params_of, word};
-use crate::check::typed::{DefId, DefKind, Member, MemberKind, Param, RecordDef};
+use crate::check::typed::{DefId, DefKind, Member, MemberKind, NativeDef, Param, RecordDef};
 use crate::check::{Checked, Program, Type};
 use crate::source::Symbol;
 
@@ -69,7 +69,8 @@ fn of_instance(program: &Program, id: DefId) -> Vec<Named> {
         DefKind::Config(config) => {
             let behaviors = config.behaviors.iter();
             found.extend(
-                behaviors.map(|b| Named::new(b.name.as_str(), params_text(program, &b.params, "Behavior"))),
+                behaviors
+                    .map(|b| Named::new(b.name.as_str(), params_text(program, &b.params, &[], "Behavior"))),
             );
             &config.members
         }
@@ -101,7 +102,7 @@ fn methods(program: &Program, record: &RecordDef) -> Vec<Named> {
     let method = |id: &DefId| match &program.def(*id).kind {
         DefKind::Native(native) => {
             let own = native.params.get(1..).unwrap_or_default();
-            let about = params_text(program, own, &program.type_name(&native.result));
+            let about = native_text(program, native, own);
             Some(Named::new(program.def(*id).name.as_str(), about))
         }
         _ => None,
@@ -117,9 +118,15 @@ fn sorted(mut found: Vec<Named>) -> Vec<Named> {
 }
 
 /// Returns parameters and result as text: `(x: Length, n: Int) -> Angle`.
-pub(super) fn params_text(program: &Program, params: &[Param], result: &str) -> String {
-    let params: Vec<String> = params.iter().map(|p| param_text(program, p)).collect();
+fn params_text(program: &Program, params: &[Param], type_params: &[Symbol], result: &str) -> String {
+    let params: Vec<String> = params.iter().map(|p| param_text(program, type_params, p)).collect();
     format!("({}) -> {result}", params.join(", "))
+}
+
+/// Returns some of the parameters of a built-in, and its result, in words of a signature.
+fn native_text(program: &Program, native: &NativeDef, params: &[Param]) -> String {
+    let names = &native.type_params;
+    params_text(program, params, names, &program.type_name_with(&native.result, names))
 }
 
 /// Returns the parameters of a behaviour or method of a type, in order, without its object; empty if there is none of
@@ -150,8 +157,8 @@ pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Ve
 pub(super) fn about(program: &Program, id: DefId) -> String {
     match &program.def(id).kind {
         DefKind::Let(binding) => program.type_name(&binding.ty),
-        DefKind::Fn(f) => params_text(program, &f.params, &program.type_name(&f.result)),
-        DefKind::Native(f) => params_text(program, &f.params, &program.type_name(&f.result)),
+        DefKind::Fn(f) => params_text(program, &f.params, &[], &program.type_name(&f.result)),
+        DefKind::Native(f) => native_text(program, f, &f.params),
         DefKind::Record(_) => "a record".into(),
         kind => word(kind).into(),
     }
