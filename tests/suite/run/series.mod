@@ -237,7 +237,7 @@ let c = Chain3()
 let p = plan(move(c.m[1].tilt, to: 30deg, in: 1s))
 let head = pose(c.head)
 print(p.series(head))
-//             ^^^^ E0202 | `series(pose(port))`
+//             ^^^^ E0202 this is a `Pose` | `series(pose(port))`
 print(p.series(position(head)))
 //                      ^^^^ E0202 `pose` wants a `Signal<Pose>`
 print(wait(1s, until: pose(c.head) > 3mm))
