@@ -152,7 +152,7 @@ impl Parameter {
     }
 
     /// Returns a native's own parameters and then those of the part that it shares with others: `part` has one
-    /// list or none. `N` is the number of all; the build fails if it is another.
+    /// list or none. `N` is the number of all: the build fails if it is greater, and parameters are lost if it is less.
     pub const fn concatenated<const N: usize>(own: &[Parameter], part: &[&[Parameter]]) -> [Parameter; N] {
         let mut all = [Parameter::new::<bool>(""); N];
         let mut i = 0;

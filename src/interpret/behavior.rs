@@ -148,10 +148,11 @@ impl Interpreter<'_> {
         Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
     }
 
-    /// Refuses a behaviour that takes more actions than may be carried out, before anything walks them.
+    /// Refuses a behaviour that takes more actions, or more steps (repeated groups included), than
+    /// [`behavior::Settings`] allow by default, before anything walks them.
     ///
     /// # Errors
-    /// A fault at `span`.
+    /// A fault at `span` where it does.
     pub fn check_extent(&self, behavior: &Behavior, span: Span) -> Eval<()> {
         let settings = behavior::Settings::default();
         let extent = extent(&behavior.node);
@@ -166,7 +167,7 @@ impl Interpreter<'_> {
         Err(fault(code::SIZE_LIMIT, span, message, format!("too many {what}")))
     }
 
-    /// Reports the commands in conflict and the actions beyond the limits of the joints, before any run.
+    /// Reports the commands in conflict and what is wrong with single actions ([`behavior::issues`]), before any run.
     /// Returns true if no error was reported: equal commands are only warned of. True also for a behaviour of no robot,
     /// false where its robot is unknown. `span`: the code that uses the behaviour.
     ///
@@ -218,7 +219,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the diagnostic of an action that asks for more than its joint can do, at the argument that asks.
+    /// Returns the diagnostic of an action that asks for what its joint or ports can't do, at the argument that asks;
+    /// for an action of the library, at the user's call.
     pub fn issue(&self, issue: &Issue) -> Diagnostic {
         let record = self.memory.causes.get(issue.cause);
         let (code, message, label) = issue_words(&issue.kind);

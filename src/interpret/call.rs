@@ -86,7 +86,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns a copy of a record with other values for some of its fields, given by their indices in the declaration;
-    /// [`Value::Unknown`] where one is.
+    /// [`Value::Unknown`] where `object` or one of the values is.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).

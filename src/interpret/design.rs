@@ -330,7 +330,8 @@ impl Design {
         }
     }
 
-    /// Returns the mass of the whole, kg; 0 for a configuration that is not far enough elaborated.
+    /// Returns the mass of the whole, kg; 0 for a configuration that is not far enough elaborated, and for a truss
+    /// whose strut is broken.
     pub fn mass(self: &Rc<Design>) -> f64 {
         match &self.kind {
             DesignKind::Cell(cell) => cell.mass,

@@ -235,7 +235,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
 
     /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it
     /// meanwhile; then the job ends by itself at its next checkpoint. Panics if an abandoned job has not been
-    /// waited for.
+    /// waited for. The job must not panic on its thread: this one would wait for it for ever.
     pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> Option<R> {
         assert!(!self.abandoned.get(), "the job before was settled");
         let waker = self.waker.clone();
@@ -263,8 +263,9 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
         self.abandoned.get()
     }
 
-    /// Waits for an abandoned job and returns its result; `None` if the user abandons the wait, too. The job
-    /// stays cancelled.
+    /// Waits for an abandoned job and returns its result; `None` if the user abandons the wait, too. The job stays
+    /// cancelled, and its requests are not answered. There must be such a job ([`is_abandoned`](Self::is_abandoned)):
+    /// otherwise the wait does not end by itself.
     pub fn wait_for_abandoned(&self) -> Option<R> {
         self.cancel_state.resume_waiting();
         for request in &self.requests {

@@ -12,7 +12,7 @@ use std::rc::Rc;
 
 impl Interpreter<'_> {
     /// Returns the plan `p ++ q` or `p ++ b`: one plan after another; a behaviour of the same robot begins in
-    /// the state in which the plan before it ends. Unknown where one of them is.
+    /// the state in which the plan before it ends. Unknown where one of them is, or could not be planned.
     ///
     /// # Errors
     /// A fault where the plans do not fit together, or a behaviour can't be planned.

@@ -142,7 +142,8 @@ impl PlanValue {
     }
 
     /// Returns the least signed distance of links that may not touch at each of these times (s), m; `None` where there
-    /// are no two such links. Kept for the next call with the same times.
+    /// are no two such links. Empty for a plan that is not of an articulated robot, or is not valid. Kept for the next
+    /// call with the same times.
     pub fn clearances(&self, times: &Rc<Vec<f64>>) -> Rc<Vec<Option<f64>>> {
         let mut kept = self.clearances.borrow_mut();
         if kept.0 != *times {

@@ -38,7 +38,8 @@ impl<C, B: Clone> Recalled<C, B> {
         known.iter().find(|(call, _)| is_same(call)).map(|(_, behavior)| behavior.clone())
     }
 
-    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key at most 64 calls.
+    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key at most 64 calls. If
+    /// all those remembered would then have taken more than two million steps, the others are forgotten first.
     pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {

@@ -118,14 +118,16 @@ impl StateValue {
         self.planned.instants(times, detail).get(*own).map(read)
     }
 
-    /// Returns the least signed distance of links that may not touch, m; `None` where there are no two such links.
+    /// Returns the least signed distance of links that may not touch, m; `None` where there are no two such links, or
+    /// the plan is not valid.
     pub fn clearance(&self) -> Option<f64> {
         let (times, own) = &self.among;
         self.planned.clearances(times).get(*own).copied().flatten()
     }
 
-    /// Returns the pose of the base module's body in the world: if the plan assumes ground, with all standing,
-    /// rolling and tipping up to its time, as the judge finds it; otherwise as the state has it.
+    /// Returns the pose of the base module's body in the world: if the plan assumes ground, with all standing, rolling
+    /// and tipping up to its time, as the judge finds it; otherwise, and where the plan is not valid, as the state has
+    /// it.
     pub fn base(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {

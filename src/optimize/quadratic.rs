@@ -65,7 +65,9 @@ impl QuadraticProgram {
         }
     }
 
-    /// Returns the optimal x for the rows as they are now, one entry for every variable.
+    /// Returns the optimal x for the rows as they are now, one entry for every variable, to the tolerance of
+    /// [`new`](Self::new); where the active-set method fails, and if H is singular or too dense for it, to that of
+    /// [`solve_linear_program`](super::solve_linear_program).
     ///
     /// # Errors
     /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that rounding

@@ -12,7 +12,7 @@ use super::world::{Exemption, Settings, Stability, WorldFrom};
 use std::sync::Arc;
 
 /// Returns the plan from its end to its start, exactly: of a plan on whole ticks of time, reversed
-/// twice, it is the same again.
+/// twice, the motion is the same again.
 ///
 /// The program is derived again from the tracks, or dropped with the reason in the history. The verdict is dropped,
 /// as gravity does not run backwards, and so is the bound.
@@ -40,8 +40,8 @@ pub fn reversed(plan: &Plan) -> Plan {
 /// dropped.
 ///
 /// # Errors
-/// [`OperationError::Times`] if the slice ends before it begins or a time is not finite, and
-/// [`OperationError::InsideStage`] if a lattice's plan would be cut within a stage.
+/// [`OperationError::Times`] if the slice ends before it begins (NaN counts as the end of the plan that it stands for),
+/// and [`OperationError::InsideStage`] if a lattice's plan would be cut within a stage.
 pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
     let duration = plan.body.duration();
     let (from, to) = (tick_near(from).max(0.0), tick_near(to).min(duration));

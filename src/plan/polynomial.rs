@@ -74,7 +74,7 @@ const HALVINGS_MAX: usize = 60;
 
 /// Returns the arguments in 0..1 at which the polynomial passes through zero, ascending: the control points are
 /// halved until they change sign once or not at all. Roots at the ends, and arguments at which it touches zero
-/// without passing through, may be missing.
+/// without passing through, may be missing; roots nearer to each other than 2⁻⁶⁰ may be found as one.
 pub fn roots(control: &[f64]) -> Vec<f64> {
     let mut found = Vec::new();
     // The part furthest left is on top.

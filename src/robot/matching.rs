@@ -105,7 +105,8 @@ impl std::fmt::Display for Mismatch {
 /// module of the same name is preferred.
 ///
 /// # Errors
-/// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`].
+/// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`] if
+/// they have different numbers of modules, or none.
 pub fn matching(
     a: (&Assembly, &State),
     b: (&Assembly, &State),

@@ -136,8 +136,9 @@ impl Session {
         self.evaluator.is_abandoned()
     }
 
-    /// Waits for abandoned work to end, and returns true if it has. Returns false if the wait is abandoned,
-    /// too.
+    /// Waits for abandoned work to end, and returns true if it has. Returns false if the wait is abandoned, too. There
+    /// must be such work ([`is_abandoned`](Self::is_abandoned)): otherwise the wait does not end by itself. A change
+    /// that the work still made is taken back before the next entry.
     pub fn wait_for_abandoned(&mut self) -> bool {
         let Some(kept) = self.evaluator.wait_for_abandoned() else { return false };
         // The work ended normally at the last moment, but was reported as cancelled.
@@ -311,9 +312,9 @@ impl Session {
         (stale, notes)
     }
 
-    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome like
-    /// that of an entry; a file that can't be read or declares nothing is an error in it. Panics if abandoned work has
-    /// not been waited for.
+    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome like that
+    /// of an entry; a file that can't be read or declares nothing is an error in it. The path is remembered in any
+    /// case: [`reload`](Self::reload) tries it again. Panics if abandoned work has not been waited for.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());
@@ -350,8 +351,9 @@ impl Session {
         visible.map(|(name, _)| name.to_string()).collect()
     }
 
-    /// Reads all files again, evaluates what changed, and forgets the values that depend on it. If there are
-    /// errors in them, the session stays as it was. Earlier entries can't be undone after it.
+    /// Reads all files again, evaluates what changed, and forgets the values that depend on it. If there are errors in
+    /// them or in the evaluation, the session stays as it was. Once anything changed, earlier entries can't be undone.
+    /// Panics if abandoned work has not been waited for.
     pub fn reload(&mut self, host: &mut dyn Host) -> Reloaded {
         let files = Arc::new(self.files.fresh());
         let mut entries = self.entries.clone();
@@ -396,7 +398,7 @@ impl Session {
     }
 
     /// Undoes the last entry that was kept, and returns its text; `None` if there is none to undo. At most 200
-    /// entries can be undone.
+    /// entries can be undone. Panics if abandoned work has not been waited for.
     pub fn undo(&mut self, host: &mut dyn Host) -> Option<String> {
         let before = self.before.pop()?;
         let undone = self.entries.drain(before.entries..).next()?;
@@ -406,7 +408,8 @@ impl Session {
         Some(undone.text)
     }
 
-    /// Removes all entries and values; files are read again when they are needed.
+    /// Removes all entries and values; files are read again when they are needed. Panics if abandoned work has not been
+    /// waited for.
     pub fn reset(&mut self, host: &mut dyn Host) {
         self.files = Arc::new(self.files.fresh());
         (self.entries, self.before, self.loaded) = (Vec::new(), Vec::new(), Vec::new());

@@ -40,7 +40,8 @@ pub fn number(value: f64) -> String {
 }
 
 /// Returns a value in SI units as text, in a unit given as (name, factor to SI) and with a number of decimals. Without
-/// a unit it is one that suits the value, without decimals the digits are those of [`number`].
+/// a unit it is one that suits the value, without decimals the digits are those of [`number`]. An infinite value is
+/// `infinite` or `-infinite`, without unit.
 pub fn quantity_in(
     value: f64,
     dimension: Dimension,

@@ -72,7 +72,7 @@ impl NodePaths {
     }
 
     /// Returns the world position of each node, by index, m, at the time `t` (s); before the start and after the end,
-    /// that of the nearer end.
+    /// that of the nearer end. Empty without keyframes.
     pub fn state(&self, t: f64) -> Vec<[f64; 3]> {
         let after = self.keyframes.partition_point(|k| k.time <= t);
         let Some(before) = after.checked_sub(1).map(|i| &self.keyframes[i]) else {

@@ -166,8 +166,9 @@ impl Tracks {
         Some(&self.tracks[at])
     }
 
-    /// Returns joint positions and bonds at the time `t` (s), events at that very instant included; before the start
-    /// and after the end, as at the nearer end. The base keeps its pose: the judge computes its motion.
+    /// Returns joint positions and bonds at the time `t` (s), events at that very instant included; before the start as
+    /// the plan begins, without events, and after the end as at the end. The base keeps its pose: the judge computes
+    /// its motion.
     pub fn state(&self, t: f64) -> State {
         let mut state = self.start.clone();
         for track in &self.tracks {

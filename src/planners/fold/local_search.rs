@@ -69,9 +69,9 @@ pub struct Measured {
 }
 
 /// Searches the layouts of least value; `value` returns the two values of a layout, which are compared by the first,
-/// then by the second. Enumerates all pairs of a layout and a root if there are no more than the budget, in targets of
-/// at most [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange. `weights`: the costs that
-/// symmetry, greedy trees and the prefilter are computed from.
+/// then by the second. Enumerates all pairs of a layout and a root if there are no more than the budget (or that of the
+/// prefilter, if it is greater), in targets of at most [`enumerate::FACES_MAX`] faces; else improves greedy trees by
+/// edge exchange. `weights`: the costs that symmetry, greedy trees and the prefilter are computed from.
 pub fn search(
     target: &Target,
     weights: &Weights,

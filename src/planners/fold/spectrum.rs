@@ -22,7 +22,8 @@ impl Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
 
-    /// Counts an energy, in the same unit of measurement as `unit`; a negative one counts as 0.
+    /// Counts an energy, in the same unit of measurement as `unit`; a negative one counts as 0. One that
+    /// would need more than four million bins is counted in [`uncounted`](Spectrum::uncounted) only.
     pub fn add(&mut self, energy: f64) {
         let key = (energy / (self.unit * TOLERANCES.energy_grain)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {

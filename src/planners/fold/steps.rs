@@ -33,6 +33,7 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
 
 /// Lays an order of faces into as few steps as keep its cost: a face folds one step after the last of the faces that
 /// precede it in the order and are above or below it in the tree. `order`: indices of faces in the target. The result
+/// has one list of faces for each step, each ascending.
 ///
 /// This is the purpose of the paper's Alg. 3, which as printed puts all faces into one step, loses the last, and may
 /// let a face overtake another on its path.

@@ -165,7 +165,8 @@ const RELAXATIONS: [Relaxation; 8] = [
 /// the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it, the result is the motion found
 /// so far, and [`Travel::end`] gives the reason.
 ///
-/// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
+/// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own. The points of
+/// the path must be finite, which `plan` checks and this does not.
 pub fn follow_path(
     truss: &Structure,
     start: &[Vec3],

@@ -101,7 +101,7 @@ pub struct Descent {
 
 /// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the mean of the
 /// nodes. With [`Settings::orientations`], each is screened for some steps, and the truss descends to the best. The
-/// truss must have nodes and struts.
+/// truss must have nodes and struts. If `progress` ends it, the result is the descent at hand, so far.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///

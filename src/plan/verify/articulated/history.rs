@@ -45,7 +45,8 @@ pub struct Moment {
 }
 
 /// Returns the moments of an articulated robot's plan, in order of time, from the start to `until` (s) or the end of
-/// the plan. Empty for plans of other families, and for plans that are not valid.
+/// the plan: at samples of the judge, thinned out evenly to at most [`MOMENTS_MAX`], and the last. Empty for plans of
+/// other families, and for plans that are not valid.
 pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     let tolerances = Tolerances::default();
     let mut moments = Decimated::new(MOMENTS_MAX);
