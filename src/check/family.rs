@@ -32,7 +32,7 @@ pub struct Fact {
     pub form: FactForm,
 }
 
-/// The forms of the value of a fact.
+/// The form that the value of a fact must have: `check` asks for its type, elaboration for its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactForm {
     /// A quantity above zero.

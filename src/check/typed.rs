@@ -170,7 +170,7 @@ pub struct RecordBuild {
     pub frame: usize,
 }
 
-/// A field of a record.
+/// A field of a record that programs can read, `record.name`, with its type.
 #[derive(Clone, Debug)]
 pub struct RecordField {
     /// The name of the field.
@@ -218,7 +218,7 @@ pub struct Member {
     pub doc: Option<Arc<str>>,
 }
 
-/// The kinds of members.
+/// What a member stands for, with the expression that gives its value or the index of its declaration.
 #[derive(Clone, Debug)]
 pub enum MemberKind {
     /// The parameter at this index of the declaration's `params`.
@@ -291,7 +291,7 @@ pub struct ConfigDef {
     pub frame: usize,
 }
 
-/// A `part` of a configuration.
+/// A `part` of a configuration: one instance of a module or configuration, or a list of them.
 #[derive(Clone, Debug)]
 pub struct PartDef {
     /// The member of the configuration that stands for the part: an index into [`ConfigDef::members`].
@@ -457,7 +457,7 @@ pub enum TrussBody {
     Clauses(Vec<TrussClause>),
 }
 
-/// A clause of a truss.
+/// A clause of a truss that is carried out in order when an instance is elaborated; `let`s at its top are members.
 #[derive(Clone, Debug)]
 pub enum TrussClause {
     /// A node, or one of an array of nodes.

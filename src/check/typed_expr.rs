@@ -36,7 +36,7 @@ pub struct Stmt {
     pub kind: StmtKind,
 }
 
-/// The kinds of statements.
+/// A statement by its keyword, checked: its locals have slots, and its expressions types.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
     /// A definition, which binds a local: `let name = value`.
@@ -86,7 +86,8 @@ pub struct Expr {
     pub kind: ExprKind,
 }
 
-/// The kinds of expressions.
+/// An expression by what is to be evaluated: names are resolved to locals, declarations and members, numbers are in SI
+/// units.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// A mistake that has been reported.
@@ -294,7 +295,7 @@ pub enum ExprKind {
     },
 }
 
-/// A clause of a comprehension.
+/// A clause of a list comprehension: a loop over a list or range, or a filter.
 #[derive(Clone, Debug)]
 pub enum Clause {
     /// A loop of a comprehension: `for x in iterable`.

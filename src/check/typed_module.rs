@@ -38,7 +38,7 @@ pub struct ModuleDef {
     pub frame: usize,
 }
 
-/// A `link` of a module.
+/// A `link` of a module, a rigid body: its shapes as expressions, with its pose; masses follow at elaboration.
 #[derive(Clone, Debug)]
 pub struct LinkDef {
     /// The name of the link.
@@ -53,7 +53,7 @@ pub struct LinkDef {
     pub at: Option<Placement>,
 }
 
-/// A `joint` of a module.
+/// A `joint` of a module, by which programs name a position: it moves a link, or follows other joints.
 #[derive(Clone, Debug)]
 pub struct JointDef {
     /// The name of the joint.
@@ -69,7 +69,7 @@ pub struct JointDef {
     pub kind: JointDefKind,
 }
 
-/// The kinds of joints of a module.
+/// A joint by what its declaration gives: two links between which it moves, or the joints that it follows.
 #[derive(Clone, Debug)]
 pub enum JointDefKind {
     /// A joint between two links.
@@ -110,7 +110,7 @@ pub struct PortGroup {
     pub doc: Option<Arc<str>>,
 }
 
-/// A `motor` of a module.
+/// A `motor` of a module that drives several joints together: limits on a linear combination of their positions.
 #[derive(Clone, Debug)]
 pub struct MotorDef {
     /// The name of the motor.

@@ -11,7 +11,7 @@ pub struct RecordTable {
     pub rows: usize,
 }
 
-/// A column of a table.
+/// A column of a table: the values of one field of all records, with their unit.
 pub struct RecordColumn {
     /// The name.
     pub name: String,
@@ -25,7 +25,7 @@ pub struct RecordColumn {
     pub cells: Vec<RecordCell>,
 }
 
-/// A value of a table.
+/// A value of a table, as files can hold it: other values than these are text.
 pub enum RecordCell {
     /// A missing value.
     Missing,

@@ -35,7 +35,7 @@ pub struct Design {
     pub broken: Flag<bool>,
 }
 
-/// The kinds of declarations that have instances.
+/// A declaration with instances by its family, with what elaboration made of its body.
 pub enum DesignKind {
     /// A module.
     Module(ModuleDesign),
@@ -102,7 +102,7 @@ pub struct PartGroup {
     pub elements: Vec<PartElement>,
 }
 
-/// One part of a configuration.
+/// One part of a configuration, an element of a list of parts too, with the place of its modules among all.
 pub struct PartElement {
     /// The elaborated declaration.
     pub design: Rc<Design>,
@@ -112,7 +112,7 @@ pub struct PartElement {
     pub name: Rc<str>,
 }
 
-/// A module of a configuration.
+/// A module of a configuration, at any depth of its parts, by its path name.
 #[derive(Clone)]
 pub struct FlatModule {
     /// The path name: `leg[2].m[0]`.
@@ -174,7 +174,7 @@ pub struct TrussDesign {
     pub rigidity: Rigidity,
 }
 
-/// A node of a truss.
+/// A node of a truss, a single one or an element of an array, with its position in the start pose.
 #[derive(Clone)]
 pub struct Node {
     /// The name: `ring[3]`, or `top` for a node that is no array's.
@@ -462,7 +462,8 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Returns the instance that is the whole of a design.
+    /// Returns a new instance that is the whole of a design: another robot at each call, without a name. Use copies of
+    /// one for one robot.
     pub fn whole(design: Rc<Design>) -> Rc<Instance> {
         let robot = Subject::new(design.clone());
         Rc::new(Instance {

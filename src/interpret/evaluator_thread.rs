@@ -71,7 +71,7 @@ impl HostProxy {
         self.send(Request::Print(line));
     }
 
-    /// Tells a value that the next lines show.
+    /// Tells the host a value that the lines printed next show. Waits and unwinds as [`print`](Self::print) does.
     pub fn print_value(&self, value: PrintedValue) {
         self.send(Request::PrintValue(value));
     }

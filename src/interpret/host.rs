@@ -111,7 +111,7 @@ impl Default for Limits {
     }
 }
 
-/// The outcome of a test.
+/// The outcome of a `test` of the program in [`Mode::Test`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TestResult {
     /// The name of the test.
@@ -120,7 +120,7 @@ pub struct TestResult {
     pub passed: bool,
 }
 
-/// The outcome of a run.
+/// The outcome of a run: all that it found, tested and wrote, also if it was cancelled.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
     /// The diagnostics: errors first, then warnings, then notes; else as they were found.

@@ -452,7 +452,7 @@ impl<'a> Interpreter<'a> {
         Some(format!("{} = {shown}", binder.name))
     }
 
-    /// Returns an instance that is the whole of a design.
+    /// Returns a new instance that is the whole of a design: another robot at each call ([`Instance::whole`]).
     pub fn whole(&self, design: &Rc<Design>) -> Rc<Instance> {
         Instance::whole(design.clone())
     }

@@ -355,8 +355,9 @@ pub fn state_value(
     Some(StateValue { robot, body, state, time, planned, base, among })
 }
 
-/// Returns the corners of the support polygon of a robot that stands at rest in its start state, counter-clockwise
-/// from above, m, in the frame of its base module's body; fewer than three if the contacts span no area.
+/// Returns the corners of the support polygon of a robot that stands at rest in its start state on level ground under
+/// standard gravity, counter-clockwise from above, m, in the frame of its base module's body; fewer than three if the
+/// contacts span no area.
 pub fn footprint(robot: &Robot) -> Vec<Vec3> {
     crate::plan::verify::articulated::area(&robot.assembly, &robot.start)
 }

@@ -34,7 +34,7 @@ pub struct Task {
     pub work: Work,
 }
 
-/// The kinds of tasks of an evaluator.
+/// What an evaluator is to do with the values of earlier entries: add to them, or take some back.
 pub enum Work {
     /// Evaluate the newest entry.
     Enter(Entered),
@@ -52,7 +52,7 @@ pub enum Work {
     Forget,
 }
 
-/// An entry of a session.
+/// An entry of a session that was checked and is to be evaluated, with the declarations that it makes stale.
 pub struct Entered {
     /// The file of the entry; its declarations, statements and tests are evaluated in the order of the text.
     pub file: FileId,
@@ -77,7 +77,7 @@ pub enum Shown {
     All,
 }
 
-/// The result of a task.
+/// The result of a [`Task`]: what it found and wrote, and whether the memory changed.
 #[derive(Default)]
 pub struct Answer {
     /// The diagnostics, in the order in which they were found.

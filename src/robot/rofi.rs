@@ -40,7 +40,7 @@ pub struct Edge {
     pub line: usize,
 }
 
-/// A dock of a module.
+/// A dock of a module by its shoe and face: one of six, at which modules are connected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dock {
     /// Index of the module in [`World::modules`].
@@ -51,7 +51,7 @@ pub struct Dock {
     pub face: Face,
 }
 
-/// A shoe of a module.
+/// One of the two shoes of a universal module, the bodies at its ends, which carry three docks each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
     /// The shoe A, the body of the module.

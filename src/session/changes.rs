@@ -19,7 +19,7 @@ pub struct Change {
     pub users: Vec<String>,
 }
 
-/// The kinds of changes.
+/// What happened to a declaration between two readings of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
     /// The declaration is new.

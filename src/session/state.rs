@@ -58,7 +58,7 @@ pub struct Input<'t> {
     pub keep: bool,
 }
 
-/// The outcome of an entry.
+/// The outcome of an entry: the program with it, whether it was accepted, and what is to be told.
 pub struct Reply {
     /// The program that was checked, the entry included, with the texts that the diagnostics refer to.
     pub checked: Arc<Checked>,
@@ -76,7 +76,7 @@ pub struct Reply {
     pub interrupted: bool,
 }
 
-/// The outcome of reading all files again.
+/// The outcome of [`Session::reload`]: that of the evaluation, and the declarations that differ.
 pub struct Reloaded {
     /// The outcome of evaluating the reloaded program.
     pub reply: Reply,

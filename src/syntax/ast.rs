@@ -40,7 +40,7 @@ pub struct Comment {
     pub kind: CommentKind,
 }
 
-/// The kinds of comments.
+/// The kind of a comment, which its first characters tell: what it belongs to and where it ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CommentKind {
     /// A line comment: `//`, also with four or more slashes.
@@ -64,7 +64,7 @@ pub struct Item {
     pub kind: ItemKind,
 }
 
-/// The kinds of items.
+/// What stands at the top of a file, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
     /// An import: `use`.
@@ -143,7 +143,7 @@ pub enum UseSource {
     },
 }
 
-/// One imported name.
+/// A name between the braces of an import, with the one that it gets: `Chain3 as Chain`.
 #[derive(Clone, Debug)]
 pub struct UseName {
     /// The name in the imported file.
@@ -260,7 +260,7 @@ pub struct TypeExpr {
     pub kind: TypeKind,
 }
 
-/// The kinds of types as written.
+/// A type by the form in which it is written; whether its names exist is not known yet.
 #[derive(Clone, Debug)]
 pub enum TypeKind {
     /// A type by its name: `Length`, `std.smores.Smores`, `List<Length>`, `Vec3<Length>`.
@@ -308,7 +308,7 @@ pub struct Connector {
     pub clauses: Vec<ConnectorClause>,
 }
 
-/// A clause of a connector.
+/// A clause between the braces of a connector, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ConnectorClause {
     /// The connectors that it mates with: `mates Plug, Socket`.
@@ -359,7 +359,7 @@ pub struct ModuleClause {
     pub kind: ModuleClauseKind,
 }
 
-/// The kinds of clauses of a module.
+/// A clause between the braces of a module, by its keyword, with what was written after it; names are not resolved.
 #[derive(Clone, Debug)]
 pub enum ModuleClauseKind {
     /// The mass of the module: `mass 0.4kg`.
@@ -534,7 +534,8 @@ pub struct ConfigClause {
     pub kind: ConfigClauseKind,
 }
 
-/// The kinds of clauses of a configuration.
+/// A clause between the braces of a configuration, by its keyword, with what was written after it; names are not
+/// resolved.
 #[derive(Clone, Debug)]
 pub enum ConfigClauseKind {
     /// A part: `part name: Type`.
@@ -669,7 +670,7 @@ pub struct Path {
     pub steps: Vec<PathStep>,
 }
 
-/// A step of a path.
+/// A step of a [`Path`] from a thing to one in it: to a member by name, or to an element by index.
 #[derive(Clone, Debug)]
 pub enum PathStep {
     /// A member: `.name`.
@@ -720,7 +721,7 @@ pub enum TrussBody {
     Clauses(Vec<TrussClause>),
 }
 
-/// A clause of a truss.
+/// A clause between the braces of a truss, with its span; unlike other clauses it has no documentation.
 #[derive(Clone, Debug)]
 pub struct TrussClause {
     /// The span of the clause.
@@ -729,7 +730,7 @@ pub struct TrussClause {
     pub kind: TrussClauseKind,
 }
 
-/// The kinds of clauses of a truss.
+/// A clause of a truss by its keyword, with what was written after it; names are not resolved.
 #[derive(Clone, Debug)]
 pub enum TrussClauseKind {
     /// A node: `node a = [0m, 0m, 0m]`, or one of an array, `node ring[i] = ...`.
@@ -796,7 +797,7 @@ pub struct Stmt {
     pub kind: StmtKind,
 }
 
-/// The kinds of statements.
+/// A statement by its keyword, with what was written after it; without one it is an expression.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
     /// A definition: `let name = value`.
@@ -834,7 +835,7 @@ pub enum StmtKind {
     Error,
 }
 
-/// An expression.
+/// An expression as written, with its span; its type is found by `check`.
 #[derive(Clone, Debug)]
 pub struct Expr {
     /// The span of the expression.
@@ -843,7 +844,7 @@ pub struct Expr {
     pub kind: ExprKind,
 }
 
-/// The kinds of expressions.
+/// An expression by its form, with its parts; names are not resolved, and numbers not scaled by their units.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// A number, perhaps with a unit: `12`, `1_000`, `90deg`.
@@ -961,7 +962,7 @@ pub enum ExprKind {
     Error,
 }
 
-/// A piece of a text.
+/// A piece of a text between quotes: characters as they are, or `{…}` with an expression in it.
 #[derive(Clone, Debug)]
 pub enum TextPart {
     /// Text as it is, with escapes resolved.
@@ -979,7 +980,7 @@ pub enum TextPart {
     },
 }
 
-/// A clause of a comprehension.
+/// A clause of a list comprehension, behind the expression for each element: a loop or a filter.
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
     /// A loop: `for name in iterable`.
@@ -993,7 +994,7 @@ pub enum ComprehensionClause {
     If(Expr),
 }
 
-/// An argument of a call.
+/// An argument in parentheses or braces, perhaps with a name: of a call, a motor, a hinge, or of `with`.
 #[derive(Clone, Debug)]
 pub struct Arg {
     /// The name in front of it, `name: value`; `None` for an argument by position.
@@ -1013,7 +1014,7 @@ pub enum Axis {
     Z,
 }
 
-/// The unary operators.
+/// An operator in front of its one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
     /// Negation: `-a`.
@@ -1024,7 +1025,7 @@ pub enum UnaryOp {
     Not,
 }
 
-/// The binary operators.
+/// An operator between its two operands, those that bind least first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
     /// Disjunction: `or`.

@@ -28,7 +28,7 @@ pub(super) type Node<'i> = pest::iterators::Pair<'i, Rule>;
 /// The most diagnostics of one file; of more, those first in the text are kept.
 pub const DIAGNOSTICS_MAX: usize = 200;
 
-/// The result of parsing a file.
+/// The result of [`parse`]: the tree, with `Error` nodes where the text is wrong, and what is wrong there.
 #[derive(Clone, Debug)]
 pub struct Parsed {
     /// The tree.

@@ -20,7 +20,7 @@ pub const FACES: usize = 3;
 /// Index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the paper's red connector.
 pub const RED: usize = 2;
 
-/// A dock of a module.
+/// A dock of a module, numbered through both of its shoes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dock {
     /// Index of the module in [`Robot::joints`], from 0.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The positions of all joints: alpha, beta and gamma of each module, by module, rad.
 pub type Joints = Vec<[f64; 3]>;
 
-/// One step of a plan to the snake.
+/// One step of a plan to the snake: joints turn together, or one bond changes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line: for each joint

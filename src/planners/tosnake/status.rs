@@ -3,7 +3,7 @@
 use super::state::State;
 use crate::planners::Progress;
 
-/// The figures of a search that is running or has ended.
+/// The figures of a search that is running or has ended: merges made of those needed, and the work so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SearchStatus {
     /// Number of merges of chains that lead to a snake: one less than there are chains once all loops are open.
