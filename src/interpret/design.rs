@@ -462,8 +462,7 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Returns a new instance that is the whole of a design: another robot at each call, without a name. Use copies of
-    /// one for one robot.
+    /// Returns a new instance that is the whole of a design: another robot at each call, without a name.
     pub fn whole(design: Rc<Design>) -> Rc<Instance> {
         let robot = Subject::new(design.clone());
         Rc::new(Instance {

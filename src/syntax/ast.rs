@@ -1025,7 +1025,7 @@ pub enum UnaryOp {
     Not,
 }
 
-/// An operator between its two operands, those that bind least first.
+/// An operator between its two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
     /// Disjunction: `or`.
