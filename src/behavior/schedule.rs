@@ -33,7 +33,8 @@ pub struct Problem {
     pub settings: Settings,
 }
 
-/// The limits and tolerances of scheduling.
+/// The limits of [`schedule`], beyond which it refuses a behaviour, and its tolerances; the default is behind each
+/// field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The greatest number of actions that are executed, repetitions included, in each run of a behaviour or of a

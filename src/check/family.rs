@@ -4,7 +4,7 @@ use super::typed::{DefKind, Member, Param};
 pub use crate::syntax::ast::FactsFamily;
 use crate::units::Dimension;
 
-/// A family of declarations with instances.
+/// A family of declarations with instances, by the keyword that begins them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// `module` declarations.
@@ -64,7 +64,7 @@ const STRUT: &[Fact] = &[
 ];
 
 impl Family {
-    /// All families.
+    /// All families, in the order in which [`Family`] lists them.
     pub const ALL: [Family; 6] =
         [Family::Module, Family::Config, Family::Cell, Family::Strut, Family::Lattice, Family::Truss];
 

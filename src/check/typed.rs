@@ -28,7 +28,7 @@ pub struct Local(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MemberId(pub u32);
 
-/// A checked program.
+/// A checked program: all its declarations with types, and what the file that is run does with them.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     /// All declarations, by [`DefId`], those of imported files and the standard library included; in a session
@@ -49,7 +49,7 @@ impl Program {
     }
 }
 
-/// A declaration of a program, checked.
+/// A declaration of a program, or a method of a record, checked; [`DefKind`] has what is behind its name.
 #[derive(Clone, Debug)]
 pub struct Def {
     /// The name of the declaration.
@@ -93,7 +93,7 @@ pub enum DefKind {
     Error,
 }
 
-/// A top-level `let`.
+/// A top-level `let`, whose value is evaluated once, when it is first needed.
 #[derive(Clone, Debug)]
 pub struct LetDef {
     /// The declared or inferred type.
@@ -181,7 +181,7 @@ pub struct RecordField {
     pub doc: Option<Arc<str>>,
 }
 
-/// A connector with its clauses: `connector`.
+/// A connector, `connector`, with its clauses as expressions not yet evaluated.
 #[derive(Clone, Debug)]
 pub struct ConnectorDef {
     /// The connectors that mate with it, each with the span of its name in the clause, in the order of the text.

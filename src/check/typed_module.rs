@@ -78,7 +78,7 @@ pub enum JointDefKind {
     Mimic(Linear),
 }
 
-/// A joint between two links.
+/// A joint between two links, which carries its child against its parent; kind and pose are not yet evaluated.
 #[derive(Clone, Debug)]
 pub struct JointBetween {
     /// The parent link, an index into `links`.

@@ -84,7 +84,7 @@ pub enum Type {
     },
 }
 
-/// The type of a function value.
+/// The type of a function value; its parameters have no names and no defaults.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FnType {
     /// The types of the parameters, in order.

@@ -25,7 +25,7 @@ pub struct Request<'r> {
     pub known: &'r BTreeMap<String, Drawing>,
 }
 
-/// The generated site.
+/// The site that [`site`] made, not written yet, with the mistakes found on the way.
 pub struct Site {
     /// The files as (name in the site, contents).
     pub files: Vec<(String, Vec<u8>)>,
@@ -37,7 +37,7 @@ pub struct Site {
     pub drawings: BTreeMap<String, Drawing>,
 }
 
-/// A broken link.
+/// A link in documentation whose target the site does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkFault {
     /// The title of the page that contains it: `std.smores`, or the path of a program.

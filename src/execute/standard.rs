@@ -18,7 +18,7 @@ const STEPS_MAX: u64 = 200_000;
 /// Threshold: the relative tolerance of numbers of a declaration whose name states arguments: names show six digits.
 const TOL_ARGUMENT: f64 = 2e-5;
 
-/// A declaration of the standard library.
+/// A declaration of the standard library, found by the name that a plan file gives it ([`standard`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Standard {
     /// Its path in programs: `std.smores.Smores`.

@@ -12,7 +12,7 @@ mod spacing;
 use crate::source::{Diagnostic, FileId};
 use crate::syntax::{Outline, parse, skeleton};
 
-/// A formatted text.
+/// The result of [`format()`]: the text, laid out as far as it could be read, and what was wrong in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formatted {
     /// The text; unreadable chunks are unchanged in it.

@@ -17,7 +17,7 @@ pub type Segment = (Vec3, Vec3);
 /// The squared sine of the angle of two segments below which they count as parallel in [`segment_segment`].
 const PARALLEL_SINE_SQUARED: f64 = 1e-9;
 
-/// The closest points of two segments.
+/// The closest points of two segments, by their positions along them, with their distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentPair {
     /// The distance of the two points, m; not negative.

@@ -121,7 +121,7 @@ impl Choice for Auto {
     const WORDS: &'static [(&'static str, Auto)] = &[("auto", Auto)];
 }
 
-/// The word `off`.
+/// The word `off`, by which a program does without what an argument would otherwise state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Off;
 

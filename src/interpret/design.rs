@@ -21,7 +21,7 @@ use std::rc::Rc;
 /// Most names that a message lists.
 const NAMES_SHOWN: usize = 12;
 
-/// A declaration with its arguments, elaborated.
+/// A declaration with its arguments, elaborated once: what all its instances share.
 pub struct Design {
     /// The declaration.
     pub def: DefId,
@@ -51,7 +51,7 @@ pub enum DesignKind {
     Truss(TrussDesign),
 }
 
-/// A module, elaborated.
+/// A module, elaborated: its type in numbers, and what the language knows beside that.
 pub struct ModuleDesign {
     /// The module; its ports' connectors are indices into `connectors` here, not into a library.
     pub module: Rc<ModuleType>,
@@ -231,7 +231,7 @@ impl TrussDesign {
     }
 }
 
-/// A connector, elaborated.
+/// A connector, elaborated: its type in numbers, and the declarations that it docks with.
 pub struct ConnectorDesign {
     /// The declaration.
     pub def: DefId,

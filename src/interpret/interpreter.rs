@@ -138,7 +138,7 @@ pub struct CallSite {
     binders: usize,
 }
 
-/// A loop variable with its value.
+/// A loop variable with its present value, which errors reported in its loop name.
 #[derive(Clone, Debug)]
 pub struct Binder {
     /// The name of the variable.

@@ -19,7 +19,7 @@ pub enum Effect {
 /// The body of an `extern fn`: it gets a call with known arguments, and returns the result.
 pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 
-/// A built-in function.
+/// A built-in function: the declaration that it belongs to, by its key, and its body in Rust.
 #[derive(Clone, Copy)]
 pub struct Native {
     /// The key: `move`, or `Plan.at` for a method, which takes its object first.

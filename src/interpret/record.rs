@@ -14,7 +14,7 @@ use std::any::Any;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-/// A value with fields.
+/// A value with fields, `record.name`: of a declaration of the program, or of a type of the standard library.
 #[derive(Debug)]
 pub enum Record {
     /// A record that a `record` declares.

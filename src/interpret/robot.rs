@@ -4,7 +4,7 @@ use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, JointId, JointOwner, Kinematics, Residual, State};
 use std::sync::Arc;
 
-/// A robot that a design describes.
+/// A robot that a design describes, assembled, with the poses of its links in the start state.
 pub struct Robot {
     /// Modules, bonds and the library of their types.
     pub assembly: Arc<Assembly>,

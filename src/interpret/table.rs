@@ -17,7 +17,7 @@ pub struct Table {
     pub rows: usize,
 }
 
-/// The values of one field.
+/// The values of one field of all records of a [`Table`]; a record or vector in it is several columns.
 pub struct Column {
     /// The name of the field; that of a field of a record in a record is `outer.inner`, of a vector `field.x`.
     pub name: String,

@@ -20,7 +20,7 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// A value of a running program.
+/// A value of a running program. Quantities are in SI units; copies of large values share them.
 #[derive(Clone, Debug)]
 pub enum Value {
     /// The value where an error was reported, or that only a run can know. Whatever is computed from it is

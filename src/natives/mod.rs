@@ -99,7 +99,7 @@ const SUBJECTS: &[Subject] = &[
     Subject { natives: truss::TABLE, records: truss::records },
 ];
 
-/// Returns all built-ins, file by file.
+/// Returns all built-ins, file by file, each once.
 pub fn all() -> impl Iterator<Item = &'static Native> {
     SUBJECTS.iter().flat_map(|subject| subject.natives)
 }

@@ -140,7 +140,7 @@ pub enum Command {
     },
 }
 
-/// The end of a move.
+/// The end of a move: a position of its joint, or a change of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Target {
@@ -150,7 +150,7 @@ pub enum Target {
     By(f64),
 }
 
-/// The time law of a move.
+/// The time law of a move: how its joint comes from one position to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Profile {
@@ -173,7 +173,7 @@ pub enum Otherwise {
     Node(Arc<Node>),
 }
 
-/// A quantity that a condition measures.
+/// A quantity that a condition measures while an action runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Signal {

@@ -60,7 +60,7 @@ impl Provenance {
     }
 }
 
-/// A change of a whole plan.
+/// A change of a whole plan after it was made, as its history records it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Change {

@@ -1,7 +1,7 @@
 //! The tolerances (thresholds) of plans, and those that all judges share. Each family of plans has its judge, with
 //! tolerances of its own. In `geometry`, `optimize` and `robot` thresholds stand beside their algorithm, as `TOL_…`.
 
-/// Tolerances of plans of all families.
+/// Tolerances of plans of all families; [`TOLERANCES`] has the values.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
     /// The greatest difference of a joint's positions where two plans meet, rad or m: rounding, which no eye sees.

@@ -6,7 +6,7 @@ use crate::units::{Dimension, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A check of the judge.
+/// A check of the judge: the statement about a plan that is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CheckKind {
@@ -122,7 +122,7 @@ pub const WORST_VALUES: [WorstKind; 8] = [
     worst_value!(slip, "slip", None, Length),
 ];
 
-/// The outcome of a check.
+/// The outcome of a check, and how strong the evidence for it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Status {

@@ -119,7 +119,7 @@ impl Default for Settings {
     }
 }
 
-/// The reason that a descent ended.
+/// The reason that a descent ended; only [`StopReason::Converged`] means that the goal is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopReason {
     /// The task is fulfilled.
@@ -309,7 +309,7 @@ pub struct Reach<'a> {
     pub tolerance: (f64, f64),
 }
 
-/// The result of [`reach`].
+/// The result of [`reach`]: the last joint positions, whether or not they reach the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
     /// The positions of all joints, by the number in their [`super::JointId`], rad or m; every step keeps them within

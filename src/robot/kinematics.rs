@@ -11,7 +11,7 @@ use crate::geometry::{Pose, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// An assembly compiled for forward kinematics.
+/// An assembly compiled for forward kinematics, with a fixed set of bonds that hold; links and joints go by numbers.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
     /// The index in the assembly of the module whose body carries all others.

@@ -104,7 +104,7 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-/// A rigid body of a module.
+/// A rigid body of a module, with its shapes and mass properties.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
@@ -217,7 +217,7 @@ pub struct Port {
     pub connector: usize,
 }
 
-/// An expanding cube (`cell`).
+/// An expanding cube (`cell`), of which lattices are made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
@@ -235,7 +235,7 @@ pub struct Cell {
     pub speed: f64,
 }
 
-/// A linear actuator (`strut`).
+/// A linear actuator (`strut`), of which trusses are made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strut {

@@ -27,7 +27,7 @@ pub struct Module {
     pub line: usize,
 }
 
-/// Two docks that hold each other.
+/// A connection: two docks that hold each other at a quarter turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
     /// The dock that the file names first.
@@ -71,7 +71,7 @@ pub enum Face {
     MinusZ,
 }
 
-/// An error in a file.
+/// The first error in a file, with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileError {
     /// The line, from 1.

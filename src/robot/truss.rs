@@ -39,7 +39,7 @@ pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
     on_line: 1e-6,
 };
 
-/// Infinitesimal rigidity of a truss.
+/// Infinitesimal rigidity of a truss: the rank of its rigidity matrix, and what follows from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigidity {
     /// The rank of the rigidity matrix.

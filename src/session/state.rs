@@ -43,7 +43,7 @@ struct Before {
     loaded: Vec<String>,
 }
 
-/// A text to enter.
+/// A text to enter, with how it is shown and whether it is kept.
 #[derive(Clone, Debug)]
 pub struct Input<'t> {
     /// The text of the program; no command.

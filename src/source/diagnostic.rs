@@ -14,7 +14,7 @@ pub enum Severity {
     Note,
 }
 
-/// A labelled span of a text.
+/// A span of a text with a few words about it, one of those of a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The span.

@@ -12,7 +12,7 @@ pub struct LineColumn {
     pub column: usize,
 }
 
-/// A text with its name.
+/// A text with its name, read once: positions in it stay valid.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
     /// The name in diagnostics and plans: relative to the project root, with forward slashes; a file of the

@@ -53,7 +53,7 @@ pub enum CommentKind {
     FileDoc,
 }
 
-/// An item with its documentation.
+/// An item of a file with its span and documentation.
 #[derive(Clone, Debug)]
 pub struct Item {
     /// The span from its keyword to its end, without the documentation.
@@ -129,7 +129,7 @@ pub struct Use {
     pub names: Option<Vec<UseName>>,
 }
 
-/// The source of an import.
+/// The file that an import takes names from, as a module path or a path on disk.
 #[derive(Clone, Debug)]
 pub enum UseSource {
     /// A module path: `std.smores`.
@@ -191,7 +191,7 @@ pub struct ExternFn {
     pub result: Option<TypeExpr>,
 }
 
-/// A type parameter of a function.
+/// A type parameter of a function, `D: Dimension`, which each call determines by its arguments.
 #[derive(Clone, Debug)]
 pub struct TypeParam {
     /// The name of the type parameter.
@@ -251,7 +251,7 @@ pub struct Param {
     pub variadic: bool,
 }
 
-/// A type as written.
+/// A type as written, with its span; its names are not resolved.
 #[derive(Clone, Debug)]
 pub struct TypeExpr {
     /// The span of the type.
@@ -476,7 +476,7 @@ pub struct Placement {
     pub turned: Vec<Vec<Arg>>,
 }
 
-/// The families whose declarations state facts.
+/// The families whose declarations state facts and have no body of clauses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactsFamily {
     /// Cells of lattices: `cell`.

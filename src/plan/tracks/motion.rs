@@ -53,7 +53,7 @@ pub struct Segment {
     pub cause: CauseId,
 }
 
-/// A change of a bond.
+/// A change of a bond between two ports: it begins to hold, or ceases to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DockingKind {

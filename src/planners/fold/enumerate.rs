@@ -41,7 +41,7 @@ pub struct Enumeration {
     pub spectrum: Option<Spectrum>,
 }
 
-/// The options of [`enumerate_energies`].
+/// The options of [`enumerate_energies`]: which layouts are visited, and what is counted.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The only root that is considered, an index in [`Target::faces`]; `None`: every face.

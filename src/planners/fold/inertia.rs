@@ -4,7 +4,7 @@ use super::target::Target;
 use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 
-/// The distribution of a panel's mass.
+/// The distribution of a panel's mass, from which its centre and inertia follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inertia {
     /// Evenly over the triangle, without thickness.

@@ -25,7 +25,7 @@ pub struct LoadLimits {
     pub touch: f64,
 }
 
-/// A violated limit.
+/// A limit of [`LoadLimits`] that a posture violates, with the face at which it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Violation {
     /// A face reaches below the ground.

@@ -25,7 +25,7 @@ const STARTS: usize = 8;
 /// The number of exchanges that are weighed by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
 
-/// The options of [`search`].
+/// The options of [`search`]: which layouts count, how many are measured, and how many are kept.
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// The faces that may be the root, indices in [`Target::faces`]; at least one.

@@ -85,7 +85,7 @@ fn reach(target: &Target, parts: &[Vec<Part>]) -> Vec<f64> {
     parts.iter().enumerate().map(of_face).collect()
 }
 
-/// The collision check of one layout.
+/// The collision check of one layout, for samples of the steps in which it folds.
 pub struct SweepCheck<'t> {
     target: &'t Target,
     layout: &'t Layout,

@@ -37,9 +37,9 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// [`Objective::Lengths`] with the default damping, 1.
+    /// [`Objective::Lengths`] with the default damping, 1, without unit.
     pub const LENGTHS: Objective = Objective::Lengths { damping: DAMPING };
-    /// [`Objective::Restoring`] with the default damping, 1.
+    /// [`Objective::Restoring`] with the default damping, 1, without unit.
     pub const RESTORING: Objective = Objective::Restoring { damping: DAMPING };
     /// [`Objective::Fewest`] with the default damping, 1e-3 per metre.
     pub const FEWEST: Objective = Objective::Fewest { damping: DAMPING_FEWEST };

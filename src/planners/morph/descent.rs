@@ -85,7 +85,7 @@ pub enum End {
     Cancelled,
 }
 
-/// The motion that [`descend`] found.
+/// The motion that [`descend`] found, up to its best fit, with the distances at both ends.
 #[derive(Clone, Debug)]
 pub struct Descent {
     /// The positions of all nodes after every step, m: one list for each step, in order, each by node, up to the step

@@ -117,7 +117,7 @@ pub struct Problem {
     pub goal: Vec<[i64; 3]>,
 }
 
-/// The settings of `squeeze`.
+/// The settings of `squeeze`, whose defaults are those of the paper.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// The method. Auto: the fastest that the model allows.
@@ -132,7 +132,7 @@ pub struct Settings {
     pub norm: Norm,
 }
 
-/// The figures of a reconfiguration.
+/// The figures of a reconfiguration, with the lower bound that its duration is compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// A lower bound on the duration of any motion between the shapes under the same limits, s.

@@ -12,7 +12,7 @@ use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The settings of FABRIK.
+/// The settings of FABRIK: when [`Chain::solve`] counts a chain as closed, and when it gives up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Greatest number of iterations, each a backward and a forward pass. Default 1000, as the paper's program.

@@ -46,7 +46,7 @@ pub struct InnerPair {
     pub fixed: Option<f64>,
 }
 
-/// One convex part of a link.
+/// One convex part of a link, numbered among all, in the frame of the link that carries it.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// The convex part, in the frame of the carrier.

@@ -22,7 +22,7 @@ use crate::plan::{
 use crate::robot::{Assembly, Bond, Kinematics, PortRef};
 use crate::units::{Dimension, quantity};
 
-/// Collisions and clearance of a plan.
+/// The collisions and the clearance of a plan, as [`judge`] finds them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
     /// The status of the check: proved; within tolerance, if links penetrate by no more than `touch`; exempt, if every

@@ -45,7 +45,7 @@ impl<'a> Rollout<'a> {
     }
 }
 
-/// The robot at one sample.
+/// The robot at one sample of a rollout, with what changed since the sample before.
 pub struct Sample<'a> {
     /// The time of the sample from the start of the plan, s.
     pub time: f64,
@@ -94,7 +94,7 @@ pub struct TipOver {
     pub excused: bool,
 }
 
-/// The reason why a rollout ended.
+/// The reason why [`roll_out`] ended, which need not be the end of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RolloutEnd {
     /// The rollout reached the end of the plan.

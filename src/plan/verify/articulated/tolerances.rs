@@ -1,6 +1,6 @@
 //! Tolerances and thresholds of the judgement of articulated robots.
 
-/// Tolerances of the judgement of collisions.
+/// Tolerances of the judgement of collisions: how deep, exact and early a penetration is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precision {
     /// Penetration is proved to be no deeper than `touch` and this, m. Default 1 µm: far below any
