@@ -111,8 +111,8 @@ pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
     all.into_iter().find(|(name, _)| *name == record).map(|(_, fields)| fields)
 }
 
-/// Draws every configuration, lattice and truss that the program declares, with its defaults, each as a page of
-/// its name. Faults are reported.
+/// Draws every configuration, lattice and truss of the project's own files, with its defaults, each as a page of its
+/// name. Faults are reported.
 ///
 /// # Errors
 /// A halt.

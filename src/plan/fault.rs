@@ -100,7 +100,7 @@ pub enum PlanFault {
     },
     /// A fault in the bonds that hold after a docking or an undocking.
     After {
-        /// The time, s.
+        /// The time of the event, s.
         time: f64,
         /// The fault in the bonds.
         fault: Box<PlanFault>,
@@ -160,7 +160,7 @@ pub enum PlanFault {
 pub enum TracksFault {
     /// Two modules of one name.
     SharedName {
-        /// The name.
+        /// The name that both have.
         name: String,
     },
     /// A start pose without one position for each joint.
@@ -184,9 +184,9 @@ pub enum TracksFault {
     },
     /// A segment that begins before the one before ends, ends before it begins, or ends after the plan.
     SegmentOrder {
-        /// The start, s.
+        /// The time at which the segment begins, s.
         start: f64,
-        /// The end, s.
+        /// The time at which the segment ends, s.
         end: f64,
     },
     /// A segment that does not begin at the position where the joint is.
@@ -196,12 +196,12 @@ pub enum TracksFault {
     },
     /// A docking or undocking out of order, or after the end.
     EventOrder {
-        /// The time, s.
+        /// The time of the event, s.
         time: f64,
     },
     /// A bond that is docked while it holds, or undocked while it does not.
     BondUnchanged {
-        /// The time, s.
+        /// The time of the event, s.
         time: f64,
         /// The index of the bond in the assembly.
         bond: usize,
@@ -237,7 +237,7 @@ pub enum TracksFault {
 pub enum StagesFault {
     /// More cells than a lattice may have.
     CellCount {
-        /// The greatest number of cells.
+        /// The greatest number of cells that is allowed.
         most: u64,
     },
     /// A unit of time that is not positive.
@@ -284,19 +284,19 @@ pub enum NodePathsFault {
     FirstKeyframe,
     /// A keyframe without one position for each node.
     KeyframeNodes {
-        /// The time, s.
+        /// The time of the keyframe, s.
         time: f64,
         /// The number of nodes, which is the number of positions that it must have.
         nodes: usize,
     },
     /// A roll about two nodes that are one.
     RollEdge {
-        /// The time, s.
+        /// The time of the keyframe at which the roll ends, s.
         time: f64,
     },
     /// A roll about two nodes at one position.
     RollLength {
-        /// The time, s.
+        /// The time of the keyframe at which the roll ends, s.
         time: f64,
     },
     /// A strut between a node and itself.

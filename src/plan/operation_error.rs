@@ -5,16 +5,16 @@ use crate::robot::Mismatch;
 /// The reason why an operation on plans cannot be done. SI units; modules by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperationError {
-    /// A slice that ends before it begins, or whose times are not finite.
+    /// A slice that ends before it begins.
     Times {
-        /// The beginning, s.
+        /// The time at which the slice would begin, s.
         from: f64,
-        /// The end, s.
+        /// The time at which it would end, s.
         to: f64,
     },
     /// A lattice plan that would be cut within a stage.
     InsideStage {
-        /// The time, s.
+        /// The time of the cut, s.
         time: f64,
     },
     /// Two plans of different families.
@@ -48,9 +48,9 @@ pub enum OperationError {
     },
     /// A joint that moves between two times by a law that no command of a program states.
     NoCommand {
-        /// The beginning, s.
+        /// The time at which the piece of its motion begins, s.
         from: f64,
-        /// The end, s.
+        /// The time at which it ends, s.
         to: f64,
     },
     /// A robot without joints, of which none has a program.

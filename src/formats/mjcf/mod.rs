@@ -3,7 +3,7 @@
 //! A model is written with explicit masses, so that nothing is inferred from shapes: a body for each link, with the
 //! frame that the link has here. Links that hang together during the whole plan are one tree of bodies. Bonds that
 //! close loops, and those that dock or undock on the way, are constraints. The servos and the stiffness of contacts and
-//! constraints, which the language does not state yet, stand in [`servo`] and here, and in the `default` element of the
+//! constraints, which the language does not state yet, stand in `servo` and here, and in the `default` element of the
 //! model.
 #![allow(non_snake_case)]
 
