@@ -112,7 +112,8 @@ impl Error for Refusal {}
 /// Plans the motion from one configuration of RoFI modules to another.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
-/// are in the poses of the goal's. Under gravity the plan was verified by the judge.
+/// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
+/// the judge; without, it was not judged.
 ///
 /// # Errors
 /// [`Refusal`]: the numbers of modules differ, either configuration can't be unwound, or the two halves do not fit.
@@ -151,8 +152,9 @@ pub fn plan(
     plan_with_cache(problem, settings, &mut SearchCache::default(), progress)
 }
 
-/// Plans as [`plan()`] does, and takes the steps of either half from a cache if they were found before with the same
-/// settings of the search.
+/// Plans as [`plan()`] does, and takes the steps of either half from `cache` if they were found before from the same
+/// configuration with the same gravity and the same settings of the search, but for the number of threads; stores
+/// those that it finds.
 ///
 /// # Errors
 /// As [`plan()`].

@@ -34,7 +34,8 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Prepares obstacles and terrain, both in the world's frame; `sink_depth`: m.
+    /// Prepares obstacles and terrain, both in the world's frame; `sink_depth`: m. The terrain must be sound
+    /// ([`HeightField::fault`]).
     pub fn new(obstacles: &[Solid], terrain: Option<HeightField>, sink_depth: f64) -> Surroundings {
         let parts = obstacles.iter().enumerate();
         let slope_max = terrain.as_ref().map_or(0.0, HeightField::steepest);

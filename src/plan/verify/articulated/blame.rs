@@ -37,8 +37,9 @@ pub(super) struct Candidate {
 }
 
 /// Adds the actions to blame to the failures that do not name any: up to [`BLAMED_MAX`] whose joint, held still,
-/// removes the failure; else all that move at its time, or the start. `checkpoints`: states of the rollout from which
-/// it is repeated.
+/// removes the failure; else all that move at its time, or the start. A removal is tried for the first [`FAILURES_MAX`]
+/// failures only, and not for ranges and collisions; faults of the form get no blame. `checkpoints`: states of the
+/// rollout from which it is repeated.
 pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {

@@ -39,8 +39,9 @@ pub struct ContactPatch {
     pub spread: f64,
 }
 
-/// Returns all points within their module's contact tolerance of the ground, which is `height` (m) below the centre of
-/// mass, with normal forces as on elastic ground. `features`: as [`Model::placed`] returns them.
+/// Returns all points within their module's contact tolerance (at least `gap_loaded`) of the ground, which is `height`
+/// (m) below the centre of mass, with normal forces as on elastic ground. `features`: as [`Model::placed`] returns
+/// them.
 pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],

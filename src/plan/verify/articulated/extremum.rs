@@ -7,7 +7,8 @@ use crate::plan::polynomial::{hull, split};
 const PIECES_MAX: usize = 4096;
 
 /// Returns the greatest value over 0..1 of a polynomial, given by its Bernstein control points (at least one), and the
-/// argument where it is reached, by subdivision (the convex hull property). The value is never below the true one, and
+/// argument where it is reached, by subdivision (the convex hull property). The value is below the true one by no more
+/// than `NUMERICS.extremum` of the largest control point, and
 /// above it by no more than rounding, unless a polynomial is so oscillatory that the pieces run out.
 pub(super) fn greatest(control: &[f64]) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));

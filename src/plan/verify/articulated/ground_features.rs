@@ -129,6 +129,7 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
 }
 
 /// Returns the features of a link's shapes, in the frame of the link, in the order in which the shapes are declared.
+/// Unions and shapes beyond the first [`UNIONS_MAX`] are left out.
 pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();

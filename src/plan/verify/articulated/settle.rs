@@ -44,8 +44,8 @@ pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the attitude at which a robot comes to rest from its present one, by the proximal bundle method; `features`
-/// have the centre of mass at the origin and +z up.
+/// Returns the attitude at which a robot comes to rest from its present one, by the proximal bundle method, or
+/// the lowest found after [`ROUNDS_MAX`] rounds; `features` have the centre of mass at the origin and +z up.
 pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();

@@ -162,7 +162,8 @@ impl Judgement<'_> {
 }
 
 /// Returns the least singular value of the rigidity matrix at node positions `x` (m) that does not belong to a rigid
-/// motion of the whole truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid.
+/// motion of the whole truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid,
+/// and for nodes on one line.
 pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
