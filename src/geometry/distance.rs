@@ -132,8 +132,9 @@ pub fn separation_along(a: &Part, b: &Part, X_AB: &Pose, normal: &Vec3) -> f64 {
 }
 
 /// Returns the signed distance of two solids at their world poses, m: the least of their parts; if negative, minus
-/// the penetration depth of the deepest pair of parts. A solid inside the hollow of a closed mesh is in it, at minus
-/// the distance from its surface. Infinite if one of the solids is empty.
+/// the penetration depth of the deepest pair of parts. A solid inside a closed mesh that is not convex, but not in its
+/// hollow, is at minus a lower bound on its depth: its distance from the surface, or the depth of an inner point if
+/// that is more. Infinite if one of the solids is empty.
 pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64 {
     let X_AB = X_WA.inverse() * X_WB;
     let mut least = f64::INFINITY;
@@ -145,13 +146,18 @@ pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64
             }
         }
     }
-    if encloses_part(a, b, &X_AB) || encloses_part(b, a, &X_AB.inverse()) { -least.abs() } else { least }
+    let enclosed = enclosed_depth(a, b, &X_AB);
+    if enclosed > 0.0 { -enclosed.max(least.abs()) } else { least }
 }
 
-/// Returns true if some part of b is inside a closed mesh of a, of which only the surface is made of parts.
-/// The centre of a part decides for all of it, unless it crosses the surface, which shows as an overlap.
-fn encloses_part(a: &Solid, b: &Solid, X_AB: &Pose) -> bool {
-    b.parts.iter().any(|q| a.encloses(&X_AB.transform_point(&q.centre.into()).coords))
+/// Returns how deep one of two solids is inside the meshes of the other that are not convex, m (see
+/// [`Solid::enclosed_depth`]); 0 if neither is. `X_AB` is the pose of b in a.
+pub fn enclosed_depth(a: &Solid, b: &Solid, X_AB: &Pose) -> f64 {
+    if a.has_shells() || b.has_shells() {
+        a.enclosed_depth(b, X_AB).max(b.enclosed_depth(a, &X_AB.inverse()))
+    } else {
+        0.0
+    }
 }
 
 /// Returns the penetration of parts about one centre (on which parry's expansion gives up, or takes the first

@@ -90,6 +90,15 @@ impl Part {
         self.core_support(n) + unit_or_zero(n) * self.rounding()
     }
 
+    /// Returns a point inside the part, m: the centre, or the mean of the corners of a hull, whose centre may be
+    /// outside.
+    pub fn inner_point(&self) -> Vec3 {
+        match &self.form {
+            Form::Points(points) => self.centre + points.iter().sum::<Vec3>() / points.len() as f64,
+            Form::Box(_) | Form::Cylinder(..) | Form::Capsule(..) | Form::Sphere(_) => self.centre,
+        }
+    }
+
     /// Returns the radius by which the core of the part is rounded, m: a sphere is a point and a capsule a
     /// segment, rounded by their radii; other parts are their own core, rounded by 0.
     pub fn rounding(&self) -> f64 {

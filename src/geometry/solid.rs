@@ -1,5 +1,6 @@
 //! Solids: shapes compiled into convex parts.
 
+use super::closest_points;
 use super::distance::signed_distance;
 use super::hull;
 use super::part::Part;
@@ -22,6 +23,9 @@ pub struct Solid {
     /// Closed surfaces whose triangles are among the parts. Only the surface of a mesh that is not
     /// convex is made of parts: what is wholly inside of it is found by [`Solid::encloses`].
     shells: Vec<Vec<[Vec3; 3]>>,
+    /// A point inside each convex part and inside each connected surface of a mesh, m: where no surfaces cross, some
+    /// of these points are inside another solid if anything of this one is.
+    probes: Vec<Vec3>,
     /// Centre of a ball around the whole, m.
     pub centre: Vec3,
     /// Radius of that ball, m; 0 for an empty solid.
@@ -40,6 +44,7 @@ impl Solid {
     pub fn new(shapes: &[Placed]) -> Result<Solid, Unsound> {
         let mut solid = Solid::default();
         shapes.iter().try_for_each(|placed| solid.add(placed, &Pose::identity()))?;
+        debug_assert!(solid.probes.is_empty() == solid.parts.is_empty());
         let reach =
             |n: Vec3| solid.parts.iter().map(|p| n.dot(&p.centre) + p.reach(&n)).fold(f64::MIN, f64::max);
         if !solid.parts.is_empty() {
@@ -54,12 +59,30 @@ impl Solid {
     }
 
     /// Returns true if a point (m, in the link's frame) is inside a mesh that is not convex: convex parts do not
-    /// count. Its winding number is the sum of the solid angles of the triangles over the whole sphere.
+    /// count.
     pub fn encloses(&self, point: &Vec3) -> bool {
-        self.shells.iter().any(|shell| {
-            let angle: f64 = shell.iter().map(|t| solid_angle(&t.map(|corner| corner - point))).sum();
-            angle > std::f64::consts::TAU
-        })
+        self.shells.iter().any(|shell| is_inside(shell, point))
+    }
+
+    /// Returns true if the solid has a mesh that is not convex, which may enclose other solids without a contact.
+    pub fn has_shells(&self) -> bool {
+        !self.shells.is_empty()
+    }
+
+    /// Returns how deep another solid at the pose `X_AB` is inside the meshes of this one that are not convex, m: the
+    /// greatest distance of a point of the other that is inside from the surface of the mesh, a lower bound on the
+    /// penetration depth. 0 where nothing of the other is inside, as in a hollow. Only where surfaces do not cross is
+    /// every solid found that is inside.
+    pub fn enclosed_depth(&self, other: &Solid, X_AB: &Pose) -> f64 {
+        let (low, high) = self.bounds;
+        let depth = |probe: &Vec3| {
+            let point = X_AB.transform_point(&(*probe).into()).coords;
+            let within = (0..3).all(|i| low[i] < point[i] && point[i] < high[i]);
+            let around = self.shells.iter().filter(|shell| within && is_inside(shell, &point));
+            let from = |t: &[Vec3; 3]| (closest_points::point_triangle(point, *t) - point).norm();
+            around.map(|shell| shell.iter().map(from).fold(f64::INFINITY, f64::min)).fold(0.0, f64::max)
+        };
+        if self.has_shells() { other.probes.iter().map(depth).fold(0.0, f64::max) } else { 0.0 }
     }
 
     /// Returns the penetration depth of a point (m, in the link's frame), m: that in the part in which it is
@@ -74,6 +97,7 @@ impl Solid {
         soundness::check(&placed.shape)?;
         let X = X_LS * placed.pose;
         let (p, R) = (X.translation.vector, X.rotation);
+        let parts_before = self.parts.len();
         let along = |axis: &Vec3, length: f64| R * axis.normalize() * (length / 2.0);
         match &placed.shape {
             Shape::Box { size } => {
@@ -88,9 +112,10 @@ impl Solid {
                 self.parts.push(Part::capsule(p, along(axis, *length), *radius));
             }
             Shape::Hull { points } => self.parts.push(corners(&moved(points, &X))?),
-            Shape::Mesh { vertices, triangles, .. } => self.add_mesh(&moved(vertices, &X), triangles)?,
-            Shape::Union { parts } => parts.iter().try_for_each(|part| self.add(part, &X))?,
+            Shape::Mesh { vertices, triangles, .. } => return self.add_mesh(&moved(vertices, &X), triangles),
+            Shape::Union { parts } => return parts.iter().try_for_each(|part| self.add(part, &X)),
         }
+        self.probes.extend(self.parts[parts_before..].iter().map(Part::inner_point));
         Ok(())
     }
 
@@ -98,8 +123,12 @@ impl Solid {
     fn add_mesh(&mut self, vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
         let shell: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|i| vertices[i as usize])).collect();
         if is_convex(&shell, vertices) {
-            self.parts.push(corners(vertices)?);
+            let hull = corners(vertices)?;
+            self.probes.push(hull.inner_point());
+            self.parts.push(hull);
         } else {
+            let largest = largest_triangles(&shell, triangles, vertices.len());
+            self.probes.extend(largest.into_iter().map(|triangle| beneath(&shell, triangle)));
             self.parts.extend(shell.iter().map(|triangle| Part::points(triangle)));
             self.shells.push(shell);
         }
@@ -117,6 +146,65 @@ fn corners(points: &[Vec3]) -> Result<Part, Unsound> {
     }
     let faces = hull::faces(points).ok_or(Unsound::Flat)?;
     Ok(Part::points(&faces.points))
+}
+
+/// Returns the index of the largest triangle of each connected surface, in ascending order of the least vertex that
+/// the surface has.
+fn largest_triangles(shell: &[[Vec3; 3]], triangles: &[[u32; 3]], vertices: usize) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..vertices).collect();
+    for &[a, b, c] in triangles {
+        for other in [b, c] {
+            let (x, y) = (root(&mut parent, a as usize), root(&mut parent, other as usize));
+            parent[x.max(y)] = x.min(y);
+        }
+    }
+    let mut largest: Vec<Option<(f64, usize)>> = vec![None; vertices];
+    for (index, ([a, b, c], corners)) in shell.iter().zip(triangles).enumerate() {
+        let area = (b - a).cross(&(c - a)).norm();
+        let known = &mut largest[root(&mut parent, corners[0] as usize)];
+        if known.is_none_or(|(greatest, _)| area > greatest) {
+            *known = Some((area, index));
+        }
+    }
+    largest.into_iter().flatten().map(|(_, index)| index).collect()
+}
+
+/// Returns the least vertex that is connected with a vertex, and shortens the way to it.
+fn root(parent: &mut [usize], mut vertex: usize) -> usize {
+    while parent[vertex] != vertex {
+        parent[vertex] = parent[parent[vertex]];
+        vertex = parent[vertex];
+    }
+    vertex
+}
+
+/// Returns a point inside a closed surface beneath the middle of one of its triangles (m): halfway to the surface on
+/// the other side; the middle itself where rounding hides the other side.
+fn beneath(shell: &[[Vec3; 3]], index: usize) -> Vec3 {
+    let [a, b, c] = shell[index];
+    let middle = (a + b + c) / 3.0;
+    let inwards = -(b - a).cross(&(c - a)).normalize();
+    let others = shell.iter().enumerate().filter(|(other, _)| *other != index);
+    let hits = others.filter_map(|(_, triangle)| hit(&middle, &inwards, triangle));
+    let halfway = middle + inwards * (hits.fold(f64::INFINITY, f64::min) / 2.0);
+    if halfway.iter().all(|x| x.is_finite()) && is_inside(shell, &halfway) { halfway } else { middle }
+}
+
+/// Returns the distance at which a ray from `start` (m) along a unit vector meets a triangle, m; `None` if it does not
+/// (Möller and Trumbore 1997).
+fn hit(start: &Vec3, along: &Vec3, [a, b, c]: &[Vec3; 3]) -> Option<f64> {
+    let (u, v, from) = (b - a, c - a, start - a);
+    let determinant = u.dot(&along.cross(&v));
+    let (x, y) = (from.dot(&along.cross(&v)) / determinant, along.dot(&from.cross(&u)) / determinant);
+    let distance = v.dot(&from.cross(&u)) / determinant;
+    (x >= 0.0 && y >= 0.0 && x + y <= 1.0 && distance > 0.0).then_some(distance)
+}
+
+/// Returns true if a point is inside a closed surface (m): by its winding number, the sum of the solid angles of the
+/// triangles over the whole sphere, which is 0 in a hollow.
+fn is_inside(shell: &[[Vec3; 3]], point: &Vec3) -> bool {
+    let angle: f64 = shell.iter().map(|t| solid_angle(&t.map(|corner| corner - point))).sum();
+    angle > std::f64::consts::TAU
 }
 
 /// Returns true if no vertex is outside the plane of any triangle.

@@ -90,8 +90,12 @@ fn a_mesh_keeps_its_hollow() {
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.0, 0.0, 0.06)), 0.02);
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.05, 0.0, 0.06)), 0.01);
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.15, 0.0, 0.06)), 0.03);
+    // In the middle of a wall of 20 mm.
     let grain = cube(0.004);
-    check(&tub, Pose::identity(), &grain, shifted(Vec3::new(0.09, 0.0, 0.05)), -0.008);
+    check(&tub, Pose::identity(), &grain, shifted(Vec3::new(0.09, 0.0, 0.05)), -0.010);
+    // Two tubs at one place: their surfaces only touch, but the walls are one in the other. The inner point is in the
+    // middle of the bottom of 20 mm.
+    check(&tub, Pose::identity(), &tub, Pose::identity(), -0.010);
 }
 
 #[test]

@@ -98,3 +98,70 @@ fn a_file_that_is_no_mesh_is_refused_with_the_reason() {
         assert!(diagnostic.message.contains(word), "{}", diagnostic.message);
     }
 }
+
+/// A box with walls of 10 mm around a hollow of 20 mm, about the origin, as a mesh of two surfaces.
+fn hollow_box() -> Vec<u8> {
+    let about_origin = |edge: f32| {
+        let moved = move |corner: [f32; 3]| corner.map(|x| x - edge / 2.0);
+        cube(edge).into_iter().map(move |triangle| triangle.map(moved))
+    };
+    let inside_out = about_origin(20.0).map(|[a, b, c]| [a, c, b]);
+    binary(&about_origin(40.0).chain(inside_out).collect::<Vec<_>>())
+}
+
+/// A ball of 2 mm radius on an invisible arm, `AT` from the middle of the box: its feet stand far outside.
+const BALL_IN_BOX: &str = "
+connector Plate { mates Plate, turns 4 }
+module Hollow {
+  mass 20g
+  link foot = box(10mm, 10mm, 10mm) at [0mm, 0mm, -100mm]
+  link wall = mesh(\"hollow.stl\", scale: 1mm)
+  joint stand : foot -> wall = fixed()
+  port p : Plate on foot at [0mm, 0mm, -5mm] facing -Z up +X
+}
+module Pin {
+  mass 20g
+  link foot = box(10mm, 10mm, 10mm) at [0mm, 0mm, 5mm]
+  link ball = sphere(2mm) at [AT, 0mm, -105mm]
+  joint slide : foot -> ball = prismatic(axis: X, range: -100mm..100mm, max_speed: 1m/s)
+  port p : Plate on foot at [0mm, 0mm, -5mm] facing -Z up +X
+}
+config Both {
+  part pin: Pin
+  part hollow: Hollow
+  connect pin.p -- hollow.p
+  behavior slide_to(q: Length) = move(pin.slide, to: q)
+}
+";
+
+fn ball_in_box(at: &str, behavior: &str) -> String {
+    let both = BALL_IN_BOX.replace("AT", at);
+    let program = format!("{both}print(verify(Both(){behavior}, world: world(ground: off, gravity: off)))\n");
+    let mut files = MapFiles::of(&program);
+    files.0.insert("hollow.stl".into(), hollow_box());
+    let done = ran(&files, "main.mod", Mode::Run, &Options::default());
+    assert!(done.outcome.diagnostics.is_empty(), "{:?}", done.outcome.diagnostics);
+    done.host.printed.join("\n")
+}
+
+#[test]
+fn a_link_set_inside_the_wall_of_a_mesh_is_a_collision() {
+    // Its centre is in the middle of the wall.
+    let said = ball_in_box("15mm", "");
+    assert!(said.contains("pin and hollow meet, up to 5mm deep (ball and wall)"), "{said}");
+    // So it is wherever it moves within the wall.
+    let said = ball_in_box("15mm", ".slide_to(1mm)");
+    assert!(said.contains("pin and hollow meet, up to 5mm deep (ball and wall)"), "{said}");
+}
+
+#[test]
+fn a_link_in_the_hollow_of_a_mesh_is_free() {
+    // The ball of 2 mm radius is 8 mm off the nearest wall.
+    let said = ball_in_box("0mm", "");
+    assert!(said.contains("clearance 8mm") && said.contains("collision: proved"), "{said}");
+    let said = ball_in_box("30mm", "");
+    assert!(said.contains("clearance 8mm") && said.contains("collision: proved"), "{said}");
+    // Out of the hollow it gets through the wall, and what it leaves is the first to be found.
+    let said = ball_in_box("0mm", ".slide_to(15mm)");
+    assert!(said.contains("pin and hollow meet, up to"), "{said}");
+}

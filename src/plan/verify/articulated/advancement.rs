@@ -2,7 +2,7 @@
 //! a bound on motion proves to be separated over an interval are done with (Schwarzer, Saha and Latombe 2005; see
 //! [`collision`](super::collision)).
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, Body, InnerPair};
 use super::bonded::{BondedLinks, NominalOverlaps};
 use super::collision::{Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
@@ -118,6 +118,7 @@ impl<'a> Advancement<'a> {
                 self.within(&region, module, &mut within);
             }
             self.guess_clearance(&region, window.0, &within);
+            self.enclosed(&region, window.0);
             self.advance_all(&region, window.0, window.1, &within);
         }
     }
@@ -167,15 +168,7 @@ impl<'a> Advancement<'a> {
             for index in 0..self.bodies.inner(module).len() {
                 let inner = self.bodies.inner(module)[index];
                 let Some(distance) = inner.fixed else { continue };
-                let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
-                let pair = BodyPair {
-                    a,
-                    b,
-                    level: 0,
-                    counts: inner.counts,
-                    allowed: inner.allowed,
-                    normal: Vec3::zeros(),
-                };
+                let pair = inner_pair(&inner, first, 0);
                 self.count(&pair, distance, time);
                 if distance < -inner.allowed {
                     self.collide(region, &pair, distance, Some(Instant::default()));
@@ -204,30 +197,32 @@ impl<'a> Advancement<'a> {
     fn within(&self, region: &Region, module: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(module, module) as u32;
         let first = self.bodies.of(module).start;
-        for inner in self.bodies.inner(module).iter().filter(|inner| inner.fixed.is_none()) {
-            let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
-            let (counts, allowed) = (inner.counts, inner.allowed);
-            out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
-        }
+        let moved = self.bodies.inner(module).iter().filter(|inner| inner.fixed.is_none());
+        out.extend(moved.map(|inner| inner_pair(inner, first, level)));
     }
 
     /// Appends the pairs of bodies of two modules. Links that a rigid bond joins are known once and for all; the
     /// distance of others that a bond joins is no clearance.
     fn expand(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(m, n) as u32;
-        let touch = self.bodies.allowed_depth(m, n);
         for a in self.bodies.of(m) {
             for b in self.bodies.of(n) {
-                let (x, y) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
-                let bonded = region.bonded.get(x.link, y.link);
-                if bonded.is_some_and(|pair| pair.rigid) {
-                    continue;
-                }
-                let allowed = bonded.map_or(touch, |pair| pair.allowed(x, y, touch));
-                let (a, b, counts) = (a as u32, b as u32, bonded.is_none());
-                out.push(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() });
+                out.extend(self.pair_of_modules(region, level, (a, b)));
             }
         }
+    }
+
+    /// Returns the pair of two bodies of different modules; `None` if a rigid bond joins their links.
+    fn pair_of_modules(&self, region: &Region, level: u32, (a, b): (usize, usize)) -> Option<BodyPair> {
+        let (x, y) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
+        let bonded = region.bonded.get(x.link, y.link);
+        if bonded.is_some_and(|pair| pair.rigid) {
+            return None;
+        }
+        let touch = self.bodies.allowed_depth(x.module, y.module);
+        let allowed = bonded.map_or(touch, |pair| pair.allowed(x, y, touch));
+        let (a, b, counts) = (a as u32, b as u32, bonded.is_none());
+        Some(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() })
     }
 
     /// Measures within modules and between neighbours at one instant, so that the search begins with a clearance
@@ -245,6 +240,51 @@ impl<'a> Advancement<'a> {
             let enough = self.least();
             self.measure(pair, enough, time);
         }
+    }
+
+    /// Judges whether a link is inside another's mesh that is not convex, of which only the surface has bodies: at the
+    /// instant (s) at which a window begins and whose state is set, for later a link gets there through the surface.
+    fn enclosed(&mut self, region: &Region, time: f64) {
+        let modules = || region.kinematics.tree.order.iter().map(|(module, _)| *module);
+        let enclosing: Vec<usize> = modules().filter(|module| self.bodies.may_enclose(*module)).collect();
+        for &m in &enclosing {
+            let mut pairs: Vec<BodyPair> = Vec::new();
+            let first = self.bodies.of(m).start;
+            let inner = self.bodies.inner_enclosing(m).iter();
+            pairs.extend(inner.map(|inner| inner_pair(inner, first, 0)));
+            self.checks += region.kinematics.tree.order.len();
+            // Of two modules that may both enclose links each pair is examined once.
+            for n in modules().filter(|n| *n > m || (*n < m && !self.bodies.may_enclose(*n))) {
+                let [a, b] = [m, n].map(|module| self.state.links[region.kinematics.link(module, 0)].p);
+                if (a - b).norm() < self.bodies.reach[m] + self.bodies.reach[n] {
+                    self.expand_links(region, m.min(n), m.max(n), &mut pairs);
+                }
+            }
+            for pair in pairs {
+                interrupt::checkpoint();
+                let depth = self.enclosed_depth(region, &pair);
+                if depth > pair.allowed {
+                    self.count(&pair, -depth, time);
+                    self.collide(region, &pair, -depth, Some(Instant::default()));
+                }
+            }
+        }
+    }
+
+    /// Appends one pair of bodies for each pair of links of two modules that no rigid bond joins.
+    fn expand_links(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
+        for a in self.bodies.first_of_links(m) {
+            for b in self.bodies.first_of_links(n) {
+                out.extend(self.pair_of_modules(region, 0, (a, b)));
+            }
+        }
+    }
+
+    /// Returns how deep one of the links of a pair of bodies is inside the other's mesh that is not convex, m.
+    fn enclosed_depth(&self, region: &Region, pair: &BodyPair) -> f64 {
+        let [a, b] = [pair.a, pair.b].map(|body| &self.bodies.bodies[body as usize]);
+        let local = |body: &Body| (body.module, body.link - region.kinematics.link(body.module, 0));
+        self.bodies.enclosed_depth(local(a), local(b), &self.state.relative(a.link, b.link))
     }
 
     /// Judges all pairs of modules, and the pairs of bodies `within` a module, over `from..to` (s). Pairs of modules
@@ -480,4 +520,10 @@ impl<'a> Advancement<'a> {
             self.collisions.insert(key, collision);
         }
     }
+}
+
+/// Returns a pair within a module whose first body has this index in [`Bodies::bodies`].
+fn inner_pair(inner: &InnerPair, first: usize, level: u32) -> BodyPair {
+    let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
+    BodyPair { a, b, level, counts: inner.counts, allowed: inner.allowed, normal: Vec3::zeros() }
 }

@@ -1,9 +1,12 @@
 //! The convex parts of all links that can collide, and the pairs of them that may touch.
 
 use super::tolerances::Tolerances;
-use crate::geometry::distance::{distance_of_solids, signed_distance, signed_distance_within};
+use crate::geometry::distance::{
+    distance_of_solids, enclosed_depth, signed_distance, signed_distance_within,
+};
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
+use std::collections::BTreeSet;
 
 /// A link whose shape can't be judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,6 +126,31 @@ impl Bodies {
         (-distance).max(0.0)
     }
 
+    /// Returns true if a link of a module, given by its index in the assembly, has a mesh that is not convex, which
+    /// may enclose other links without a contact.
+    pub(super) fn may_enclose(&self, module: usize) -> bool {
+        self.kinds[self.kind_of[module]].solids.iter().any(Solid::has_shells)
+    }
+
+    /// Returns one of the pairs of bodies for each pair of links within a module (its index in the assembly) of which
+    /// one may enclose the other.
+    pub(super) fn inner_enclosing(&self, module: usize) -> &[InnerPair] {
+        &self.kinds[self.kind_of[module]].inner_enclosing
+    }
+
+    /// Iterates over the first body of each link of a module that has any, as indices in [`Bodies::bodies`].
+    pub(super) fn first_of_links(&self, module: usize) -> impl Iterator<Item = usize> {
+        let all = self.of(module);
+        let first = all.start;
+        all.filter(move |&body| body == first || self.bodies[body].link != self.bodies[body - 1].link)
+    }
+
+    /// Returns how deep one of two links is inside the other's meshes that are not convex, m, as
+    /// [`overlap`](Self::overlap) takes them; 0 if neither is.
+    pub(super) fn enclosed_depth(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
+        enclosed_depth(self.solid(a), self.solid(b), X_AB)
+    }
+
     fn solid(&self, (module, link): (usize, usize)) -> &Solid {
         &self.kinds[self.kind_of[module]].solids[link]
     }
@@ -135,7 +163,9 @@ impl Bodies {
     }
 
     /// Returns the signed distance between two links, given by the numbering of [`Kinematics`], m, or `enough` (m) if
-    /// it is no less; `poses`: the world poses of all links, by the same numbering.
+    /// it is no less; `poses`: the world poses of all links, by the same numbering. A link that is inside another's
+    /// mesh that is not convex, without a contact, is as far away as the surface of the mesh: see
+    /// [`distance_of_solids`].
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
             let from = self.bodies.partition_point(|body| body.link < link);
@@ -164,6 +194,8 @@ struct Kind {
     /// The solid of each link, in its frame.
     solids: Vec<Solid>,
     inner: Vec<InnerPair>,
+    /// The first of the pairs of bodies for each pair of links of which one has a mesh that is not convex.
+    inner_enclosing: Vec<InnerPair>,
     touch: f64,
     reach: f64,
 }
@@ -186,8 +218,22 @@ impl Kind {
                 inner.extend(pair(kind, &solids, &bodies, (a, b)));
             }
         }
-        Ok(Kind { reach: reach(kind, &solids), bodies, solids, inner, touch: kind.touch })
+        let inner_enclosing = enclosing(&inner, &bodies, &solids);
+        Ok(Kind { reach: reach(kind, &solids), bodies, solids, inner, inner_enclosing, touch: kind.touch })
     }
+}
+
+/// Returns the first of the pairs of bodies for each pair of links of which one has a mesh that is not convex.
+fn enclosing(inner: &[InnerPair], bodies: &[(usize, usize, Part)], solids: &[Solid]) -> Vec<InnerPair> {
+    if !solids.iter().any(Solid::has_shells) {
+        return vec![];
+    }
+    let mut seen = BTreeSet::new();
+    let is_first = |pair: &&InnerPair| {
+        let (a, b) = (bodies[pair.a].0, bodies[pair.b].0);
+        (solids[a].has_shells() || solids[b].has_shells()) && seen.insert((a, b))
+    };
+    inner.iter().filter(is_first).copied().collect()
 }
 
 /// Returns the constraint between two bodies of a module; `None` if they are of one link, or meet by design.
@@ -246,7 +292,8 @@ fn carried(kind: &ModuleType, link: usize, part: &Part) -> (usize, usize, Part) 
 fn drawn_overlap(kind: &ModuleType, solids: &[Solid], a: usize, b: usize) -> f64 {
     let X_AB = kind.links[a].pose.inverse() * kind.links[b].pose;
     let pairs = solids[a].parts.iter().flat_map(|p| solids[b].parts.iter().map(move |q| (p, q)));
-    pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max)
+    let deepest = pairs.map(|(p, q)| -signed_distance(p, q, &X_AB).distance).fold(0.0, f64::max);
+    deepest.max(enclosed_depth(&solids[a], &solids[b], &X_AB))
 }
 
 /// Returns an upper bound on the distance of any point of the module from its body's origin, m: by the joints' arms

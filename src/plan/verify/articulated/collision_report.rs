@@ -82,7 +82,11 @@ fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
         let track = tracks.track(JointId(suspect.joint as u32)).expect("a suspect moves on a track");
         joints[suspect.joint] = track.position(tracks.start.joints[suspect.joint], suspect.start);
         kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
-        if bodies.distance(links.0, links.1, &poses, 0.0) >= -meeting.allowed {
+        let X_AB = poses[links.0].inverse() * poses[links.1];
+        let [a, b] = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
+        if bodies.distance(links.0, links.1, &poses, 0.0) >= -meeting.allowed
+            && bodies.enclosed_depth(a, b, &X_AB) <= meeting.allowed
+        {
             blamed.push(suspect.cause);
         }
     }
