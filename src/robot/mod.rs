@@ -2,8 +2,8 @@
 //!
 //! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
-//! ([`jacobian`]) and inverse kinematics ([`inverse_kinematics`]), the isomorphism of two robots ([`matching()`]),
-//! rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
+//! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]) and dynamics ([`dynamics`]), the isomorphism of two
+//! robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
 mod assembly;
@@ -18,6 +18,8 @@ mod tree;
 
 pub mod inverse_kinematics;
 pub mod jacobian;
+
+pub mod dynamics;
 
 mod matching;
 mod symmetry;

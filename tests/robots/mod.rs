@@ -3,6 +3,7 @@
 pub mod cholesky;
 pub mod designs;
 pub mod distance;
+pub mod dynamics;
 pub mod jacobian;
 pub mod kinematics;
 pub mod mass;

@@ -6,7 +6,7 @@ use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::Pose;
 use modl::robot::mate;
-use modl::robot::{Assembly, JointKind, Kinematics, PortRef};
+use modl::robot::{Assembly, JointKind, Kinematics, Link, PortRef};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -54,10 +54,7 @@ pub struct Urdf {
 impl Urdf {
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Urdf {
         let links = kinematics.link_count();
-        let mut text = format!("<robot name=\"{}\">\n", robot.name);
-        for link in 0..links {
-            writeln!(text, "  <link name=\"l{link}\"/>").expect("text grows");
-        }
+        let text = format!("<robot name=\"{}\">\n", robot.name);
         let joints = vec![String::new(); robot.joints().count()];
         let mut urdf = Urdf { text, X_UL: vec![Pose::identity(); links], joints };
         for &(module, bond) in &kinematics.tree.order {
@@ -72,8 +69,27 @@ impl Urdf {
             }
             urdf.add_joints(robot, kinematics, module, entry);
         }
+        for module in 0..robot.modules.len() {
+            for (index, link) in robot.module_type(module).links.iter().enumerate() {
+                urdf.link(kinematics.link(module, index), link);
+            }
+        }
         urdf.text.push_str("</robot>\n");
         urdf
+    }
+
+    fn link(&mut self, number: usize, link: &Link) {
+        let p = self.X_UL[number].transform_point(&link.com.into());
+        let (roll, pitch, yaw) = self.X_UL[number].rotation.euler_angles();
+        let [xx, yy, zz, xy, xz, yz] = link.inertia;
+        writeln!(
+            self.text,
+            "  <link name=\"l{number}\"><inertial><origin xyz=\"{} {} {}\" rpy=\"{roll} {pitch} {yaw}\"/>\
+             <mass value=\"{}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" izz=\"{zz}\" ixy=\"{xy}\" ixz=\"{xz}\" \
+             iyz=\"{yz}\"/></inertial></link>",
+            p.x, p.y, p.z, link.mass
+        )
+        .expect("text grows");
     }
 
     fn add_bond(&mut self, robot: &Assembly, kinematics: &Kinematics, at: PortRef, to: PortRef, X_PQ: &Pose) {

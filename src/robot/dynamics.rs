@@ -1,0 +1,305 @@
+//! Dynamics of a robot as a tree of rigid bodies on a floating base: inverse dynamics by recursive Newton-Euler (Luh,
+//! Walker and Paul 1980; Featherstone, *Rigid Body Dynamics Algorithms*, 2008, ch. 5) and the mass matrix by composite
+//! rigid bodies (Walker and Orin 1982; Featherstone, ch. 6).
+//!
+//! Everything is in the axes of the world; moments and momenta are about the origin O of the base's frame. Bonds that
+//! close loops are not regarded: the wrenches that they carry are loads like any other.
+
+use super::assembly::Assembly;
+use super::jacobian::JointAxis;
+use super::kinematics::Kinematics;
+use crate::geometry::{Pose, Vec3};
+use nalgebra::{DMatrix, Matrix3};
+
+/// The mass of a link and its distribution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidBody {
+    /// The mass, kg.
+    pub mass: f64,
+    /// The centre of mass in the link's frame, m.
+    pub com: Vec3,
+    /// The inertia about the centre of mass along the axes of the link's frame, kg·m².
+    pub inertia: Matrix3<f64>,
+}
+
+/// The velocity of a frame, or its derivative by time: of the frame's origin and of its orientation, in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Twist {
+    /// The linear velocity of the origin, m/s; as a derivative its acceleration, m/s².
+    pub linear: Vec3,
+    /// The angular velocity, rad/s; as a derivative the angular acceleration, rad/s².
+    pub angular: Vec3,
+}
+
+/// A force with its moment about a point, in the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wrench {
+    /// The force, N.
+    pub force: Vec3,
+    /// The moment about the point, N·m.
+    pub moment: Vec3,
+}
+
+/// The motion of a robot at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionState<'a> {
+    /// The world poses of all links, by their numbers.
+    pub poses: &'a [Pose],
+    /// The velocity of the base's frame.
+    pub base: Twist,
+    /// The acceleration of the base's frame.
+    pub base_acceleration: Twist,
+    /// The velocity of each joint by [`JointId`](super::JointId), rad/s or m/s. Those of mimics are not read.
+    pub velocities: &'a [f64],
+    /// The acceleration of each joint, rad/s² or m/s².
+    pub accelerations: &'a [f64],
+}
+
+/// The forces that a motion needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InverseDynamics {
+    /// The wrench that the surroundings must exert on the robot; the moment is about the origin of the base's frame.
+    pub base: Wrench,
+    /// The torque or force of each joint by [`JointId`](super::JointId), N·m or N; 0 for mimics, whose share is in
+    /// the joints that they follow.
+    pub efforts: Vec<f64>,
+}
+
+/// A step of the kinematics at an instant: its axis, and the motion that its joint gives to what it carries.
+#[derive(Clone, Copy, Debug)]
+struct MovingStep {
+    axis: Option<JointAxis>,
+    velocity: f64,
+    acceleration: f64,
+}
+
+/// A robot compiled for dynamics.
+#[derive(Clone, Debug)]
+pub struct Dynamics {
+    bodies: Vec<RigidBody>,
+}
+
+impl Dynamics {
+    /// Returns the dynamics of a robot, whose links are numbered as in its [`Kinematics`].
+    pub fn new(robot: &Assembly) -> Dynamics {
+        let mut bodies = Vec::new();
+        for module in 0..robot.modules.len() {
+            bodies.extend(robot.module_type(module).links.iter().map(|link| {
+                let [xx, yy, zz, xy, xz, yz] = link.inertia;
+                let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+                RigidBody { mass: link.mass, com: link.com, inertia }
+            }));
+        }
+        Dynamics { bodies }
+    }
+
+    /// Returns the rigid body of each link, by its number.
+    pub fn bodies(&self) -> &[RigidBody] {
+        &self.bodies
+    }
+
+    /// Returns the forces that a motion needs under `gravity` (m/s², the vector of free fall) where nothing else acts.
+    /// Panics if a slice of `state` is shorter than the robot's links or joints.
+    pub fn inverse(&self, kinematics: &Kinematics, state: &MotionState, gravity: &Vec3) -> InverseDynamics {
+        let root = kinematics.link(kinematics.root, 0);
+        let origin = state.poses[root].translation.vector;
+        let mut motion = vec![(Twist::default(), Twist::default()); self.bodies.len()];
+        motion[root] = (state.base, state.base_acceleration);
+        let mut wrenches = vec![Wrench::default(); self.bodies.len()];
+        wrenches[root] = self.needed(root, &state.poses[root], &motion[root], gravity, &origin);
+        for step in &kinematics.steps {
+            let moving = MovingStep {
+                axis: step.joint_axis(state.poses),
+                velocity: step.terms().iter().map(|&(joint, factor)| factor * state.velocities[joint]).sum(),
+                acceleration: step
+                    .terms()
+                    .iter()
+                    .map(|&(joint, factor)| factor * state.accelerations[joint])
+                    .sum(),
+            };
+            let (p_A, p_B) = (position(state.poses, step.parent), position(state.poses, step.link));
+            motion[step.link] = carried(&motion[step.parent], &moving, &p_A, &p_B);
+            let pose = &state.poses[step.link];
+            wrenches[step.link] = self.needed(step.link, pose, &motion[step.link], gravity, &origin);
+        }
+        let mut efforts = vec![0.0; kinematics.joint_count()];
+        for step in kinematics.steps.iter().rev() {
+            let wrench = wrenches[step.link];
+            if let Some(axis) = step.joint_axis(state.poses) {
+                let effort = along(&axis, &wrench, &origin);
+                step.terms().iter().for_each(|&(joint, factor)| efforts[joint] += factor * effort);
+            }
+            let parent = &mut wrenches[step.parent];
+            parent.force += wrench.force;
+            parent.moment += wrench.moment;
+        }
+        InverseDynamics { base: wrenches[root], efforts }
+    }
+
+    /// Returns the wrench about `origin` that one body needs for its motion under gravity.
+    fn needed(
+        &self,
+        link: usize,
+        pose: &Pose,
+        (v, a): &(Twist, Twist),
+        gravity: &Vec3,
+        origin: &Vec3,
+    ) -> Wrench {
+        let body = &self.bodies[link];
+        let R = *pose.rotation.to_rotation_matrix().matrix();
+        let r = R * body.com;
+        let inertia = R * body.inertia * R.transpose();
+        let acceleration = a.linear + a.angular.cross(&r) + v.angular.cross(&v.angular.cross(&r));
+        let force = (acceleration - gravity) * body.mass;
+        let spin = inertia * a.angular + v.angular.cross(&(inertia * v.angular));
+        Wrench { force, moment: spin + (pose.translation.vector + r - origin).cross(&force) }
+    }
+
+    /// Returns the symmetric mass matrix M (6 + n square, n joints): the kinetic energy is `½ uᵀ M u` with u the linear
+    /// velocity of the base's origin (m/s, rows 0 to 2), its angular velocity (rad/s, rows 3 to 5), both in the world,
+    /// and the velocities of the joints by [`JointId`](super::JointId). Rows of mimics and fixed joints are zero.
+    /// `poses` are the world poses of all links.
+    pub fn mass_matrix(&self, kinematics: &Kinematics, poses: &[Pose]) -> DMatrix<f64> {
+        let root = kinematics.link(kinematics.root, 0);
+        let origin = position(poses, root);
+        let mut composites = vec![Composite::default(); self.bodies.len()];
+        composites[root] = self.composite(root, &poses[root], &origin);
+        for step in &kinematics.steps {
+            composites[step.link] = self.composite(step.link, &poses[step.link], &origin);
+        }
+        for step in kinematics.steps.iter().rev() {
+            let carried = composites[step.link];
+            composites[step.parent].add(&carried);
+        }
+        let n = 6 + kinematics.joint_count();
+        let mut matrix = DMatrix::zeros(n, n);
+        matrix.fixed_view_mut::<6, 6>(0, 0).copy_from(&composites[root].matrix());
+        for step in &kinematics.steps {
+            let Some(axis) = step.joint_axis(poses) else { continue };
+            let (linear, angular) = axis.velocity(&origin);
+            let momentum = composites[step.link].momentum(&linear, &angular);
+            let mut ancestor = Some(step);
+            while let Some(above) = ancestor {
+                if let Some(axis) = above.joint_axis(poses) {
+                    let value = along(&axis, &momentum, &origin);
+                    for &(i, f) in above.terms() {
+                        for &(j, g) in step.terms() {
+                            matrix[(6 + i, 6 + j)] += f * g * value;
+                            if above.link != step.link {
+                                matrix[(6 + j, 6 + i)] += f * g * value;
+                            }
+                        }
+                    }
+                }
+                ancestor = kinematics.step(above.parent);
+            }
+            for &(joint, factor) in step.terms() {
+                for axis in 0..3 {
+                    for (row, value) in [(axis, momentum.force[axis]), (3 + axis, momentum.moment[axis])] {
+                        matrix[(row, 6 + joint)] += factor * value;
+                        matrix[(6 + joint, row)] += factor * value;
+                    }
+                }
+            }
+        }
+        matrix
+    }
+
+    fn composite(&self, link: usize, pose: &Pose, origin: &Vec3) -> Composite {
+        let body = &self.bodies[link];
+        let R = *pose.rotation.to_rotation_matrix().matrix();
+        let d = pose.translation.vector + R * body.com - origin;
+        let shifted = (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * body.mass;
+        Composite {
+            mass: body.mass,
+            first: d * body.mass,
+            inertia: R * body.inertia * R.transpose() + shifted,
+        }
+    }
+}
+
+/// Bodies that move as one: mass (kg), first moment of mass (kg·m) and inertia (kg·m²) about the origin.
+#[derive(Clone, Copy, Debug, Default)]
+struct Composite {
+    mass: f64,
+    first: Vec3,
+    inertia: Matrix3<f64>,
+}
+
+impl Composite {
+    fn add(&mut self, other: &Composite) {
+        self.mass += other.mass;
+        self.first += other.first;
+        self.inertia += other.inertia;
+    }
+
+    /// Returns the momentum (N·s) and the angular momentum about the origin (N·m·s) with the velocity `linear` of the
+    /// origin (m/s) and the angular velocity `angular` (rad/s).
+    fn momentum(&self, linear: &Vec3, angular: &Vec3) -> Wrench {
+        Wrench {
+            force: linear * self.mass + angular.cross(&self.first),
+            moment: self.first.cross(linear) + self.inertia * angular,
+        }
+    }
+
+    fn matrix(&self) -> nalgebra::Matrix6<f64> {
+        let mut matrix = nalgebra::Matrix6::zeros();
+        matrix.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(self.mass);
+        let cross = self.first.cross_matrix();
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&-cross);
+        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&cross);
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.inertia);
+        matrix
+    }
+}
+
+fn position(poses: &[Pose], link: usize) -> Vec3 {
+    poses[link].translation.vector
+}
+
+/// Returns the part of a wrench about `origin` that does work along a joint: N·m about its axis, or N along it.
+pub fn along(axis: &JointAxis, wrench: &Wrench, origin: &Vec3) -> f64 {
+    match axis {
+        JointAxis::Revolute { axis, point } => {
+            axis.dot(&(wrench.moment - (point - origin).cross(&wrench.force)))
+        }
+        JointAxis::Prismatic { axis } => axis.dot(&wrench.force),
+    }
+}
+
+/// Returns velocity and acceleration of a link with its origin at `p_B` from those of its parent with its origin at
+/// `p_A`.
+fn carried((v_A, a_A): &(Twist, Twist), step: &MovingStep, p_A: &Vec3, p_B: &Vec3) -> (Twist, Twist) {
+    // The frame that moves with the parent through the child's origin.
+    let through = |p: &Vec3| {
+        let r = p - p_A;
+        let v = v_A.linear + v_A.angular.cross(&r);
+        let a = a_A.linear + a_A.angular.cross(&r) + v_A.angular.cross(&v_A.angular.cross(&r));
+        (v, a)
+    };
+    match step.axis {
+        None => {
+            let (v, a) = through(p_B);
+            (Twist { linear: v, angular: v_A.angular }, Twist { linear: a, angular: a_A.angular })
+        }
+        Some(JointAxis::Prismatic { axis }) => {
+            let (v, a) = through(p_B);
+            let slide = axis * step.velocity;
+            let acceleration = axis * step.acceleration + v_A.angular.cross(&slide) * 2.0;
+            (
+                Twist { linear: v + slide, angular: v_A.angular },
+                Twist { linear: a + acceleration, angular: a_A.angular },
+            )
+        }
+        Some(JointAxis::Revolute { axis, point }) => {
+            let (v, a) = through(&point);
+            let spin = axis * step.velocity;
+            let angular = v_A.angular + spin;
+            let angular_acceleration = a_A.angular + axis * step.acceleration + v_A.angular.cross(&spin);
+            let d = p_B - point;
+            let v = v + angular.cross(&d);
+            let a = a + angular_acceleration.cross(&d) + angular.cross(&angular.cross(&d));
+            (Twist { linear: v, angular }, Twist { linear: a, angular: angular_acceleration })
+        }
+    }
+}
