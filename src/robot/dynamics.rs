@@ -102,38 +102,103 @@ impl Dynamics {
     /// Panics if a slice of `state` is shorter than the robot's links or joints.
     pub fn inverse(&self, kinematics: &Kinematics, state: &MotionState, gravity: &Vec3) -> InverseDynamics {
         let root = kinematics.link(kinematics.root, 0);
-        let origin = state.poses[root].translation.vector;
+        let origin = position(state.poses, root);
+        let mut wrenches = self.link_wrenches(kinematics, state, gravity, &origin);
+        let efforts = self.efforts(kinematics, state.poses, &mut wrenches, &origin);
+        InverseDynamics { base: wrenches[root], efforts }
+    }
+
+    /// Returns the wrench that each link needs for its own motion under `gravity` (m/s²), about the point `origin` (m),
+    /// by the numbers of the links; zero for loose ones. Panics if a slice of `state` is too short.
+    pub fn link_wrenches(
+        &self,
+        kinematics: &Kinematics,
+        state: &MotionState,
+        gravity: &Vec3,
+        origin: &Vec3,
+    ) -> Vec<Wrench> {
+        let root = kinematics.link(kinematics.root, 0);
         let mut motion = vec![(Twist::default(), Twist::default()); self.bodies.len()];
         motion[root] = (state.base, state.base_acceleration);
         let mut wrenches = vec![Wrench::default(); self.bodies.len()];
-        wrenches[root] = self.needed(root, &state.poses[root], &motion[root], gravity, &origin);
+        wrenches[root] = self.needed(root, &state.poses[root], &motion[root], gravity, origin);
         for step in &kinematics.steps {
+            let sum = |of: &[f64]| step.terms().iter().map(|&(joint, factor)| factor * of[joint]).sum();
             let moving = MovingStep {
                 axis: step.joint_axis(state.poses),
-                velocity: step.terms().iter().map(|&(joint, factor)| factor * state.velocities[joint]).sum(),
-                acceleration: step
-                    .terms()
-                    .iter()
-                    .map(|&(joint, factor)| factor * state.accelerations[joint])
-                    .sum(),
+                velocity: sum(state.velocities),
+                acceleration: sum(state.accelerations),
             };
             let (p_A, p_B) = (position(state.poses, step.parent), position(state.poses, step.link));
             motion[step.link] = carried(&motion[step.parent], &moving, &p_A, &p_B);
             let pose = &state.poses[step.link];
-            wrenches[step.link] = self.needed(step.link, pose, &motion[step.link], gravity, &origin);
+            wrenches[step.link] = self.needed(step.link, pose, &motion[step.link], gravity, origin);
         }
+        wrenches
+    }
+
+    /// Returns the effort of each joint by [`JointId`](super::JointId), N·m or N, that carries a wrench on each link,
+    /// about the point `origin` (m). On return `wrenches` holds for each link the sum over all that it carries. `poses` are
+    /// the world poses of all links.
+    pub fn efforts(
+        &self,
+        kinematics: &Kinematics,
+        poses: &[Pose],
+        wrenches: &mut [Wrench],
+        origin: &Vec3,
+    ) -> Vec<f64> {
         let mut efforts = vec![0.0; kinematics.joint_count()];
         for step in kinematics.steps.iter().rev() {
             let wrench = wrenches[step.link];
-            if let Some(axis) = step.joint_axis(state.poses) {
-                let effort = along(&axis, &wrench, &origin);
+            if let Some(axis) = step.joint_axis(poses) {
+                let effort = along(&axis, &wrench, origin);
                 step.terms().iter().for_each(|&(joint, factor)| efforts[joint] += factor * effort);
             }
             let parent = &mut wrenches[step.parent];
             parent.force += wrench.force;
             parent.moment += wrench.moment;
         }
-        InverseDynamics { base: wrenches[root], efforts }
+        efforts
+    }
+
+    /// Returns the momentum of the robot (N·s) and its angular momentum about the point `origin` (N·m·s), as force and
+    /// moment, with the velocity `base` of the base's frame and the velocities of the joints (rad/s or m/s). `poses` are the
+    /// world poses of all links.
+    pub fn momentum(
+        &self,
+        kinematics: &Kinematics,
+        poses: &[Pose],
+        base: &Twist,
+        velocities: &[f64],
+        origin: &Vec3,
+    ) -> Wrench {
+        let root = kinematics.link(kinematics.root, 0);
+        let mut motion = vec![Twist::default(); self.bodies.len()];
+        motion[root] = *base;
+        let mut sum = self.momentum_of(root, &poses[root], base, origin);
+        for step in &kinematics.steps {
+            let moving = MovingStep {
+                axis: step.joint_axis(poses),
+                velocity: step.terms().iter().map(|&(joint, factor)| factor * velocities[joint]).sum(),
+                acceleration: 0.0,
+            };
+            let (p_A, p_B) = (position(poses, step.parent), position(poses, step.link));
+            let still = Twist::default();
+            motion[step.link] = carried(&(motion[step.parent], still), &moving, &p_A, &p_B).0;
+            let own = self.momentum_of(step.link, &poses[step.link], &motion[step.link], origin);
+            sum.force += own.force;
+            sum.moment += own.moment;
+        }
+        sum
+    }
+
+    fn momentum_of(&self, link: usize, pose: &Pose, v: &Twist, origin: &Vec3) -> Wrench {
+        let body = &self.bodies[link];
+        let R = *pose.rotation.to_rotation_matrix().matrix();
+        let r = R * body.com;
+        let force = (v.linear + v.angular.cross(&r)) * body.mass;
+        let spin = R * body.inertia * R.transpose() * v.angular;
+        Wrench { force, moment: spin + (pose.translation.vector + r - origin).cross(&force) }
     }
 
     /// Returns the wrench about `origin` that one body needs for its motion under gravity.
