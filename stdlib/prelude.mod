@@ -1567,6 +1567,8 @@ extern type World {
   ground: Text
   /// A factor on the friction of every link.
   friction: Number
+  /// `statics` or `full`.
+  dynamics: Text
 }
 
 /// Surroundings for `plan` and `verify`.
@@ -1575,6 +1577,11 @@ extern type World {
 /// keeps the base where it is, on the ground, which carries what stands on it. With `held` the base
 /// module's body is held fast where it is drawn, as if bolted down: that alone carries the robot, and
 /// there is nothing else around it. `off` lets the robot float.
+///
+/// `dynamics` is the assumption under which forces and travel are judged. Under `statics` every instant is judged at rest:
+/// there is no inertia, and the ground's forces are the best that friction allows. Under `full`, servos and contacts yield,
+/// links have inertia, what slides is dragged, and torque keeps a reserve of 15 %: it says more of what will happen,
+/// and refuses more.
 ///
 /// Example:
 /// ```modl
@@ -1585,6 +1592,7 @@ extern fn world(
   ground: settle | fixed | held | off = settle,
   gravity: off | Acceleration = 9.80665m/s^2,
   friction: Number = 1,
+  dynamics: statics | full = statics,
 ) -> World
 
 /// The positions of all joints, the bonds, and where the robot is.

@@ -3,7 +3,8 @@
 use super::report::Declaration;
 use crate::plan::facts::Facts;
 use crate::plan::{
-    self, Cause, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
+    self, Cause, DynamicsModel, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status,
+    Verdict,
 };
 use crate::units::Dimension;
 use crate::units::{number, quantity};
@@ -25,8 +26,9 @@ pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
         line(
             &mut out,
             &format!(
-                "from {from}: gravity {gravity}m/s^2, {ground}, friction x {}",
-                number(world.world.friction)
+                "from {from}: gravity {gravity}m/s^2, {ground}, friction x {}, {}",
+                number(world.world.friction),
+                assumption(plan.body.dynamics(&world.world))
             ),
         );
     }
@@ -52,6 +54,15 @@ pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     }
     verdict.failures.iter().for_each(|failure| failure_lines(&mut out, failure, plan));
     out
+}
+
+/// Returns what a model of dynamics assumes.
+fn assumption(dynamics: DynamicsModel) -> &'static str {
+    match dynamics {
+        DynamicsModel::Statics => "statics: at rest at every instant",
+        DynamicsModel::Full => "full dynamics",
+        DynamicsModel::Kinodynamic => "cells that accelerate within their force",
+    }
 }
 
 /// The most differences of one declaration that are listed; the rest are counted.

@@ -9,7 +9,7 @@ use super::design::Instance;
 use super::record::{Record, StateValue};
 use super::value::{Behavior, Callable, ConditionValue, JointValue, Mesh, PortValue, Solid, Value};
 use crate::geometry::{HeightField, Pose, Vec3};
-use crate::plan::{Ground, World};
+use crate::plan::{DynamicsModel, Ground, World};
 use std::rc::Rc;
 
 /// The type of a parameter as its native reads it, to be compared with the declared type.
@@ -132,6 +132,11 @@ impl Choice for Off {
 impl Choice for Ground {
     const WORDS: &'static [(&'static str, Ground)] =
         &[("settle", Ground::Settle), ("fixed", Ground::Fixed), ("held", Ground::Held), ("off", Ground::Off)];
+}
+
+impl Choice for DynamicsModel {
+    const WORDS: &'static [(&'static str, DynamicsModel)] =
+        &[("statics", DynamicsModel::Statics), ("full", DynamicsModel::Full)];
 }
 
 /// A parameter of a native: its name, and the type that it is read as.

@@ -151,6 +151,7 @@ const WORLD: &[Field<World>] = &[
     ("gravity", |world| Value::Quantity(world.gravity, Dimension::ACCELERATION)),
     ("ground", |world| Value::text(world.ground.word())),
     ("friction", |world| Value::number(world.friction)),
+    ("dynamics", |world| Value::text(world.dynamics.word())),
 ];
 
 const FRAME: &[Field<Record>] = &[

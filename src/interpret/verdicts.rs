@@ -74,7 +74,8 @@ fn failure_code(kind: CheckKind) -> Code {
         CheckKind::Connectedness => code::FALLS_APART,
         CheckKind::Closure => code::CLOSURE,
         CheckKind::Ground => code::PENETRATION,
-        CheckKind::Stability => code::FALL,
+        CheckKind::Stability | CheckKind::Balance => code::FALL,
+        CheckKind::Traction => code::TRAVEL_UNDETERMINED,
         CheckKind::Slip => code::UNSTABLE,
         CheckKind::Rest => code::NOT_AT_REST,
     }

@@ -15,7 +15,7 @@ use crate::interpret::record::StateValue;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{self, CauseId, Ground, Node, Plan, Provenance, Settings, Stability, World};
+use crate::plan::{self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World};
 use crate::robot::{Assembly, State};
 use crate::source::{Diagnostic, Span, code, files};
 use crate::view;
@@ -30,7 +30,11 @@ pub(super) const TABLE: &[Native] = &[
         parameters![what: &Value, file: &str, sample: Positive, unstable_for: f64, stability: Stability],
         emit,
     ),
-    Native::pure("world", parameters![ground: Ground, gravity: WordOr<Off, f64>, friction: f64], world),
+    Native::pure(
+        "world",
+        parameters![ground: Ground, gravity: WordOr<Off, f64>, friction: f64, dynamics: DynamicsModel],
+        world,
+    ),
     Native::on_run(
         "plan",
         parameters![behavior: &Rc<Behavior>, from: Option<&StateValue>, world: Option<World>],
@@ -83,6 +87,7 @@ fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         WordOr::Value(gravity) => gravity,
     };
     let friction = call.get::<f64>("friction")?;
+    let dynamics: DynamicsModel = call.get("dynamics")?;
     if gravity < 0.0 {
         return Err(call.refuse("gravity", "gravity acts downwards, so it can't be negative"));
     }
@@ -95,7 +100,7 @@ fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
             "without gravity nothing rests on the ground: `ground: off`, `held` or `fixed`",
         ));
     }
-    Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction }))))
+    Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction, dynamics }))))
 }
 
 fn planned_value(planned: Option<Rc<PlanValue>>) -> Value {

@@ -8,7 +8,7 @@ use super::program::Node;
 use super::stages::{self, CellBox, Stages};
 use super::stated::Stated;
 use super::tracks::{self, Remap, Tracks};
-use super::world::DynamicsModel;
+use super::world::{DynamicsModel, World};
 use crate::robot::{Library, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -110,10 +110,11 @@ impl Body {
         }
     }
 
-    /// Returns the dynamics that plans of this family are judged under.
-    pub fn dynamics(&self) -> DynamicsModel {
+    /// Returns the dynamics that plans of this family are judged under in a world.
+    pub fn dynamics(&self, world: &World) -> DynamicsModel {
         match self {
-            Body::Tracks(_) | Body::NodePaths(_) => DynamicsModel::Statics,
+            Body::Tracks(_) => world.dynamics,
+            Body::NodePaths(_) => DynamicsModel::Statics,
             Body::Stages(_) => DynamicsModel::Kinodynamic,
         }
     }

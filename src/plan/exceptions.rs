@@ -4,7 +4,7 @@ use super::cause::Cause;
 use super::listing::listed;
 use super::motion_plan::Plan;
 use super::verdict::{CheckKind, Verdict};
-use super::world::ExemptionKind;
+use super::world::{DynamicsModel, ExemptionKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The beginning of the name of a file of the standard library.
@@ -18,7 +18,9 @@ pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
         return "not verified".to_owned();
     }
     let excused = excused(plan, verdict);
-    if excused.is_empty() { "verified".to_owned() } else { format!("verified, except {}", listed(&excused)) }
+    let full = plan.worlds.iter().any(|from| plan.body.dynamics(&from.world) == DynamicsModel::Full);
+    let verified = if full { "verified under full dynamics" } else { "verified" };
+    if excused.is_empty() { verified.to_owned() } else { format!("{verified}, except {}", listed(&excused)) }
 }
 
 /// Returns each check of which a verdict needed an exemption, with the lines that allow it.

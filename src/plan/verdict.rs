@@ -42,6 +42,10 @@ pub enum CheckKind {
     Rest,
     /// A lattice needs no external force or moment.
     Momentum,
+    /// Forces of the ground exist that hold the robot in motion.
+    Balance,
+    /// Friction determines the travel.
+    Traction,
 }
 
 impl CheckKind {
@@ -64,6 +68,8 @@ impl CheckKind {
             CheckKind::Slip => "slip",
             CheckKind::Rest => "rest",
             CheckKind::Momentum => "momentum",
+            CheckKind::Balance => "balance",
+            CheckKind::Traction => "traction",
         }
     }
 }

@@ -29,6 +29,9 @@ pub struct World {
     pub ground: Ground,
     /// The factor on the coefficient of friction of every link, without unit; not negative.
     pub friction: f64,
+    /// The dynamics of articulated robots: statics or full. Robots of other families have their own
+    /// ([`Body::dynamics`](super::Body::dynamics)), and do not read it.
+    pub dynamics: DynamicsModel,
 }
 
 /// The dynamics that a plan is judged under: the assumed relation of forces and motion. Later versions add models;
@@ -38,6 +41,8 @@ pub struct World {
 pub enum DynamicsModel {
     /// Every instant is judged at rest: weight and contacts balance, inertia is left out.
     Statics,
+    /// Inertia, friction of sliding contacts, and servos that yield decide forces and travel.
+    Full,
     /// Cells accelerate within their force along each axis, and momentum is kept; there is no weight.
     Kinodynamic,
 }
@@ -46,6 +51,7 @@ impl std::fmt::Display for DynamicsModel {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             DynamicsModel::Statics => "statics",
+            DynamicsModel::Full => "full",
             DynamicsModel::Kinodynamic => "kinodynamic",
         })
     }
@@ -53,7 +59,8 @@ impl std::fmt::Display for DynamicsModel {
 
 impl World {
     /// The world in which nothing pulls, and there is no ground.
-    pub const FREE: World = World { gravity: 0.0, ground: Ground::Off, friction: 1.0 };
+    pub const FREE: World =
+        World { gravity: 0.0, ground: Ground::Off, friction: 1.0, dynamics: DynamicsModel::Statics };
 
     /// Returns true if there is ground under the robot: for [`Ground::Settle`] and [`Ground::Fixed`].
     pub fn has_floor(&self) -> bool {
@@ -63,7 +70,7 @@ impl World {
 
 impl Default for World {
     fn default() -> World {
-        World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0 }
+        World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0, dynamics: DynamicsModel::Statics }
     }
 }
 

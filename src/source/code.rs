@@ -100,6 +100,7 @@ codes! {
     UNSTABLE = "E0609", "a robot that is not stable";
     CLOSURE = "E0610", "a closed loop that is torn";
     NOT_VERIFIED = "E0611", "a plan that could not be verified";
+    TRAVEL_UNDETERMINED = "E0612", "a travel that friction does not determine";
     // E07xx: plan files and output.
     OUTSIDE_OUTPUT = "E0701", "an output path that leads out of the output folder";
     CANNOT_WRITE = "E0702", "a file that cannot be written";

@@ -262,7 +262,7 @@ fn lattices_are_judged_in_their_own_world_and_within_their_cells_limits() {
     let plan = plan_of(stages_of(accordion(TERMS, 9).expect("there is a way"), PAPER));
     let heavy = Plan { worlds: vec![WorldFrom { from: 0.0, world: World::default() }], ..plan.clone() };
     assert_eq!(kinds(&verify(&heavy)), [CheckKind::Form]);
-    let settling = World { gravity: 0.0, ground: Ground::Settle, friction: 1.0 };
+    let settling = World { gravity: 0.0, ground: Ground::Settle, ..World::default() };
     let grounded = Plan { worlds: vec![WorldFrom { from: 0.0, world: settling }], ..plan.clone() };
     assert_eq!(kinds(&verify(&grounded)), [CheckKind::Form]);
     for change in [

@@ -44,7 +44,7 @@ fn rich() -> Plan {
     let joined =
         Change::Joined { at: 1.0, renamed: vec![("a".into(), "b".into())], appended: vec![Change::Reversed] };
     plan.provenance.history = vec![joined, Change::ProgramDropped("why".into())];
-    let world = World { ground: Ground::Off, gravity: 0.0, friction: 0.1 + 0.2 };
+    let world = World { ground: Ground::Off, gravity: 0.0, friction: 0.1 + 0.2, ..World::default() };
     plan.worlds.push(WorldFrom { from: 1.0 / 3.0, world });
     plan.exemptions.push(Exemption {
         kind: ExemptionKind::Overload(None),

@@ -106,18 +106,26 @@ pub(super) struct Header {
     pub(super) version: Option<u32>,
 }
 
+/// Returns the dynamics that a world assumes of articulated robots, of those that a file states: other families have
+/// their own.
+fn articulated(stated: DynamicsModel) -> DynamicsModel {
+    match stated {
+        DynamicsModel::Full => DynamicsModel::Full,
+        DynamicsModel::Statics | DynamicsModel::Kinodynamic => DynamicsModel::Statics,
+    }
+}
+
 impl<'a> PlanJson<'a> {
     /// Returns the form of a plan; it borrows what is large.
     pub(super) fn of(plan: &'a Plan) -> PlanJson<'a> {
         let names = plan.body.tracks().map(|tracks| RobotNames::of(&tracks.robot));
-        let dynamics = plan.body.dynamics();
         let world = |w: &WorldFrom| WorldFromJson {
             from: w.from,
             world: WorldJson {
                 gravity: w.world.gravity,
                 ground: w.world.ground,
                 friction: w.world.friction,
-                dynamics,
+                dynamics: plan.body.dynamics(&w.world),
             },
         };
         let exemption = |e: &Exemption| ExemptionJson {
@@ -167,9 +175,10 @@ impl<'a> PlanJson<'a> {
         let plan = self.into_plan()?;
         validate(&plan)?;
         names.check(&PlanJson::of(&plan).names())?;
-        let judged = plan.body.dynamics();
-        match dynamics.into_iter().find(|stated| *stated != judged) {
-            Some(stated) => Err(PlanFault::Dynamics { stated, judged }),
+        let judged = |world: &World| plan.body.dynamics(world);
+        let worlds = plan.worlds.iter().map(|from| judged(&from.world));
+        match dynamics.into_iter().zip(worlds).find(|(stated, judged)| stated != judged) {
+            Some((stated, judged)) => Err(PlanFault::Dynamics { stated, judged }),
             None => Ok(plan),
         }
     }
@@ -177,7 +186,12 @@ impl<'a> PlanJson<'a> {
     fn into_plan(self) -> Result<Plan, PlanFault> {
         let world = |w: WorldFromJson| WorldFrom {
             from: w.from,
-            world: World { gravity: w.world.gravity, ground: w.world.ground, friction: w.world.friction },
+            world: World {
+                gravity: w.world.gravity,
+                ground: w.world.ground,
+                friction: w.world.friction,
+                dynamics: articulated(w.world.dynamics),
+            },
         };
         let exemption = |e: ExemptionJson| Exemption { kind: e.kind, from: e.from, to: e.to, cause: e.cause };
         let program = self.program.map(ProgramJson::into_program).transpose()?;

@@ -47,8 +47,12 @@ pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mu
         if failure.kind == CheckKind::Form {
             continue;
         }
+        // Loads in motion depend on all that moves.
+        let dynamic = [CheckKind::Torque, CheckKind::BondLoad, CheckKind::Balance, CheckKind::Traction];
+        let together = rollout.is_full() && dynamic.contains(&failure.kind);
         sought += 1;
-        if sought <= FAILURES_MAX && ![CheckKind::JointRange, CheckKind::Collision].contains(&failure.kind) {
+        let alone = !together && sought <= FAILURES_MAX;
+        if alone && ![CheckKind::JointRange, CheckKind::Collision].contains(&failure.kind) {
             for suspect in suspects.iter().take(TRIED_MAX) {
                 let named = failure.blame.contains(&suspect.cause);
                 if !named && removes(rollout, checkpoints, suspect, failure) {

@@ -2,7 +2,8 @@
 //!
 //! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials;
 //! docking, from the poses at the instants of docking; then one rollout of the plan over the ground, from sample to
-//! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base;
+//! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base, or,
+//! under full dynamics, the loads along the recorded attitudes;
 //! collisions, by conservative advancement; and last the blame for the failures.
 
 mod tolerances;
@@ -23,6 +24,8 @@ mod stance;
 
 mod rollout;
 mod sampling;
+
+mod dynamics;
 
 mod base_motion;
 mod contact_forces;
@@ -112,6 +115,8 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
     let mut base_motion = base_motion::Monitor::new(rollout.tolerances);
     let mut torque = torque::Monitor::new(rollout.tolerances);
+    let full = rollout.is_full();
+    let mut recorder = dynamics::Recorder::default();
     let ended = roll_out(*rollout, None, rollout.tracks.duration, &mut |sample, checkpoint| {
         if checkpoints.next_is_kept() {
             checkpoints.keep(checkpoint());
@@ -121,7 +126,11 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
             ledger.fail(loss.failure());
         }
         base_motion.observe(sample, ledger);
-        torque.observe(sample, ledger);
+        if full {
+            recorder.observe(sample);
+        } else {
+            torque.observe(sample, ledger);
+        }
         true
     });
     if let Some(loss) = standing.end(rollout.tracks.duration) {
@@ -131,9 +140,13 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
         ledger.fail(limit_reached(rollout.settings, features, time));
     }
     ledger.verdict.samples = checkpoints.seen();
-    torque.between(&fixed_base::prove(rollout), rollout);
-    torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
-    torque.finish(ledger);
+    if full {
+        dynamics::Course::new(rollout, recorder).judge(ledger);
+    } else {
+        torque.between(&fixed_base::prove(rollout), rollout);
+        torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
+        torque.finish(ledger);
+    }
     standing.finish(ledger);
     let names = |link| link_name(rollout, link);
     base_motion.finish(names, ledger);

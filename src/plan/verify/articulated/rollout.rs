@@ -4,13 +4,17 @@
 //! follows from the sample before.
 
 use super::contact;
+use super::dynamics::{GroundStep, Traction};
 use super::model::{Model, Posture};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
-use crate::plan::{DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom};
+use crate::plan::{
+    DockingKind, DynamicsModel, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom,
+};
+use crate::robot::dynamics::Dynamics;
 use crate::units::{Dimension, quantity};
 
 /// A plan to roll out, with settings and tolerances. The plan must be valid.
@@ -42,6 +46,11 @@ impl<'a> Rollout<'a> {
             tolerances,
             held: None,
         }
+    }
+
+    /// Returns true if the plan is judged under full dynamics: in one of its worlds, and then in all.
+    pub(super) fn is_full(&self) -> bool {
+        self.worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full)
     }
 }
 
@@ -76,6 +85,9 @@ pub struct Sample<'a> {
     /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
     /// samples.
     pub settling: Option<f64>,
+    /// The length of the way so far, and the distance from its end at which it would end with other friction, m; both 0
+    /// under statics.
+    pub ways: (f64, f64),
 }
 
 /// A loss of support: the robot tips over an edge of its support polygon.
@@ -131,6 +143,8 @@ pub struct Checkpoint {
     /// The stance at that time.
     pub stance: Stance,
     held_since: Option<f64>,
+    /// The state of travel; `None` under statics.
+    traction: Option<Traction>,
 }
 
 struct Stepper<'a> {
@@ -144,6 +158,8 @@ struct Stepper<'a> {
     poses: Vec<Pose>,
     world: World,
     held_since: Option<f64>,
+    /// The state of travel and the masses of the robot; `None` under statics.
+    traction: Option<(Traction, Dynamics)>,
     samples: usize,
 }
 
@@ -199,7 +215,11 @@ impl<'a> Stepper<'a> {
             }
         };
         let held_since = from.and_then(|w| w.held_since);
-        Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, samples: 0 }
+        let traction = rollout.is_full().then(|| {
+            let known = from.and_then(|checkpoint| checkpoint.traction.clone());
+            (known.unwrap_or_default(), Dynamics::new(&tracks.robot))
+        });
+        Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, traction, samples: 0 }
     }
 
     /// Observes the first sample.
@@ -303,11 +323,25 @@ impl<'a> Stepper<'a> {
             self.held_since = hold.then_some(tip.time);
             step.tip = Some(tip);
         }
+        let (R, pose) = (self.stance.R, self.stance.planar_pose);
         if hold {
             self.stance = self.stance.holding(&self.model, attempt, tolerances);
         } else {
             (self.stance, step.slips) = self.stance.settled(&self.model, attempt, tolerances);
             self.held_since = None;
+        }
+        if let Some((traction, dynamics)) = &mut self.traction {
+            let ground = GroundStep {
+                rollout: &self.rollout,
+                model: &self.model,
+                dynamics,
+                world: &self.world,
+                before: self.now,
+                time: t,
+                R_before: &R,
+                R: &self.stance.R,
+            };
+            (self.stance.planar_pose, step.slips) = traction.advance(&ground, &pose);
         }
         Some(step)
     }
@@ -417,9 +451,14 @@ impl<'a> Stepper<'a> {
             tip: step.tip.as_ref(),
             slips: &step.slips,
             settling: step.settling,
+            ways: self.traction.as_ref().map_or((0.0, 0.0), |(traction, _)| traction.ways()),
         };
-        let checkpoint =
-            || Checkpoint { time: self.now, stance: self.stance.clone(), held_since: self.held_since };
+        let checkpoint = || Checkpoint {
+            time: self.now,
+            stance: self.stance.clone(),
+            held_since: self.held_since,
+            traction: self.traction.as_ref().map(|(traction, _)| traction.clone()),
+        };
         observe(&sample, &checkpoint)
     }
 }

@@ -5,9 +5,10 @@
 //! force and a moment about a point there, and the cut holds these. Every load that has a limit is a sum of such
 //! cuts, linear in the forces.
 
+use super::ground_features::Mat3;
 use super::model::Model;
 use super::stance::Stance;
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
 use crate::robot::{JointId, JointKind, PortRef};
 use crate::robot::{Motion, Step};
 use nalgebra::DMatrix;
@@ -129,6 +130,17 @@ impl Structure {
     pub(super) fn sections(&self, stance: &Stance) -> Vec<Section> {
         let R = |link: usize| stance.R * stance.posture.R[link];
         let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
+        self.sections_in(&R, &p)
+    }
+
+    /// Returns all cuts with the links at these poses in level axes about the centre of mass.
+    pub(super) fn sections_at(&self, poses: &[Pose]) -> Vec<Section> {
+        let R = |link: usize| *poses[link].rotation.to_rotation_matrix().matrix();
+        let p = |link: usize| poses[link].translation.vector;
+        self.sections_in(&R, &p)
+    }
+
+    fn sections_in(&self, R: &dyn Fn(usize) -> Mat3, p: &dyn Fn(usize) -> Vec3) -> Vec<Section> {
         self.cuts
             .iter()
             .map(|cut| match *cut {

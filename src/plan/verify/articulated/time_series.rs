@@ -3,6 +3,7 @@
 //! The rollout is the judge's own. A time between two of its samples is reached by one more step from the sample
 //! before, so that the choice of times does not change the rollout.
 
+use super::dynamics::{Course, Recorder};
 use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
 use super::tolerances::Tolerances;
@@ -62,7 +63,16 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     }
     let tolerances = Tolerances::default();
     let rollout = Rollout::of(plan, tracks, &tolerances);
+    let mut recorder = Recorder::default();
+    let full = rollout.is_full() && detail == Detail::Loads;
+    if full {
+        roll_out(rollout, None, tracks.duration, &mut |sample, _| {
+            recorder.observe(sample);
+            true
+        });
+    }
     let mut gauge = Gauge {
+        course: full.then(|| Course::new(&rollout, recorder)),
         plan,
         detail,
         torque: torque::Monitor::new(&tolerances),
@@ -94,6 +104,8 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
 
 /// Reads the quantities of samples from the judge's monitors.
 struct Gauge<'a> {
+    /// The loads in motion; `None` under statics, and where loads were not requested.
+    course: Option<Course<'a>>,
     plan: &'a Plan,
     detail: Detail,
     torque: torque::Monitor<'a>,
@@ -105,10 +117,15 @@ impl Gauge<'_> {
         // Of each sample by itself: no worst value of others decides how closely forces are sought.
         let mut ledger = Ledger::new(&self.plan.exemptions, self.plan.body.duration());
         let unknown = || JudgedLoads { efforts: vec![None; sample.joints.len()], forces: None };
-        let loads = match self.detail {
-            Detail::Loads => self.torque.read(sample, &mut ledger).unwrap_or_else(unknown),
-            Detail::Stance => unknown(),
+        let loads = match (&self.course, self.detail) {
+            (Some(course), _) => course.read(sample.time).map(|(efforts, forces)| JudgedLoads {
+                efforts: efforts.into_iter().map(Some).collect(),
+                forces: Some(forces),
+            }),
+            (None, Detail::Loads) => self.torque.read(sample, &mut ledger),
+            (None, Detail::Stance) => None,
         };
+        let loads = loads.unwrap_or_else(unknown);
         let planar_pose = sample.stance.planar_pose;
         let (s, c) = libm::sincos(planar_pose.yaw);
         let turned = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);

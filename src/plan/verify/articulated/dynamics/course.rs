@@ -1,0 +1,478 @@
+//! Loads along a rollout, with inertia and friction: of joints, motors and bonds against their limits, and of contacts
+//! against the balance of the robot.
+
+use super::super::ground_features::Mat3;
+use super::super::model::Model;
+use super::super::rollout::{Rollout, Sample};
+use super::super::statics::{LoadKind, Structure, Wrench as LinkWrench};
+use super::bursts::Bursts;
+use super::equilibrium::{self, Equilibrium, Warm};
+use super::overload::Overload;
+use super::posed::{Posed, Situation};
+use super::tolerances::PARAMETERS;
+use crate::geometry::Vec3;
+use crate::plan::verify::ledger::{Ledger, keep_least};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
+use crate::robot::dynamics::{Dynamics, Twist};
+use crate::units::{Dimension, number, quantity};
+use std::collections::VecDeque;
+
+/// The attitude of the robot at an instant, as settling found it.
+#[derive(Clone, Copy)]
+struct Recorded {
+    time: f64,
+    R: Mat3,
+    /// The heading of the level axes in the world, rad.
+    yaw: f64,
+    /// The index of its bonds in [`Recorder::bonds`].
+    bonds: usize,
+    world: World,
+}
+
+/// Gathers the attitudes of a rollout, at most one for each stretch of time.
+#[derive(Default)]
+pub(in super::super) struct Recorder {
+    recorded: Vec<Recorded>,
+    bonds: Vec<Vec<bool>>,
+    ways: (f64, f64),
+    samples: usize,
+}
+
+impl Recorder {
+    /// Takes a sample.
+    pub(in super::super) fn observe(&mut self, sample: &Sample) {
+        self.samples += 1;
+        self.ways = sample.ways;
+        let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
+        let bonds = known.unwrap_or_else(|| {
+            self.bonds.push(sample.bonds.to_vec());
+            self.bonds.len() - 1
+        });
+        let near = |last: &Recorded| {
+            sample.time - last.time < PARAMETERS.spacing_least
+                && last.bonds == bonds
+                && last.world == *sample.world
+        };
+        if !self.recorded.last().is_some_and(near) {
+            self.recorded.push(Recorded {
+                time: sample.time,
+                R: sample.stance.R,
+                yaw: sample.stance.planar_pose.yaw,
+                bonds,
+                world: *sample.world,
+            });
+        }
+    }
+}
+
+/// Returns the recorded attitudes with further ones at these times (s, ascending), each that of the last before it.
+fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recorded> {
+    let mut all: Vec<Recorded> = Vec::with_capacity(recorded.len() + times.len());
+    let mut times = times.iter().copied().peekable();
+    for instant in recorded {
+        while let Some(time) = times.next_if(|time| *time < instant.time) {
+            if let Some(last) = all.last().filter(|last| last.time < time) {
+                let between = Recorded { time, ..*last };
+                all.push(between);
+            }
+        }
+        all.push(instant);
+    }
+    all
+}
+
+/// The robot with bonds that hold, compiled for loads.
+struct Compiled<'a> {
+    model: Model<'a>,
+    structure: Structure,
+}
+
+/// The course of loads along a rollout.
+pub(in super::super) struct Course<'a> {
+    rollout: &'a Rollout<'a>,
+    instants: Vec<Recorded>,
+    ways: (f64, f64),
+    bursts: Bursts,
+    /// The window of each instant, s.
+    windows: Vec<f64>,
+    dynamics: Dynamics,
+    compiled: Vec<Compiled<'a>>,
+    /// Velocity and acceleration of the base's frame at each instant, in its level axes.
+    motions: Vec<(Twist, Twist)>,
+}
+
+/// The loads of one instant.
+struct Loaded {
+    /// The load at every cut of the structure, N or N·m.
+    held: Vec<f64>,
+    /// The effort of each joint, N·m or N.
+    efforts: Vec<f64>,
+    /// The forces of the ground, from the centre of mass in level axes.
+    ground: Vec<LinkWrench>,
+    imbalance: f64,
+    open: bool,
+    slides: bool,
+}
+
+impl<'a> Course<'a> {
+    /// Returns the course of a rollout whose attitudes were recorded: the motion of the base that friction gives it at
+    /// rest from instant to instant, and its accelerations.
+    pub(in super::super) fn new(rollout: &'a Rollout<'a>, recorder: Recorder) -> Course<'a> {
+        let robot = &rollout.tracks.robot;
+        let compile = |bonds: &Vec<bool>| {
+            let model = Model::new(robot, bonds);
+            Compiled { structure: Structure::new(&model), model }
+        };
+        let compiled = recorder.bonds.iter().map(compile).collect();
+        let bursts = Bursts::new(rollout.tracks);
+        let instants = with_instants(recorder.recorded, &bursts.instants());
+        let windows = instants.iter().map(|instant| bursts.window(instant.time)).collect();
+        let (dynamics, ways) = (Dynamics::new(robot), recorder.ways);
+        let mut course =
+            Course { rollout, instants, ways, bursts, windows, dynamics, compiled, motions: vec![] };
+        course.motions = course.base_motions();
+        course
+    }
+
+    fn posed(&self, index: usize) -> Posed<'_> {
+        let recorded = &self.instants[index];
+        let model = &self.compiled[recorded.bonds].model;
+        let at = (recorded.time, self.windows[index]);
+        Posed::new(model, &self.dynamics, self.rollout, at, &recorded.R)
+    }
+
+    fn base_motions(&self) -> Vec<(Twist, Twist)> {
+        let recorded = &self.instants;
+        let mut warm = Warm::default();
+        let mut velocities: Vec<Twist> = Vec::with_capacity(recorded.len());
+        for (index, instant) in recorded.iter().enumerate() {
+            crate::interrupt::checkpoint();
+            if index > 0 && recorded[index - 1].bonds != instant.bonds {
+                warm = Warm::default();
+            }
+            if instant.world.ground != Ground::Settle || instant.world.gravity == 0.0 {
+                velocities.push(Twist::default());
+                continue;
+            }
+            let posed = self.posed(index);
+            let situation = Situation::at_rest(&posed, &instant.world);
+            let found = equilibrium::solve(&situation, None, &mut warm);
+            let twist = found.map_or(Twist::default(), |found| posed.of_base(&found.twist));
+            velocities.push(turned(&twist, instant.yaw));
+        }
+        let motion = |(index, instant): (usize, &Recorded)| {
+            let window = self.windows[index];
+            let half = window / 2.0;
+            let (before, after) =
+                (self.at(&velocities, instant.time - half), self.at(&velocities, instant.time + half));
+            let acceleration = Twist {
+                linear: (after.linear - before.linear) / window,
+                angular: (after.angular - before.angular) / window,
+            };
+            (turned(&velocities[index], -instant.yaw), turned(&acceleration, -instant.yaw))
+        };
+        recorded.iter().enumerate().map(motion).collect()
+    }
+
+    /// Returns the velocity of the base at a time (s), between those of the instants; zero before the start and after the
+    /// end.
+    fn at(&self, velocities: &[Twist], time: f64) -> Twist {
+        let recorded = &self.instants;
+        let next = recorded.partition_point(|r| r.time <= time);
+        if next == 0 || next == recorded.len() {
+            return Twist::default();
+        }
+        let (a, b) = (&recorded[next - 1], &recorded[next]);
+        let part = (time - a.time) / (b.time - a.time);
+        let mix = |x: &Vec3, y: &Vec3| x * (1.0 - part) + y * part;
+        let (from, to) = (&velocities[next - 1], &velocities[next]);
+        Twist { linear: mix(&from.linear, &to.linear), angular: mix(&from.angular, &to.angular) }
+    }
+
+    /// Returns the loads of an instant: in motion, or as if the robot stood still in it. `None` where they can't be found.
+    fn loads(&self, index: usize, moving: bool, friction: f64, warm: &mut Warm) -> Option<Loaded> {
+        let recorded = &self.instants[index];
+        let Compiled { model, structure } = &self.compiled[recorded.bonds];
+        let posed = self.posed(index);
+        let world = World { friction: recorded.world.friction * friction, ..recorded.world };
+        let situation = match moving {
+            true => Situation::moving(&posed, &world, &self.motions[index]),
+            false => Situation::at_rest(&posed, &world),
+        };
+        let Equilibrium { loads, friction, open, slides, .. } = equilibrium::solve(&situation, None, warm)?;
+        let zero = Vec3::zeros();
+        let mut wrenches: Vec<LinkWrench> = situation
+            .needed
+            .iter()
+            .map(|(link, w)| LinkWrench { link: *link, p: zero, f: -w.force, m: -w.moment })
+            .collect();
+        let pushed = situation.candidates.iter().zip(&loads.normal).zip(&friction);
+        let pushed = pushed.filter(|((_, normal), _)| **normal > 0.0).map(|((candidate, normal), (_, f))| {
+            LinkWrench { link: candidate.link, p: candidate.p, f: f + Vec3::z() * *normal, m: zero }
+        });
+        let ground: Vec<LinkWrench> = pushed.collect();
+        wrenches.extend_from_slice(&ground);
+        for (closing, w) in situation.loops.iter().zip(&loads.bonds) {
+            let (f, m) = (Vec3::new(w[0], w[1], w[2]), Vec3::new(w[3], w[4], w[5]));
+            let [a, b] = closing.sides;
+            wrenches.push(LinkWrench { link: a, p: closing.p, f, m });
+            wrenches.push(LinkWrench { link: b, p: closing.p, f: -f, m: -m });
+        }
+        let held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
+        Some(Loaded { held, efforts: loads.efforts, ground, imbalance: loads.imbalance, open, slides })
+    }
+
+    /// Returns the effort of each joint (N·m or N) at a time (s), between those of the instants about it, and the forces of
+    /// the ground at the nearer one, from the centre of mass in level axes. `None` where they can't be found, and for a
+    /// robot that floats.
+    pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
+        let recorded = &self.instants;
+        let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
+        let last = recorded.len().checked_sub(1)?;
+        let (a, b) = (next - 1, next.min(last));
+        if [a, b].iter().any(|&index| recorded[index].world.ground == Ground::Off) {
+            return None;
+        }
+        let span = recorded[b].time - recorded[a].time;
+        let part = if span > 0.0 { ((time - recorded[a].time) / span).clamp(0.0, 1.0) } else { 0.0 };
+        let of = |index: usize| self.loads(index, true, 1.0, &mut Warm::default());
+        let (from, to) = (of(a)?, of(b)?);
+        let efforts = from.efforts.iter().zip(&to.efforts).map(|(x, y)| x + part * (y - x)).collect();
+        Some((efforts, if part < 0.5 { from.ground } else { to.ground }))
+    }
+
+    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors.
+    pub(in super::super) fn judge(&self, ledger: &mut Ledger) {
+        let mut found = Findings::default();
+        let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
+        let mut warm = Warm::default();
+        let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
+        for (index, recorded) in self.instants.iter().enumerate() {
+            crate::interrupt::checkpoint();
+            if recorded.world.ground == Ground::Off {
+                continue;
+            }
+            if index > 0 && self.instants[index - 1].bonds != recorded.bonds {
+                warm = Warm::default();
+                window.clear();
+            }
+            found.instants += 1;
+            let Some(loaded) = self.loads(index, true, 1.0, &mut warm) else {
+                found.unknown += 1;
+                window.clear();
+                continue;
+            };
+            found.open += usize::from(loaded.open);
+            if loaded.slides {
+                found.slides.get_or_insert(recorded.time);
+            }
+            self.work(index, &loaded, &mut before, &mut found);
+            window.push_back((recorded.time, index, loaded));
+            while window.front().is_some_and(|(t, _, _)| recorded.time - t > self.windows[index]) {
+                window.pop_front();
+            }
+            self.compare(&window, &mut found, ledger);
+        }
+        for overload in std::mem::take(&mut found.overloads) {
+            let failure = self.explained(overload);
+            ledger.fail(failure);
+        }
+        self.finish(&found, ledger);
+    }
+
+    /// Compares the mean loads of a window with their limits.
+    fn compare(&self, window: &VecDeque<(f64, usize, Loaded)>, found: &mut Findings, ledger: &mut Ledger) {
+        let count = window.len() as f64;
+        let (time, middle, _) = &window[window.len() / 2];
+        let structure = &self.compiled[self.instants[*middle].bonds].structure;
+        let cuts = window[0].2.held.len();
+        let mean: Vec<f64> =
+            (0..cuts).map(|cut| window.iter().map(|(_, _, l)| l.held[cut]).sum::<f64>() / count).collect();
+        for (index, load) in structure.loads.iter().enumerate() {
+            let value = structure.size(load, &mean);
+            let ratio = value / load.limit;
+            let joint = match load.kind {
+                LoadKind::Joint { joint, .. } => Some(joint),
+                LoadKind::Pull | LoadKind::Moment => None,
+            };
+            let worst = match joint {
+                Some(_) => &mut ledger.verdict.torque_margin,
+                None => &mut ledger.verdict.bond_margin,
+            };
+            found.stated[usize::from(joint.is_none())] = true;
+            keep_least(worst, 1.0 - ratio, *time, || vec![load.name.clone()]);
+            if ratio <= 1.0 - PARAMETERS.reserve {
+                continue;
+            }
+            let of = |kind: &ExemptionKind| match (kind, joint) {
+                (ExemptionKind::Overload(only), Some(joint)) => only.is_none_or(|j| j as usize == joint),
+                _ => false,
+            };
+            if joint.is_some() && ledger.excuses(CheckKind::Torque, *time, of) {
+                continue;
+            }
+            match found.overloads.iter_mut().find(|o| o.name == load.name && o.kind == load.kind) {
+                Some(over) => over.grow(value, *time, *middle),
+                None => found.overloads.push(Overload::new(load, index, value, *time, *middle)),
+            }
+        }
+        let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
+        if imbalance > PARAMETERS.imbalance_max && self.bursts.near_step(*time) {
+            found.stepped = true;
+        } else if imbalance > PARAMETERS.imbalance_max {
+            let since = found.unbalanced.map_or(*time, |u| u.0);
+            let worst = found.unbalanced.map_or(0.0, |u| u.2);
+            found.unbalanced = Some((since, *time, imbalance.max(worst)));
+        }
+    }
+
+    /// Adds the positive work of the motors since the instant before; negative work is not regained.
+    fn work(
+        &self,
+        index: usize,
+        loaded: &Loaded,
+        before: &mut Option<(Vec<f64>, Vec<f64>)>,
+        found: &mut Findings,
+    ) {
+        let mut joints = Vec::new();
+        super::super::rollout::positions(self.rollout, self.instants[index].time, &mut joints);
+        if let Some((was, efforts)) = before {
+            for joint in 0..joints.len() {
+                let mean = (efforts[joint] + loaded.efforts[joint]) / 2.0;
+                found.energy += (mean * (joints[joint] - was[joint])).max(0.0);
+            }
+        }
+        *before = Some((joints, loaded.efforts.clone()));
+    }
+
+    /// Returns the failure of an overload, with its shares by origin.
+    fn explained(&self, overload: Overload) -> Failure {
+        let structure = &self.compiled[self.instants[overload.instant].bonds].structure;
+        let load = &structure.loads[overload.load];
+        let size = |moving, friction| {
+            let loaded = self.loads(overload.instant, moving, friction, &mut Warm::default())?;
+            Some(structure.size(load, &loaded.held))
+        };
+        // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
+        let shares = size(false, 0.0).zip(size(false, 1.0));
+        overload.failure(shares)
+    }
+
+    fn finish(&self, found: &Findings, ledger: &mut Ledger) {
+        ledger.verdict.energy = found.energy;
+        if let Some((since, until, worst)) = found.unbalanced {
+            ledger.fail(Failure {
+                kind: CheckKind::Balance,
+                time: since,
+                until: Some(until),
+                at: vec![],
+                message: format!(
+                    "no forces of the ground hold the robot in motion: {} of its weight is not balanced, so it tips",
+                    number(libm::round(worst * 1e3) / 1e3)
+                ),
+                value: worst,
+                limit: PARAMETERS.imbalance_max,
+                blame: vec![],
+                blames_start: false,
+            });
+        }
+        let (way, away) = self.ways;
+        if away > PARAMETERS.way_undetermined * way && away > PARAMETERS.way_uncertain_min {
+            ledger.fail(Failure {
+                kind: CheckKind::Traction,
+                time: 0.0,
+                until: Some(self.rollout.tracks.duration),
+                at: vec![],
+                message: format!(
+                    "the travel is not determined: {}, but {} elsewhere if contacts that slide had 1.25 times the \
+                     friction and the others 0.8 times",
+                    quantity(way, Dimension::LENGTH),
+                    quantity(away, Dimension::LENGTH)
+                ),
+                value: away,
+                limit: PARAMETERS.way_undetermined * way,
+                blame: vec![],
+                blames_start: false,
+            });
+        } else if away > PARAMETERS.way_uncertain * way && away > PARAMETERS.way_uncertain_min {
+            ledger.note(format!(
+                "the travel of {} ends {} elsewhere if contacts that slide have 1.25 times the friction and the others 0.8 \
+                 times",
+                quantity(way, Dimension::LENGTH),
+                quantity(away, Dimension::LENGTH)
+            ));
+        }
+        if let Some(step) = self.bursts.steps().first() {
+            let robot = &self.rollout.tracks.robot;
+            let owner = robot.joints().nth(step.joint);
+            let more = self.bursts.steps().len() - 1;
+            let name = owner.map_or_else(String::new, |owner| robot.joint_name(owner));
+            ledger.note(format!(
+                "{name} changes its speed at once at {}{}: its torque is judged as if over 50 ms",
+                quantity(step.time, Dimension::TIME),
+                if more > 0 { format!(" (and {more} more)") } else { String::new() }
+            ));
+        }
+        if let Some(time) = found.slides {
+            ledger.note(format!(
+                "from {} on the motion needs more friction than there is: the robot slides",
+                quantity(time, Dimension::TIME)
+            ));
+        }
+        if found.open > 0 {
+            ledger.note(format!(
+                "at {} of {} instants loads and friction did not come to agree: several answers are possible",
+                found.open, found.instants
+            ));
+        }
+        let sampled = |stated: bool| match found.instants {
+            0 => Status::NotChecked("a robot that floats is not judged under full dynamics".to_owned()),
+            _ if found.unknown > 0 => Status::NotChecked(format!(
+                "at {} of {} instants no loads were found",
+                found.unknown, found.instants
+            )),
+            _ if !stated => Status::NoLimit,
+            instants => Status::Sampled(instants),
+        };
+        ledger.check(CheckKind::Torque, sampled(found.stated[0]));
+        ledger.check(CheckKind::BondLoad, sampled(found.stated[1]));
+        ledger.check(
+            CheckKind::Balance,
+            match found.stepped {
+                true => Status::NotChecked("a step of velocity may lift the robot".to_owned()),
+                false => sampled(true),
+            },
+        );
+        ledger.check(CheckKind::Traction, sampled(true));
+        if self.compiled.iter().any(|compiled| compiled.structure.motors_open) {
+            ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
+        }
+    }
+}
+
+/// What is found from instant to instant.
+#[derive(Default)]
+struct Findings {
+    instants: usize,
+    /// Instants at which no loads were found.
+    unknown: usize,
+    /// Instants at which loads and friction did not agree.
+    open: usize,
+    /// The first time at which friction can't carry the inertial force, s.
+    slides: Option<f64>,
+    /// Begin and end (s) of what is not balanced, and the greatest part of the weight.
+    unbalanced: Option<(f64, f64, f64)>,
+    /// True if the robot is not balanced near a step of velocity.
+    stepped: bool,
+    overloads: Vec<Overload>,
+    /// True if joints state limits; true if bonds do.
+    stated: [bool; 2],
+    energy: f64,
+}
+
+/// Returns a twist in axes turned back by `yaw` (rad) about the vertical: from level axes to those of the world.
+fn turned(twist: &Twist, yaw: f64) -> Twist {
+    let (s, c) = libm::sincos(yaw);
+    let turn = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
+    Twist { linear: turn(&twist.linear), angular: turn(&twist.angular) }
+}

@@ -1,0 +1,119 @@
+//! The equilibrium of an instant: loads and friction that belong together, as the fixed point of the two.
+
+use super::loads::{self, Loads};
+use super::posed::{Candidate, Situation};
+use super::tolerances::PARAMETERS;
+use super::twist::{self, Momentum, TwistProblem};
+use crate::geometry::Vec3;
+use crate::robot::dynamics::Twist;
+use nalgebra::Vector3;
+
+/// The forces and the twist of an instant.
+#[derive(Clone, Debug)]
+pub(super) struct Equilibrium {
+    /// The twist of the body at the centre of mass.
+    pub twist: Twist,
+    /// The loads.
+    pub loads: Loads,
+    /// The slip at each candidate, m/s, and the friction on it, N.
+    pub friction: Vec<(Vec3, Vec3)>,
+    /// True if rounds ended before twist and loads agreed.
+    pub open: bool,
+    /// True if the inertial force is more than friction can carry.
+    pub slides: bool,
+}
+
+/// The memory from one instant to the next.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Warm {
+    /// The twist.
+    pub twist: Twist,
+    /// The load of each point of a feature, N.
+    pub loads: Vec<((usize, u8), f64)>,
+}
+
+/// Returns the equilibrium; `None` where the loads can't be found. `momentum`: the planar momentum, with which friction
+/// decides the twist in time; without it the inertial force of the situation is a load on friction.
+pub(super) fn solve(
+    situation: &Situation,
+    momentum: Option<Momentum>,
+    warm: &mut Warm,
+) -> Option<Equilibrium> {
+    let candidates = &situation.candidates;
+    let known = |c: &Candidate| warm.loads.iter().find(|(f, _)| *f == c.feature).map(|(_, load)| *load);
+    let mut loads: Vec<f64> = candidates.iter().map(|c| known(c).unwrap_or(0.0)).collect();
+    let mut passive: Vec<bool> = loads.iter().map(|load| *load > 0.0).collect();
+    passive.resize(candidates.len() + 6 * situation.loops.len(), true);
+    let none = vec![Vec3::zeros(); candidates.len()];
+    if loads.iter().sum::<f64>() < PARAMETERS.load_guess_min * situation.weight {
+        loads = loads::solve(situation, &none, &mut passive)?.normal;
+    }
+    if !situation.free {
+        let loads = loads::solve(situation, &none, &mut passive)?;
+        let twist = Twist::default();
+        return Some(Equilibrium { twist, loads, friction: vec![], open: false, slides: false });
+    }
+    let mut relaxation = 1.0;
+    let mut found = None;
+    for _ in 0..PARAMETERS.rounds_max {
+        let capacity: f64 = candidates.iter().zip(&loads).map(|(c, load)| c.friction * load).sum();
+        let (needed, slides) = match momentum {
+            Some(_) => (Vector3::zeros(), false),
+            None => carried(situation, capacity),
+        };
+        let problem = problem(situation, &loads, needed, momentum);
+        let twist = twist::solve(&problem, &warm.twist);
+        warm.twist = twist;
+        let friction = twist::friction(&problem, &twist);
+        let forces: Vec<Vec3> = friction.iter().map(|(_, force)| *force).collect();
+        let next = loads::solve(situation, &forces, &mut passive)?;
+        let change: f64 = next.normal.iter().zip(&loads).map(|(a, b)| (a - b).abs()).sum();
+        let open = change > PARAMETERS.load_change * situation.weight;
+        for (load, next) in loads.iter_mut().zip(&next.normal) {
+            *load += relaxation * (next - *load);
+        }
+        relaxation = (relaxation * PARAMETERS.relaxation).max(PARAMETERS.relaxation_min);
+        found = Some(Equilibrium { twist, loads: next, friction, open, slides });
+        if !open {
+            break;
+        }
+    }
+    warm.loads = candidates.iter().zip(&loads).map(|(c, load)| (c.feature, *load)).collect();
+    found
+}
+
+/// Returns the twist that friction gives under these loads of the candidates (N), found from the guess `before`.
+pub(super) fn twist_under(
+    situation: &Situation,
+    loads: &[f64],
+    momentum: Option<Momentum>,
+    before: &Twist,
+) -> Twist {
+    twist::solve(&problem(situation, loads, Vector3::zeros(), momentum), before)
+}
+
+fn problem<'a>(
+    situation: &'a Situation,
+    loads: &'a [f64],
+    needed: Vector3<f64>,
+    momentum: Option<Momentum>,
+) -> TwistProblem<'a> {
+    let velocities = &situation.posed.velocities;
+    TwistProblem {
+        candidates: &situation.candidates,
+        by_joints: situation.candidates.iter().map(|c| c.by_joints(velocities)).collect(),
+        loads,
+        needed,
+        momentum,
+        weight: situation.weight,
+    }
+}
+
+/// Returns what friction has to supply, cut back to what it can, and true if it was.
+fn carried(situation: &Situation, capacity: f64) -> (Vector3<f64>, bool) {
+    let needed = Vector3::new(situation.base.force.x, situation.base.force.y, situation.base.moment.z);
+    // A moment counts by the force at the robot's size.
+    let size = libm::hypot(libm::hypot(needed.x, needed.y), needed.z / situation.size);
+    let most = PARAMETERS.traction_max * capacity;
+    if size > most { (needed * (most / size), true) } else { (needed, false) }
+}

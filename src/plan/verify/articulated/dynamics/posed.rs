@@ -1,0 +1,332 @@
+//! The robot at an instant: poses in level axes about its centre of mass, joints in motion, and the points at which the
+//! ground may bear it.
+
+use super::super::ground_features::{Feature, Form, Mat3};
+use super::super::model::Model;
+use super::super::rollout::Rollout;
+use super::loads::{self, Loop};
+use super::tolerances::PARAMETERS;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::{Ground, World};
+use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
+use crate::robot::jacobian::JointAxis;
+use crate::robot::{JointKind, JointOwner};
+use nalgebra::{Rotation3, UnitQuaternion};
+
+/// A point of the robot that the ground may bear.
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
+    /// The link of the point, by its number among all links.
+    pub link: usize,
+    /// The index of its feature in [`Model::features`], and its number in it.
+    pub feature: (usize, u8),
+    /// The position from the centre of mass in level axes, m.
+    pub p: Vec3,
+    /// The height above the lowest point of the robot, m.
+    pub gap: f64,
+    /// The coefficient of friction.
+    pub friction: f64,
+    /// The velocity of the point for a unit velocity of each joint that moves it, by [`crate::robot::JointId`], with the
+    /// base still.
+    pub columns: Vec<(usize, Vec3)>,
+}
+
+impl Candidate {
+    /// Returns the velocity of the point by the joints alone, m/s; `velocities` are those of all joints.
+    pub(super) fn by_joints(&self, velocities: &[f64]) -> Vec3 {
+        self.columns.iter().map(|(joint, column)| column * velocities[*joint]).sum()
+    }
+
+    /// Returns the velocity of the point by the base alone, m/s; `base` is the velocity of the body at the centre of
+    /// mass.
+    pub(super) fn by_base(&self, base: &Twist) -> Vec3 {
+        base.linear + base.angular.cross(&self.p)
+    }
+}
+
+/// The robot at an instant.
+pub(super) struct Posed<'a> {
+    /// The compiled robot.
+    pub model: &'a Model<'a>,
+    /// Its masses.
+    pub dynamics: &'a Dynamics,
+    /// The poses of all links, in level axes about the centre of mass.
+    pub poses: Vec<Pose>,
+    /// The mean velocities of the joints over the window, rad/s or m/s.
+    pub velocities: Vec<f64>,
+    /// The mean accelerations of the joints over the window, rad/s² or m/s².
+    pub accelerations: Vec<f64>,
+}
+
+impl<'a> Posed<'a> {
+    /// Returns the robot at a time (s) of a rollout, with the base turned by `R` in level axes. Velocities and
+    /// accelerations are means over `window` (s) about that time.
+    pub(super) fn new(
+        model: &'a Model<'a>,
+        dynamics: &'a Dynamics,
+        rollout: &Rollout,
+        (time, window): (f64, f64),
+        R: &Mat3,
+    ) -> Posed<'a> {
+        let tracks = rollout.tracks;
+        let mut joints = tracks.start.joints.clone();
+        let mut velocities = vec![0.0; joints.len()];
+        let mut accelerations = vec![0.0; joints.len()];
+        let (from, to) = (time - window / 2.0, time + window / 2.0);
+        for track in &tracks.tracks {
+            let joint = track.joint.0 as usize;
+            let start = joints[joint];
+            // It is at rest before the start, after the end, and from when it is held.
+            let end = rollout.held.filter(|held| held.0 == joint).map_or(tracks.duration, |held| held.1);
+            let at = |t: f64| track.position(start, t.clamp(0.0, end));
+            let rate = |t: f64| if t >= 0.0 && t < end { track.velocity(t) } else { 0.0 };
+            velocities[joint] = (at(to) - at(from)) / window;
+            accelerations[joint] = (rate(to) - rate(from)) / window;
+            joints[joint] = at(time);
+        }
+        let mut poses = Vec::new();
+        let posture = model.posture(&joints, &mut poses);
+        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*R));
+        let base = Pose::from_parts((-(R * posture.centre)).into(), turn);
+        poses.iter_mut().for_each(|pose| *pose = base * *pose);
+        Posed { model, dynamics, poses, velocities, accelerations }
+    }
+
+    /// Returns the velocity of each joint that moves a point fixed to a link: [`Candidate::columns`].
+    pub(super) fn columns(&self, link: usize, p: &Vec3) -> Vec<(usize, Vec3)> {
+        let mut columns: Vec<(usize, Vec3)> = Vec::new();
+        let mut at = self.model.kinematics.step(link);
+        while let Some(step) = at {
+            if let Some(axis) = step.joint_axis(&self.poses) {
+                let velocity = axis.velocity(p).0;
+                for &(joint, factor) in step.terms() {
+                    match columns.iter_mut().find(|(known, _)| *known == joint) {
+                        Some((_, column)) => *column += velocity * factor,
+                        None => columns.push((joint, velocity * factor)),
+                    }
+                }
+            }
+            at = self.model.kinematics.step(step.parent);
+        }
+        columns
+    }
+
+    /// Returns the efforts of joints by a wrench (N, N·m) that acts on a link at `p`: `(joint, effort)`.
+    pub(super) fn efforts_of(&self, link: usize, p: &Vec3, wrench: &Wrench) -> Vec<(usize, f64)> {
+        let mut efforts = Vec::new();
+        let mut at = self.model.kinematics.step(link);
+        while let Some(step) = at {
+            if let Some(axis) = step.joint_axis(&self.poses) {
+                let effort = match axis {
+                    JointAxis::Revolute { axis, point } => {
+                        axis.dot(&(wrench.moment + (p - point).cross(&wrench.force)))
+                    }
+                    JointAxis::Prismatic { axis } => axis.dot(&wrench.force),
+                };
+                efforts.extend(step.terms().iter().map(|&(joint, factor)| (joint, factor * effort)));
+            }
+            at = self.model.kinematics.step(step.parent);
+        }
+        efforts
+    }
+
+    /// Returns the points that the ground may bear: those near the lowest, at most one for each stretch of each link,
+    /// the lowest first. `friction` is the world's factor.
+    pub(super) fn candidates(&self, friction: f64) -> Vec<Candidate> {
+        let up = Vec3::z();
+        let mut lowest = f64::INFINITY;
+        let mut placed = Vec::new();
+        for (index, feature) in self.model.features.iter().enumerate() {
+            let pose = &self.poses[self.model.link_of[index]];
+            let feature =
+                feature.placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector);
+            let height = feature.lowest(&up);
+            lowest = lowest.min(height);
+            placed.push((height, feature));
+        }
+        let mut near = Vec::new();
+        for (index, (height, feature)) in placed.iter().enumerate() {
+            if height - lowest > PARAMETERS.gap_max {
+                continue;
+            }
+            for k in 0..feature.points() {
+                let p = feature.point(k, &up);
+                if p.z - lowest <= PARAMETERS.gap_max {
+                    near.push((p.z - lowest, self.model.link_of[index], index, k, p));
+                }
+            }
+        }
+        near.extend(self.treads(&placed, lowest));
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3))));
+        let mut kept: Vec<Candidate> = Vec::new();
+        for (gap, link, index, k, p) in near {
+            let crowded = |c: &Candidate| c.link == link && (c.p - p).norm() < PARAMETERS.candidate_distance;
+            if kept.iter().any(crowded) {
+                continue;
+            }
+            let friction = friction * self.model.bodies[link].friction;
+            kept.push(Candidate {
+                link,
+                feature: (index, k),
+                p,
+                gap,
+                friction,
+                columns: self.columns(link, &p),
+            });
+        }
+        kept
+    }
+
+    /// Returns the points in the middle of the lines on which cylinders lie, as `(gap, link, index of the first rim, number,
+    /// point)`. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore it.
+    fn treads(&self, placed: &[(f64, Feature)], lowest: f64) -> Vec<(f64, usize, usize, u8, Vec3)> {
+        let up = Vec3::z();
+        let mut found = Vec::new();
+        for (index, pair) in placed.windows(2).enumerate() {
+            let (Form::Circle(axis, radius), Form::Circle(other, same)) = (pair[0].1.form, pair[1].1.form)
+            else {
+                continue;
+            };
+            let link = self.model.link_of[index];
+            let one = axis == other && radius == same && self.model.link_of[index + 1] == link;
+            let low = pair.iter().all(|(height, _)| height - lowest <= PARAMETERS.gap_max);
+            if one && low {
+                let p = (pair[0].1.point(0, &up) + pair[1].1.point(0, &up)) / 2.0;
+                found.push((p.z - lowest, link, index, pair[0].1.points(), p));
+            }
+        }
+        found
+    }
+
+    /// Returns the twist of the base's own frame from that of the body at the centre of mass.
+    pub(super) fn of_base(&self, at_centre: &Twist) -> Twist {
+        let p = self.poses[self.model.base_link()].translation.vector;
+        Twist { linear: at_centre.linear + at_centre.angular.cross(&p), angular: at_centre.angular }
+    }
+
+    /// Returns the momentum of the motion of the joints with the base still: N·s, and N·m·s about the centre of mass.
+    pub(super) fn momentum(&self) -> Wrench {
+        self.dynamics.momentum(
+            &self.model.kinematics,
+            &self.poses,
+            &Twist::default(),
+            &self.velocities,
+            &Vec3::zeros(),
+        )
+    }
+
+    /// Returns the inertia of the whole robot about the vertical through the centre of mass, kg·m².
+    pub(super) fn yaw_inertia(&self) -> f64 {
+        let unit = Twist { linear: self.spun(), angular: Vec3::z() };
+        let still = vec![0.0; self.velocities.len()];
+        self.dynamics.momentum(&self.model.kinematics, &self.poses, &unit, &still, &Vec3::zeros()).moment.z
+    }
+
+    /// Returns the velocity of the base's origin when the robot turns about the vertical at 1 rad/s, m/s.
+    fn spun(&self) -> Vec3 {
+        Vec3::z().cross(&self.poses[self.model.base_link()].translation.vector)
+    }
+
+    /// Returns the wrench that each attached link needs for a motion under gravity (m/s²), about the centre of mass of the
+    /// robot. `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
+    pub(super) fn link_wrenches(
+        &self,
+        motion: Option<&(Twist, Twist)>,
+        gravity: f64,
+    ) -> Vec<(usize, Wrench)> {
+        let still = vec![0.0; self.velocities.len()];
+        let (base, base_acceleration) = motion.copied().unwrap_or_default();
+        let (velocities, accelerations) = match motion {
+            Some(_) => (&self.velocities, &self.accelerations),
+            None => (&still, &still),
+        };
+        let state = MotionState { poses: &self.poses, base, base_acceleration, velocities, accelerations };
+        let down = Vec3::new(0.0, 0.0, -gravity);
+        let all = self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros());
+        self.model.attached.iter().map(|&link| (link, all[link])).collect()
+    }
+
+    /// Returns the effort of each joint that carries these wrenches on links, by [`crate::robot::JointId`].
+    fn efforts(&self, wrenches: &[(usize, Wrench)]) -> Vec<f64> {
+        let mut sums = vec![Wrench::default(); self.poses.len()];
+        wrenches.iter().for_each(|(link, wrench)| sums[*link] = *wrench);
+        self.dynamics.efforts(&self.model.kinematics, &self.poses, &mut sums, &Vec3::zeros())
+    }
+}
+
+/// What is known of an instant before the forces of its contacts are.
+pub(super) struct Situation<'a> {
+    /// The robot.
+    pub posed: &'a Posed<'a>,
+    /// The contacts.
+    pub candidates: Vec<Candidate>,
+    /// The bonds that close loops.
+    pub loops: Vec<Loop>,
+    /// The wrench that each attached link needs, about the centre of mass.
+    pub needed: Vec<(usize, Wrench)>,
+    /// The wrench that the surroundings must exert on the whole robot, about the centre of mass.
+    pub base: Wrench,
+    /// The efforts of the joints without contacts.
+    pub efforts: Vec<f64>,
+    /// The stiffness of each joint, N·m/rad or N/m.
+    pub stiffness: Vec<f64>,
+    /// True if the ground carries the base; false if a fixture does.
+    pub free: bool,
+    /// The weight, N.
+    pub weight: f64,
+    /// The size of the robot on the ground, m.
+    pub size: f64,
+}
+
+impl<'a> Situation<'a> {
+    /// Returns the situation of a robot at rest.
+    pub(super) fn at_rest(posed: &'a Posed<'a>, world: &World) -> Situation<'a> {
+        Situation::new(posed, world, None)
+    }
+
+    /// Returns the situation of a robot in motion, with velocity and acceleration of the base's own frame.
+    pub(super) fn moving(posed: &'a Posed<'a>, world: &World, motion: &(Twist, Twist)) -> Situation<'a> {
+        Situation::new(posed, world, Some(motion))
+    }
+
+    fn new(posed: &'a Posed<'a>, world: &World, motion: Option<&(Twist, Twist)>) -> Situation<'a> {
+        let free = world.ground == Ground::Settle;
+        let candidates = if free { posed.candidates(world.friction) } else { vec![] };
+        let reach = candidates.iter().map(|c| libm::hypot(c.p.x, c.p.y));
+        let size = reach.fold(PARAMETERS.size_min, f64::max);
+        let needed = posed.link_wrenches(motion, world.gravity);
+        let mut base = Wrench::default();
+        for (_, wrench) in &needed {
+            base.force += wrench.force;
+            base.moment += wrench.moment;
+        }
+        Situation {
+            efforts: posed.efforts(&needed),
+            loops: loads::loops(posed),
+            stiffness: stiffness(posed.model),
+            weight: posed.model.mass * world.gravity,
+            posed,
+            candidates,
+            needed,
+            base,
+            free,
+            size,
+        }
+    }
+}
+
+/// Returns the stiffness of each joint, by [`crate::robot::JointId`].
+fn stiffness(model: &Model) -> Vec<f64> {
+    let of = |owner| match owner {
+        JointOwner::Module { module, joint } => {
+            let declared = &model.robot.module_type(module).joints[joint];
+            match declared.kind {
+                _ if declared.passive => PARAMETERS.passive_stiffness,
+                JointKind::Prismatic => PARAMETERS.slide_stiffness,
+                JointKind::Revolute | JointKind::Fixed => PARAMETERS.servo_stiffness,
+            }
+        }
+        JointOwner::Bond(_) => PARAMETERS.servo_stiffness,
+    };
+    model.robot.joints().map(of).collect()
+}

@@ -1,0 +1,125 @@
+//! Parameters of the dynamics of the judge: of contacts and servos, and of the methods that find forces.
+
+/// The model with which forces are determined, with the reason of each default. The stiffnesses matter less than that
+/// there are some: static torques of the robots tried changed by under 2 % in half of the plans, at most 20 %, for servos of
+/// 40 to 600 N·m/rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Parameters {
+    /// The window over which velocities and accelerations are taken and torques averaged, s. 50 ms: what is shorter, a
+    /// servo's yielding takes up.
+    pub window: f64,
+    /// The shortest window, s. 1 ms: the step of a servo's own control.
+    pub window_min: f64,
+    /// The number of windows that a motion must last, or the window is shortened to its part. 4: the acceleration of a
+    /// smooth motion is then within a few percent.
+    pub burst_windows: f64,
+    /// The number of intervals into which a shorter motion is divided. 8: two in each of its quarters.
+    pub burst_instants: u32,
+    /// The speed below which a joint is at rest between two motions, and its greatest jump that counts as none, rad/s or
+    /// m/s. 1e-6: rounding of control points.
+    pub rest_speed: f64,
+    /// The least time between two instants at which forces are determined, s. 10 ms, less rounding.
+    pub spacing_least: f64,
+    /// The greatest height of a candidate for contact above the lowest one, m. 2.5 mm: what the servos' sag can close.
+    pub gap_max: f64,
+    /// The least distance of two candidates of one link, m. 2.5 mm: closer ones bear as one.
+    pub candidate_distance: f64,
+    /// The speed below which friction is viscous rather than Coulomb's, m/s. 1 mm/s: below any travel that counts.
+    pub slip_speed: f64,
+    /// The weight of motion along the normal against slip, without unit. 30: contacts neither sink nor lift.
+    pub normal_weight: f64,
+    /// The weight that keeps the twist unique, in parts of the weight, s/m. 1e-5: far below any friction.
+    pub regularization: f64,
+    /// The part of the friction that an inertial force may use up. 0.97: beyond, the slip has no bound.
+    pub traction_max: f64,
+    /// The stiffness of a servo that turns, N·m/rad: 150, of position servos of the modules' size.
+    pub servo_stiffness: f64,
+    /// The stiffness of a servo that slides, N/m: that of a turning one at a lever of 0.1 m.
+    pub slide_stiffness: f64,
+    /// The stiffness of a joint without a motor against its planned position, N·m/rad or N/m: it bears nothing, but its
+    /// position is planned.
+    pub passive_stiffness: f64,
+    /// The stiffness of a contact, N/m: 1e5, stiffer than the servos.
+    pub contact_stiffness: f64,
+    /// The stiffness of a bond that closes a loop against shifts, N/m: that of a contact.
+    pub bond_stiffness: f64,
+    /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
+    pub bond_turn_stiffness: f64,
+    /// The factor on a contact's stiffness with which the balance of the base is held. 1e3: a thousandth of its softness.
+    pub balance_weight: f64,
+    /// The change of the twist, m/s or rad/s, at which its rounds end.
+    pub twist_change: f64,
+    /// The greatest number of rounds for the twist.
+    pub twist_rounds_max: usize,
+    /// The change of all loads together, in parts of the weight, at which the rounds of twist and loads end.
+    pub load_change: f64,
+    /// The part of the weight below which known loads are no guess of the next ones.
+    pub load_guess_min: f64,
+    /// The greatest number of rounds of twist and loads.
+    pub rounds_max: usize,
+    /// The factor on the relaxation of the loads from round to round.
+    pub relaxation: f64,
+    /// The least relaxation.
+    pub relaxation_min: f64,
+    /// The least and greatest time over which friction acts on planar momentum, s.
+    pub momentum_step: [f64; 2],
+    /// The least size of a robot, to which moments are compared, m.
+    pub size_min: f64,
+    /// The speed from which on a contact counts as sliding, m/s: five times the one below which friction is viscous.
+    pub sliding_speed: f64,
+    /// The factors on friction where contacts slide, and elsewhere, with which the way must stay what it is.
+    pub friction_more: f64,
+    /// The second of them.
+    pub friction_less: f64,
+    /// The part of a way by which it may differ with other friction before it is not determined.
+    pub way_undetermined: f64,
+    /// The part by which it may differ before that is told, ...
+    pub way_uncertain: f64,
+    /// ... if it is at least this, m.
+    pub way_uncertain_min: f64,
+    /// The part of a limit that must be left. 0.15 separates what happens from what does not in 26 of 27 plans tried in
+    /// MuJoCo; 0.2 would refuse four that work.
+    pub reserve: f64,
+    /// The imbalance in parts of the weight above which no loads hold the robot: 2 %.
+    pub imbalance_max: f64,
+}
+
+/// The parameters of every judgement.
+pub(super) const PARAMETERS: Parameters = Parameters {
+    window: 0.05,
+    window_min: 1e-3,
+    burst_windows: 4.0,
+    burst_instants: 8,
+    rest_speed: 1e-6,
+    spacing_least: 0.01 - 1e-6,
+    gap_max: 2.5e-3,
+    candidate_distance: 2.5e-3,
+    slip_speed: 1e-3,
+    normal_weight: 30.0,
+    regularization: 1e-5,
+    traction_max: 0.97,
+    servo_stiffness: 150.0,
+    slide_stiffness: 1.5e4,
+    passive_stiffness: 1e-2,
+    contact_stiffness: 1e5,
+    bond_stiffness: 1e5,
+    bond_turn_stiffness: 1e3,
+    balance_weight: 1e3,
+    twist_change: 1e-6,
+    twist_rounds_max: 80,
+    load_change: 5e-3,
+    load_guess_min: 0.5,
+    rounds_max: 12,
+    relaxation: 0.85,
+    relaxation_min: 0.1,
+    momentum_step: [0.01, 0.015],
+    size_min: 0.05,
+    sliding_speed: 5e-3,
+    friction_more: 1.25,
+    friction_less: 0.8,
+    way_undetermined: 0.5,
+    way_uncertain: 0.1,
+    way_uncertain_min: 0.01,
+    reserve: 0.15,
+    imbalance_max: 0.02,
+};

@@ -1,0 +1,156 @@
+//! Travel over the ground with friction and momentum: the base moves by the twist that the friction of its loaded
+//! contacts gives it.
+
+use super::super::ground_features::Mat3;
+use super::super::minimum_power::PlanarPose;
+use super::super::model::Model;
+use super::super::rollout::Rollout;
+use super::equilibrium::{self, Equilibrium, Warm};
+use super::posed::{Posed, Situation};
+use super::tolerances::PARAMETERS;
+use super::twist::{self, Momentum};
+use crate::geometry::Vec3;
+use crate::plan::World;
+use crate::robot::dynamics::{Dynamics, Twist};
+use nalgebra::{Matrix3, Vector3};
+
+/// The state of travel, which goes on from sample to sample.
+#[derive(Clone, Debug, Default)]
+pub(in super::super) struct Traction {
+    warm: Warm,
+    last: Option<Last>,
+    /// The way by friction that is 1.25 times as great where contacts slide and 0.8 times elsewhere.
+    other: PlanarPose,
+    /// The way that is judged, from the same start.
+    own: PlanarPose,
+}
+
+/// The twist of the last instant at which forces were determined.
+#[derive(Clone, Debug)]
+struct Last {
+    time: f64,
+    bonds: usize,
+    /// Planar momentum of the joints' motion, N·s and N·m·s.
+    carried: Vector3<f64>,
+    /// The twist of the body at the centre of mass.
+    twist: Twist,
+    /// The velocity of the centre of mass (m/s) and the turn (rad/s), and those of the other way.
+    rates: [Vector3<f64>; 2],
+    /// The slip of each loaded link, m/s, and its load in parts of the weight.
+    slips: Vec<(usize, f64, f64)>,
+}
+
+/// A step of the rollout on the ground.
+pub(in super::super) struct GroundStep<'a> {
+    /// The rollout.
+    pub rollout: &'a Rollout<'a>,
+    /// The robot with the bonds that hold.
+    pub model: &'a Model<'a>,
+    /// Its masses.
+    pub dynamics: &'a Dynamics,
+    /// The world.
+    pub world: &'a World,
+    /// The time of the sample before, s.
+    pub before: f64,
+    /// The time of this sample, s.
+    pub time: f64,
+    /// The attitude of the base in level axes at the sample before.
+    pub R_before: &'a Mat3,
+    /// That of this sample.
+    pub R: &'a Mat3,
+}
+
+impl Traction {
+    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load in
+    /// parts of the weight.
+    pub(in super::super) fn advance(
+        &mut self,
+        step: &GroundStep,
+        pose: &PlanarPose,
+    ) -> (PlanarPose, Vec<(usize, f64, f64)>) {
+        let stale = |last: &Last| {
+            step.time - last.time >= PARAMETERS.spacing_least || last.bonds != step.model.attached.len()
+        };
+        if self.last.as_ref().is_none_or(stale) {
+            self.determine(step);
+        }
+        let Some(last) = &self.last else { return (*pose, vec![]) };
+        let dt = step.time - step.before;
+        let drift = yaw_between(step.R_before, step.R);
+        let shift = |rate: &Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
+        let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
+        (self.own, self.other) =
+            (self.own.moved(&shift(&last.rates[0])), self.other.moved(&shift(&last.rates[1])));
+        (pose.moved(&shift(&last.rates[0])), slips)
+    }
+
+    /// Returns the length of the way, m, and the distance from its end at which it ends with other friction, m.
+    pub(in super::super) fn ways(&self) -> (f64, f64) {
+        let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
+        (libm::hypot(self.own.x, self.own.y), away)
+    }
+
+    fn determine(&mut self, step: &GroundStep) {
+        let posed =
+            Posed::new(step.model, step.dynamics, step.rollout, (step.time, PARAMETERS.window), step.R);
+        let situation = Situation::at_rest(&posed, step.world);
+        let (inertia, carried) = planar(&posed);
+        let since = self.last.as_ref().map(|last| step.time - last.time);
+        // After a rest there is no momentum left.
+        let moving = since.is_some_and(|since| since <= PARAMETERS.window);
+        let (was, had) = match &self.last {
+            Some(last) if moving => {
+                let twist = Vector3::new(last.twist.linear.x, last.twist.linear.y, last.twist.angular.z);
+                (twist, last.carried)
+            }
+            _ => (Vector3::zeros(), Vector3::zeros()),
+        };
+        // Without friction momentum stays: what the joints gain, the base loses.
+        let recoil = inertia.try_inverse().map(|inverse| inverse * (carried - had));
+        let free = was - recoil.unwrap_or_else(Vector3::zeros);
+        let [least, most] = PARAMETERS.momentum_step;
+        let duration = since.filter(|_| moving).unwrap_or(least).clamp(least, most);
+        let momentum = Momentum { inertia, free, step: duration };
+        if self.last.as_ref().is_some_and(|last| last.bonds != step.model.attached.len()) {
+            self.warm = Warm::default();
+        }
+        let found = equilibrium::solve(&situation, Some(momentum), &mut self.warm);
+        let Some(Equilibrium { twist, loads, friction, .. }) = found else { return };
+        let by_joints = carried / step.model.mass;
+        let rate = |twist: &Twist| {
+            Vector3::new(twist.linear.x + by_joints.x, twist.linear.y + by_joints.y, twist.angular.z)
+        };
+        let factors = friction.iter().map(|(slip, _)| {
+            if slip.norm() > PARAMETERS.sliding_speed {
+                PARAMETERS.friction_more
+            } else {
+                PARAMETERS.friction_less
+            }
+        });
+        let other: Vec<f64> = loads.normal.iter().zip(factors).map(|(load, factor)| load * factor).collect();
+        let other = equilibrium::twist_under(&situation, &other, Some(momentum), &twist);
+        let weight = situation.weight;
+        self.last = Some(Last {
+            time: step.time,
+            bonds: step.model.attached.len(),
+            carried,
+            rates: [rate(&twist), rate(&other)],
+            twist,
+            slips: twist::slips_by_link(&situation.candidates, &loads.normal, &friction, weight),
+        });
+    }
+}
+
+/// Returns the turn about the vertical from one attitude to another, rad.
+fn yaw_between(from: &Mat3, to: &Mat3) -> f64 {
+    let turn = to * from.transpose();
+    libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)])
+}
+
+/// Returns the composite inertia in x, y and yaw about the centre of mass, and the planar momentum of the joints' motion
+/// with the base still.
+fn planar(posed: &Posed) -> (Matrix3<f64>, Vector3<f64>) {
+    let momentum = posed.momentum();
+    let inertia = Vector3::new(posed.model.mass, posed.model.mass, posed.yaw_inertia());
+    (Matrix3::from_diagonal(&inertia), Vector3::new(momentum.force.x, momentum.force.y, momentum.moment.z))
+}
