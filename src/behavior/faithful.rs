@@ -9,7 +9,8 @@ use crate::units::{Dimension, quantity};
 
 /// Schedules the program of a plan anew and compares the result with the plan's tracks. Returns a failure that names
 /// the first difference, a conflict of the program, or the reason why it can't be scheduled; `None` if they are the
-/// same, and for a plan without a program or without tracks.
+/// same up to rounding, causes and pieces in which nothing moves left out, and for a plan without a program or without
+/// tracks.
 pub fn unfaithful(plan: &Plan) -> Option<Failure> {
     let (Some(program), Some(tracks)) = (&plan.program, plan.body.tracks()) else { return None };
     let joints: Vec<_> = tracks.robot.joints().collect();

@@ -8,8 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A series-parallel graph of actions (Section V-B of the compositional-design paper), as a position-servo
-/// robot executes it.
+/// A series-parallel graph of actions (Section V-B of the compositional-design paper, Tosun, Jing, Kress-Gazit and
+/// Yim), as a position-servo robot executes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// The node that all others are under.

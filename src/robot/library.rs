@@ -1,5 +1,5 @@
-//! Declarations of modules, connectors, cells and struts: Definition IV.1 of the
-//! compositional-design paper, (D, X, A, K), with shapes, masses and limits. SI throughout.
+//! Declarations of modules, connectors, cells and struts: Definition IV.1 of the compositional-design paper (Tosun,
+//! Jing, Kress-Gazit and Yim), (D, X, A, K), with shapes, masses and limits. SI throughout.
 
 use crate::geometry::{Placed, Pose, Vec3};
 use schemars::JsonSchema;

@@ -32,7 +32,7 @@ pub fn verify(plan: &Plan) -> Verdict {
 }
 
 /// Returns the verdict on one state of a robot, judged as a plan that lasts no time, under one world and without
-/// exemptions: Definition V.2 of the compositional-design paper.
+/// exemptions: Definition V.2 of the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim).
 pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &Settings) -> Verdict {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     verify(&Plan::bare(robot.library.clone(), Body::Tracks(tracks), *world, *settings))

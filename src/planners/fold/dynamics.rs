@@ -71,10 +71,10 @@ impl<'t> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm, Eq. 3 and 4) and
-    /// writes them to `torques`, N·m: entry k is that of the hinge between face k and its parent, that of the root is
-    /// 0. `hinging(k)`: the motion of that hinge. Positive torques turn towards positive angles. Panics if `torques`
-    /// has fewer entries than there are faces.
+    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm, Eq. 3 and 4 of the
+    /// [paper](super)) and writes them to `torques`, N·m: entry k is that of the hinge between face k and its parent,
+    /// that of the root is 0. `hinging(k)`: the motion of that hinge. Positive torques turn towards positive angles.
+    /// Panics if `torques` has fewer entries than there are faces.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {
         self.outwards(hinging);
         for &face in self.layout.order[1..].iter().rev() {

@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 
-/// The paper's measure χ of a layout, by the constants of Theorem 1 (Table 5).
+/// The [paper](super)'s measure χ of a layout, by the constants of Theorem 1 (Table 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
     /// λ1: the norm of a panel's inertia tensor, kg·m². The paper's 6.15e-11 amounts to none.
@@ -23,7 +23,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Returns the paper's constants for equal panels of a mass (kg) and side (m).
+    /// Returns the [paper](super)'s constants for equal panels of a mass (kg) and side (m).
     pub fn of_panels(mass: f64, side: f64) -> Measure {
         Measure {
             inertia: 6.15e-11,
@@ -34,7 +34,7 @@ impl Measure {
         }
     }
 
-    /// Returns χ of a layout (Eq. 6, 9, 10) with the leaves folded first, kg·m²; less is better.
+    /// Returns χ of a layout (Eq. 6, 9, 10 of the [paper](super)) with the leaves folded first, kg·m²; less is better.
     ///
     /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
     /// everything below it has folded, nothing above it has.

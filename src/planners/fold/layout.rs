@@ -98,8 +98,8 @@ impl Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
 
-    /// Returns the paper's energy (Eq. 5) with the leaves folded first, N·m for steps of one second: the sum over all
-    /// faces of what the hinges between them and the root cost for them.
+    /// Returns the [paper](super)'s energy (Eq. 5) with the leaves folded first, N·m for steps of one second: the sum
+    /// over all faces of what the hinges between them and the root cost for them.
     pub fn energy(&self, weights: &Weights) -> f64 {
         let mut sum = 0.0;
         for &face in &self.order {

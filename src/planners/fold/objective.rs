@@ -55,7 +55,7 @@ impl Minimise {
     }
 }
 
-/// The conventions under which torques and energy are computed, as far as the paper leaves them open.
+/// The conventions under which torques and energy are computed, as far as the [paper](super) leaves them open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conventions {
     /// The model of how the mass of a panel is spread.

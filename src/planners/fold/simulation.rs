@@ -39,9 +39,9 @@ pub enum Count {
 /// sign.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Simulates a folding in steps by inverse dynamics (Alg. 1): in each step the hinges of its faces go from level to
-/// folded by the quintic law, and all others are locked. `bodies`: one for each face, in the order of
-/// [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold.
+/// Simulates a folding in steps by inverse dynamics (Alg. 1 of the [paper](super)): in each step the hinges of its
+/// faces go from level to folded by the quintic law, and all others are locked. `bodies`: one for each face, in the
+/// order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold.
 pub fn simulate(
     target: &Target,
     layout: &Layout,
@@ -104,8 +104,8 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Returns the energy (Eq. 5), N·m: the sum over all steps of the mean torques of the joints that count. `steps`:
-    /// those that were simulated.
+    /// Returns the energy (Eq. 5 of the [paper](super)), N·m: the sum over all steps of the mean torques of the joints
+    /// that count. `steps`: those that were simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }

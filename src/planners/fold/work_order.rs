@@ -62,8 +62,8 @@ pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     branches.into_iter().map(of_branch).sum()
 }
 
-/// Returns the work of Eq. 17 for an order of all faces but the root (indices in [`Target::faces`]), J, computed step
-/// by step from the poses of all faces; `weights`: by face, N.
+/// Returns the work of Eq. 17 of the [paper](super) for an order of all faces but the root (indices in
+/// [`Target::faces`]), J, computed step by step from the poses of all faces; `weights`: by face, N.
 pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
     let mut folded = vec![false; target.faces.len()];
     let mut height = potential(target, layout, weights, &folded);

@@ -160,10 +160,10 @@ const RELAXATIONS: [Relaxation; 8] = [
     Relaxation { speed: 0.0, level: true, other_hold: false, springs: true },
 ];
 
-/// Returns the motion of a truss whose centre of mass follows a path of points (x, y), m, after sections IV.A
-/// to IV.C of the paper; the first point may be where it is, and an empty path is at its end. `start`: the positions of
-/// the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it, the result is the motion found
-/// so far, and [`Travel::end`] gives the reason.
+/// Returns the motion of a truss whose centre of mass follows a path of points (x, y), m, after sections IV.A to IV.C
+/// of the [paper](crate::planners::truss); the first point may be where it is, and an empty path is at its end.
+/// `start`: the positions of the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it, the
+/// result is the motion found so far, and [`Travel::end`] gives the reason.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own. The points of
 /// the path must be finite, which `plan` checks and this does not.

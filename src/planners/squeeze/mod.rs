@@ -117,7 +117,7 @@ pub struct Problem {
     pub goal: Vec<[i64; 3]>,
 }
 
-/// The settings of `squeeze`, whose defaults are those of the paper.
+/// The settings of `squeeze`, whose defaults are those of the [paper](self).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// The method. Auto: the fastest that the model allows.

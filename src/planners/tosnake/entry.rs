@@ -55,7 +55,7 @@ pub struct Report {
 ///
 /// # Errors
 /// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, torque limits or the budget do
-/// not suffice, the paper's method fails, the steps can't be scheduled, or `progress` ended the search.
+/// not suffice, the [paper](super)'s method fails, the steps can't be scheduled, or `progress` ended the search.
 ///
 /// # Examples
 /// ```

@@ -250,6 +250,6 @@ fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> 
     near.unwrap_or(wanted)
 }
 
-/// Distance of centres, in pitches, below which balls overlap for the paper's program, which rounds squared
-/// distances to three decimals.
+/// Distance of centres, in pitches, below which balls overlap for the program of the [paper](super), which rounds
+/// squared distances to three decimals.
 pub const TOUCHING: f64 = 0.99975;

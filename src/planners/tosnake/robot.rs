@@ -17,7 +17,7 @@ pub const GAMMA: usize = 2;
 pub const DOCKS: usize = 6;
 /// Number of docks of a shoe: +X, -X and -Z, in that order.
 pub const FACES: usize = 3;
-/// Index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the paper's red connector.
+/// Index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the red connector of the [paper](super).
 pub const RED: usize = 2;
 
 /// A dock of a module, numbered through both of its shoes.

@@ -81,8 +81,8 @@ pub struct StepSequence {
 }
 
 /// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its torque limit
-/// during the motion, as far as the planner checks; without one the robot floats. The paper's method, chosen by
-/// [`Settings::collisions`], ignores the gravity model.
+/// during the motion, as far as the planner checks; without one the robot floats. The method of the [paper](super),
+/// chosen by [`Settings::collisions`], ignores the gravity model.
 ///
 /// # Errors
 /// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, the paper's method has tried all

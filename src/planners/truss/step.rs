@@ -77,8 +77,8 @@ pub struct WarmStart {
 }
 
 /// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of the
-/// paper, mended). Every constraint holds there up to the tolerance `rounding`, and all but the rigidity hold while
-/// the nodes move there linearly, clearances and angles up to the tolerance `clearance_margin`
+/// [paper](super), mended). Every constraint holds there up to the tolerance `rounding`, and all but the rigidity hold
+/// while the nodes move there linearly, clearances and angles up to the tolerance `clearance_margin`
 /// ([`Structure::tightened`] makes up for it).
 ///
 /// # Errors
