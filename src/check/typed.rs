@@ -218,7 +218,7 @@ pub struct Member {
     pub doc: Option<Arc<str>>,
 }
 
-/// What a member stands for, with the expression that gives its value or the index of its declaration.
+/// The meaning of a member, with the expression that gives its value or the index of its declaration.
 #[derive(Clone, Debug)]
 pub enum MemberKind {
     /// The parameter at this index of the declaration's `params`.

@@ -143,7 +143,9 @@ impl Type {
     pub(super) fn in_dimensions_of(&self, want: &Type) -> Option<Type> {
         let inner = |a: &Type, b: &Type| a.in_dimensions_of(b).map(Arc::new);
         match (self, want) {
-            (Type::Quantity(a), Type::Quantity(b)) => (!a.is_shown_as(*b)).then_some(Type::Quantity(*b)),
+            (Type::Quantity(a), Type::Quantity(b)) => {
+                (a.fits(*b) && !a.is_shown_as(*b)).then_some(Type::Quantity(*b))
+            }
             (Type::List(a), Type::List(b)) => inner(a, b).map(Type::List),
             (Type::Vec3(a), Type::Vec3(b)) => inner(a, b).map(Type::Vec3),
             (Type::Range(a), Type::Range(b)) => inner(a, b).map(Type::Range),

@@ -1,8 +1,7 @@
 //! The report of a command, as text or as one JSON object (`docs/json.md`).
 
 use super::arguments::{Color, Globals};
-use super::terminal::{print_error, print_json, print_styled};
-use crate::interpret::printed::PrintedValue;
+use super::terminal::{JsonValue, print_error, print_json, print_styled};
 use crate::plan::Verdict;
 use crate::plan::facts::Facts;
 use crate::source::json::{JsonDiagnostic, to_json};
@@ -54,16 +53,6 @@ pub(super) struct Report {
     pub programs: Option<usize>,
     #[serde(skip)]
     seen: HashSet<String>,
-}
-
-/// A value that was printed.
-#[derive(Debug, Serialize)]
-pub(super) struct JsonValue {
-    /// The index in `printed` of the line that shows it, or of the first of its lines, from 0.
-    pub line: usize,
-    /// Its text, and what it is.
-    #[serde(flatten)]
-    pub printed: PrintedValue,
 }
 
 /// The result of a test.

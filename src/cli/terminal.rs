@@ -3,12 +3,12 @@
 use super::arguments::Globals;
 use super::disk::system_words;
 use super::output;
-use super::report::JsonValue;
 use super::watch::Watched;
 use crate::interpret::printed::PrintedValue;
 use crate::interpret::{Host, WriteError};
 use crate::interrupt::CancelState;
 use crate::source::escape::{escaped, escaped_json};
+use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -180,6 +180,16 @@ pub(super) fn print_error(text: &str) {
 /// Writes text with escape sequences of our own to standard error. Its quotations have been escaped.
 pub(super) fn print_styled(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
+}
+
+/// A printed value in a JSON object.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonValue {
+    /// The index in `printed` of the line that shows it, or of the first of its lines, from 0.
+    pub line: usize,
+    /// Its text, and what it is.
+    #[serde(flatten)]
+    pub printed: PrintedValue,
 }
 
 /// The host of a run on a terminal.

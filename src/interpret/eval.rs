@@ -557,7 +557,9 @@ fn on_instance(value: &Value, ask: impl FnOnce(&Rc<Instance>) -> Option<Value>) 
 fn in_dimensions(value: Value, ty: &Type) -> Value {
     match (value, ty) {
         (value, Type::Optional(inner)) => in_dimensions(value, inner),
-        (Value::Quantity(x, _), Type::Quantity(dimension)) => Value::Quantity(x, *dimension),
+        (Value::Quantity(x, own), Type::Quantity(dimension)) if own.fits(*dimension) => {
+            Value::Quantity(x, *dimension)
+        }
         (Value::Vec3(v, d), Type::Vec3(inner)) => Value::Vec3(v, inner.dimension().unwrap_or(d)),
         (Value::List(elements), Type::List(inner)) => {
             Value::list(elements.iter().map(|element| in_dimensions(element.clone(), inner)).collect())

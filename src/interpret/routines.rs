@@ -76,8 +76,8 @@ impl Interpreter<'_> {
         (self.shared.routines.show)(self, value)
     }
 
-    /// Tells the host a value that is printed next as `text`, if the options ask for values. What goes beyond 16 MiB of
-    /// values in one run is left out.
+    /// Tells the host a value that is printed next as `text`, if the options ask for values. Values beyond 16 MiB
+    /// in one run are left out.
     pub fn print_value(&mut self, value: &Value, text: &str) {
         if !self.shared.options.values {
             return;

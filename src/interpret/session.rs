@@ -34,7 +34,7 @@ pub struct Task {
     pub work: Work,
 }
 
-/// What an evaluator is to do with the values of earlier entries: add to them, or take some back.
+/// The task of an evaluator with the values of earlier entries: add to them, or take some back.
 pub enum Work {
     /// Evaluate the newest entry.
     Enter(Entered),

@@ -19,7 +19,7 @@ pub struct Change {
     pub users: Vec<String>,
 }
 
-/// What happened to a declaration between two readings of its file.
+/// The change of a declaration between two readings of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
     /// The declaration is new.

@@ -64,7 +64,7 @@ pub struct Item {
     pub kind: ItemKind,
 }
 
-/// What stands at the top of a file, by its keyword, with what was written after it.
+/// An item at the top of a file, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
     /// An import: `use`.

@@ -7,9 +7,9 @@ use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
 /// Returns the motion from a row of `count` cells along x, with cell `i` (from 0) at lattice site (i, 0, 0), to a
-/// column along y with cell `i` at (0, i, 0). Where neither the speed limit binds nor `limits.euclidean` is set it
-/// takes √(2 (count - 1)) units of time, the [`lower_bound`](crate::plan::lattice::lower_bound::lower_bound); its
-/// angular momentum is not zero. The profile of `limits` is not used. Cells must be able to shrink to half their size,
+/// column along y with cell `i` at (0, i, 0). It takes √(2 (count - 1)) units of time,
+/// the [`lower_bound`](crate::plan::lattice::lower_bound::lower_bound), unless the speed limit binds or
+/// `limits.euclidean` is set; its angular momentum is not zero. The profile of `limits` is not used. Cells must be able to shrink to half their size,
 /// which is not checked.
 ///
 /// # Errors

@@ -450,7 +450,7 @@ impl<'a> Course<'a> {
     }
 }
 
-/// What is found from instant to instant.
+/// Findings from instant to instant.
 #[derive(Default)]
 struct Findings {
     instants: usize,

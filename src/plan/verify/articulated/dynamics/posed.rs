@@ -254,7 +254,7 @@ impl<'a> Posed<'a> {
     }
 }
 
-/// What is known of an instant before the forces of its contacts are.
+/// The situation of an instant, before the forces of its contacts are known.
 pub(super) struct Situation<'a> {
     /// The robot.
     pub posed: &'a Posed<'a>,

@@ -56,7 +56,7 @@ pub(in super::super) struct GroundStep<'a> {
     pub time: f64,
     /// The attitude of the base in level axes at the sample before.
     pub R_before: &'a Mat3,
-    /// That of this sample.
+    /// The attitude of the base at this sample.
     pub R: &'a Mat3,
 }
 

@@ -21,7 +21,7 @@ pub(super) struct Momentum {
     pub step: f64,
 }
 
-/// What friction has to do at an instant.
+/// The task of friction at an instant.
 pub(super) struct TwistProblem<'a> {
     /// The contacts.
     pub candidates: &'a [Candidate],
