@@ -1,7 +1,7 @@
 //! The project on disk: access to the files below one folder, and nothing else.
 
 use super::CallError;
-use super::watch::Watched;
+use super::watched::Watched;
 use crate::source::files::join;
 use crate::source::{Files, ReadError, library};
 use std::borrow::Cow;

@@ -24,6 +24,7 @@ mod show;
 mod terminal;
 mod verdict;
 mod watch;
+mod watched;
 
 use crate::source::suggest::suggest;
 use arguments::{Arguments, Command};

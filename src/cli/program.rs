@@ -5,7 +5,7 @@ use super::disk::{Project, STDIN_NAME};
 use super::folders::{self, Found};
 use super::report::{self, JsonTest, Report};
 use super::terminal::{Terminal, listen_for_cancel, print, print_error};
-use super::watch::Watched;
+use super::watched::Watched;
 use super::{CallError, Ending, examples, show};
 
 use crate::check;

@@ -3,7 +3,7 @@
 use super::arguments::Globals;
 use super::disk::system_words;
 use super::output;
-use super::watch::Watched;
+use super::watched::Watched;
 use crate::interpret::printed::PrintedValue;
 use crate::interpret::{Host, WriteError};
 use crate::interrupt::CancelState;

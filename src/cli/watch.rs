@@ -3,60 +3,17 @@
 use super::arguments::Globals;
 use super::program::{self, Task};
 use super::terminal::{cancel_state, cancelled, print_error, print_styled};
+use super::watched::Watched;
 use super::{CallError, Ending, report};
-use std::collections::BTreeMap;
-use std::fs;
 use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 /// The time between two polls of the files. Polling the metadata of a few files is cheap, and works on
 /// every file system.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
-
-/// The version of a file: time of modification and size; `None` if there is no file.
-type Stamp = Option<(SystemTime, u64)>;
-
-/// The files that a run depends on.
-#[derive(Debug, Default)]
-pub(super) struct Watched {
-    stamps: Mutex<BTreeMap<PathBuf, Stamp>>,
-    /// True if one of them changed since the run began.
-    stale: AtomicBool,
-}
-
-impl Watched {
-    /// Records that the run depends on a file, which need not exist. Called before the file is read, so
-    /// that no change is missed.
-    pub(super) fn note(&self, file: &Path) {
-        let mut stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
-        stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
-    }
-
-    /// Returns true if a file has changed since the run began, so that the run is outdated.
-    pub(super) fn stale(&self) -> bool {
-        self.stale.load(Ordering::Relaxed)
-    }
-
-    /// Polls the files; returns true if one has changed.
-    fn poll(&self) -> bool {
-        let stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
-        let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);
-        if changed {
-            self.stale.store(true, Ordering::Relaxed);
-            cancel_state().cancel();
-        }
-        changed
-    }
-}
-
-/// Returns the version of a file; `None` if there is none.
-fn stamp(file: &Path) -> Stamp {
-    let found = fs::metadata(file).ok()?;
-    Some((found.modified().ok()?, found.len()))
-}
 
 /// Runs the task with the programs, and again after each change of a file that it read, until the user cancels.
 ///
@@ -85,6 +42,9 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
                 while !over.load(Ordering::Relaxed) && !depends.poll() {
                     std::thread::park_timeout(POLL_INTERVAL);
                 }
+                if depends.stale() {
+                    cancel_state().cancel();
+                }
             });
             let ran = program::run_watched(files, task, globals, &watched);
             over.store(true, Ordering::Relaxed);
@@ -110,7 +70,7 @@ fn told(ending: Ending, watched: &Watched, globals: &Globals) {
     if globals.json || watched.stale() {
         return;
     }
-    let count = watched.stamps.lock().unwrap_or_else(PoisonError::into_inner).len();
+    let count = watched.count();
     let files = if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
     let found = if ending == Ending::Fine { "nothing is wrong; " } else { "" };
     print_error(&format!("{found}watching {files}\n"));
