@@ -33,7 +33,7 @@ Examples:
   modl -e '4 * 90deg'              a question at once
 
 Exit codes: 0 fine, 1 the program is wrong, 2 the call is wrong or standard output can't be written,
-130 interrupted.";
+130 interrupted by Ctrl-C. SIGTERM ends it at once (a shell tells 143); files are whole or not there.";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {

@@ -50,7 +50,7 @@ struct CallError(String);
 
 /// Parses the command line, runs the command, and returns the exit code: 0 if all is fine, 1 if the program,
 /// plan or file is found wrong, 2 if the call is wrong, standard output can't be written or the system gives no memory
-/// for the thread, 130 after Ctrl-C.
+/// for the thread, 130 after Ctrl-C. SIGTERM is not caught: the system ends the process, which a shell tells as 143.
 ///
 /// The command has a thread of its own, because the stack of the first one may be small. Panics if the command does (a
 /// defect).

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Pose", deny_unknown_fields)]
 pub(crate) struct PoseText {
-    /// Position of the frame's origin: x, y, z in metres.
+    /// Position of the frame's origin: x, y, z in metres, each at most 1000 m from 0; within a module at most 10 m.
     p: [f64; 3],
     /// Rotation as a unit quaternion: w, x, y, z.
     q: [f64; 4],

@@ -6,7 +6,8 @@ use super::pose::{Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A solid, the shape of a link or a part of it.
+/// A solid, the shape of a link or a part of it. Its sizes and coordinates are finite; every extent is at least 1 µm,
+/// and what belongs to a link lies within 10 m of the origin of its module's frame along each axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {

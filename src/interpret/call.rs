@@ -205,6 +205,7 @@ impl Interpreter<'_> {
         self.stack.effects += u64::from(entry.effect == Effect::OnRun);
         if self.shared.mode == Mode::Check && entry.effect == Effect::OnRun {
             self.check_arguments(values, span)?;
+            self.check_robots(&native.params, values, &spans)?;
             return Ok(Value::Unknown);
         }
         if values.iter().any(Value::is_unknown) {
@@ -213,6 +214,21 @@ impl Interpreter<'_> {
         let (params, spans) = (&native.params, &spans);
         let Written { exprs, signal } = written;
         (entry.body)(self, &Call { span, native: entry, params, args: values, spans, exprs, signal })
+    }
+
+    /// Checks that the configurations that stand for a plan have modules.
+    fn check_robots(&mut self, params: &[Param], values: &[Value], spans: &[Span]) -> Eval<()> {
+        let is_planned =
+            |ty: &Type| matches!(ty, Type::Choice(choice) if choice.types.contains(&Type::Behavior));
+        for ((param, value), span) in params.iter().zip(values).zip(spans) {
+            if let Value::Instance(instance) = value
+                && is_planned(&param.ty)
+                && instance.robot.module_count() == 0
+            {
+                self.robot_of(&instance.robot, *span)?;
+            }
+        }
+        Ok(())
     }
 
     /// Checks the behaviours among the arguments, as far as that is possible without a run.

@@ -20,7 +20,7 @@ use crate::plan::{
     Settings, Stability, Stages, Surroundings, TrussLimits, World,
 };
 use crate::robot::Library;
-use crate::source::Span;
+use crate::source::{Diagnostic, Span, code};
 use crate::view::plot::Plot;
 use crate::view::{self, RenderInput, Side, StillOptions};
 use std::any::Any;
@@ -168,6 +168,13 @@ impl Interpreter<'_> {
                 let path = format!("{}.html", declared.name);
                 self.attempt(|this| this.draw_design(&design, &path, declared.span))?;
             }
+        }
+        if self.reported.written.iter().all(|path| !path.ends_with(".html")) && self.reported.errors == 0 {
+            let message = "the program emits no plan and declares no robot that needs no arguments, so there is \
+                           nothing to show";
+            self.report(Diagnostic::warning(code::NOTHING_SHOWN, message).hint(
+                "`emit(robot.behavior(), \"name.plan.json\")` writes a plan, of which `modl show` draws a page",
+            ));
         }
         Ok(())
     }

@@ -120,5 +120,6 @@ codes! {
     SHORT_OF_GOAL = "W0007", "a plan that ends short of its goal";
     COMMENT_DIVIDES = "W0008", "a comment where a quotient may be meant";
     THIN_LINK = "W0009", "a link thinner than what counts as a touch";
+    NOTHING_SHOWN = "W0010", "a program with nothing to show";
     START_SETTLES = "N0001", "the robot settles at the start";
 }

@@ -423,6 +423,22 @@ fn what_is_no_plan_file_is_told_so() {
     assert_eq!(json(&s.run(&["verify", "--json", "no.json"]))["diagnostics"][0]["code"], "E0704");
 }
 
+#[test]
+fn a_program_with_nothing_to_show_says_so() {
+    let s = Sandbox::new(&[
+        ("a.mod", b"let x = 1\n"),
+        ("b.mod", b"config Empty {}\nexpect verify(Empty()).ok\n"),
+    ]);
+    let ran = s.run(&["show", "a.mod"]);
+    assert!(ran.code == 0 && ran.err.contains("W0010") && ran.err.contains("emits no plan"), "{}", ran.err);
+    assert!(s.run(&["run", "a.mod"]).err.is_empty());
+    // What is wrong is told, and not that nothing came of it.
+    let ran = s.run(&["show", "b.mod"]);
+    assert!(ran.code == 1 && ran.err.contains("E0316") && !ran.err.contains("W0010"), "{}", ran.err);
+    let checked = s.run(&["check", "b.mod"]);
+    assert!(checked.code == 1 && checked.err.contains("E0316"), "{}", checked.err);
+}
+
 #[cfg(unix)]
 mod unix {
     use super::*;
@@ -501,6 +517,37 @@ mod unix {
         };
         assert!(status.code().is_none_or(|code| code == 130), "{status}");
         assert!(!s.path("out").exists());
+    }
+
+    #[test]
+    fn a_signal_to_terminate_ends_a_command_and_leaves_no_half_file() {
+        use std::os::unix::process::ExitStatusExt;
+        let worm: &[u8] = br#"use std.smores.Chain3
+config Worm(n: Int) {
+  part seg[n]: Chain3
+  for i in 0..n - 1 { connect seg[i].tail -- seg[i + 1].head }
+  behavior bend(to: Angle) = Pc([move(m.tilt, to: to) for s in seg for m in s.m])
+  behavior crawl = repeat(Sc(bend(1deg), bend(-1deg)), 100)
+}
+emit(Worm(1).bend(1deg), "short.plan.json")
+emit(Worm(60).crawl(), "long.plan.json")
+"#;
+        let s = Sandbox::new(&[("a.mod", worm)]);
+        let mut command = s.command(&["run", "a.mod"]);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("runs");
+        // The first plan is there, and the second is judged.
+        let begin = std::time::Instant::now();
+        while !s.path("out/short.plan.json").exists() {
+            assert!(begin.elapsed() < std::time::Duration::from_secs(60), "nothing is written");
+            std::thread::yield_now();
+        }
+        let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+        assert!(sent.expect("there is a kill").success());
+        let status = child.wait().expect("it ends");
+        assert_eq!((status.code(), status.signal()), (None, Some(15)), "{status}");
+        let left = fs::read_dir(s.path("out")).expect("there").map(|e| e.expect("listed").file_name());
+        assert_eq!(left.collect::<Vec<_>>(), ["short.plan.json"]);
+        assert_eq!(s.run(&["verify", "out/short.plan.json"]).code, 0);
     }
 
     #[test]

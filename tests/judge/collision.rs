@@ -10,7 +10,8 @@ use modl::plan::{
     CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Segment, Settings, Status, Track, Tracks,
 };
 use modl::robot::{
-    Assembly, Joint, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType, Port,
+    Assembly, Capture, Joint, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType,
+    Port,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -197,6 +198,42 @@ fn a_bond_excuses_only_while_it_holds() {
     let found = judged(&tracks);
     assert_eq!(found.collisions.len(), 1, "{found:?}");
     assert!((found.collisions[0].time - 0.5).abs() < 1e-5 && found.collisions[0].modules == (0, 11));
+}
+
+/// The links of the bond that closes a ring penetrate each other where the joints turn too far. The error that the
+/// connector states allows as much, and no more.
+#[test]
+fn the_bond_that_closes_a_loop_holds_its_links_by_the_error_of_its_connector() {
+    let ring = robots::ring12_closed();
+    let kinematics = Kinematics::new(&ring, &[true; 12], 0);
+    let [closing] = kinematics.tree.closing[..] else { panic!("one bond closes the ring") };
+    let bodies = Bodies::new(&ring, &kinematics).expect("sound shapes");
+    let bond = ring.bonds[closing];
+    let [a, b] = [bond.a, bond.b]
+        .map(|at| kinematics.link(at.module, ring.module_type(at.module).ports[at.port].link));
+    let too_far = |by: f64| {
+        let mut tracks = plan(ring.clone(), vec![], 1.0);
+        (0..12).for_each(|m| tracks.start.joints[4 * m + robots::TILT] = PI / 6.0 + by);
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(&tracks.start.joints, &Pose::identity(), &mut poses);
+        (tracks, -bodies.distance(a, b, &poses, f64::INFINITY))
+    };
+    let with_error = |tracks: &Tracks, distance: f64| {
+        let mut tracks = tracks.clone();
+        let mut library = (*tracks.robot.library).clone();
+        library.connectors.iter_mut().for_each(|c| c.capture = Some(Capture { distance, angle: 0.0 }));
+        tracks.robot.library = Arc::new(library);
+        judged(&tracks)
+    };
+    let (tracks, depth) = too_far(1e-3);
+    assert!(depth > 0.5e-3, "{depth}");
+    // A hundredth of a millimetre more than enough, and less; `touch` is 0.1 mm.
+    let found = with_error(&tracks, depth - 0.1e-3 + 1e-5);
+    assert_eq!(found.collisions, [], "{depth}");
+    let found = with_error(&tracks, depth - 0.1e-3 - 1e-5);
+    let [collision] = &found.collisions[..] else { panic!("{depth}: {found:?}") };
+    // The ring is regular: all its bonds are as far apart, whichever of them the judge takes as the closing one.
+    assert!((collision.depth - depth).abs() < 1e-6, "{depth}: {collision:?}");
 }
 
 /// The least distance in a SMORES module, m: from the T disc's rim, 45.9 ahead and 42.0 aside, to a

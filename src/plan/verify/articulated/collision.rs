@@ -14,7 +14,7 @@
 use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
 use super::docking;
-use super::tolerances::Precision;
+use super::tolerances::{Precision, Tolerances};
 use crate::geometry::Solid;
 use crate::plan::{
     CheckKind, DockingKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst,
@@ -103,7 +103,7 @@ impl Collision {
             }
             None => format!("{a} and {b} meet, up to {depth} deep ({} and {})", links.0, links.1),
             Some(bond) => {
-                let (name, why) = (docking::bond_name(robot, bond), beneath(robot, bond));
+                let (name, why) = (docking::bond_name(robot, bond), reason(robot, bond));
                 format!(
                     "{a} and {b} meet, {depth} deep ({} and {}), as {name} docks them{why}",
                     links.0, links.1
@@ -124,9 +124,10 @@ impl Collision {
     }
 }
 
-/// Returns in words the depth of the ports of a bond beneath the surfaces of their links; nothing if neither is
-/// deeper than `touch`.
-fn beneath(robot: &Assembly, bond: usize) -> String {
+/// Returns in words why the links of a bond overlap more than they may: the depth of its ports beneath the surfaces
+/// of their links, if one is deeper than `touch`; else that a shape reaches in deeper than the connector explains, and
+/// how to say that it is meant.
+fn reason(robot: &Assembly, bond: usize) -> String {
     let port_depth = |at: PortRef| {
         let kind = robot.module_type(at.module);
         let port = &kind.ports[at.port];
@@ -138,7 +139,15 @@ fn beneath(robot: &Assembly, bond: usize) -> String {
     };
     let Bond { a, b, .. } = robot.bonds[bond];
     let found: Vec<String> = [a, b].into_iter().filter_map(port_depth).collect();
-    if found.is_empty() { String::new() } else { format!("; {}", found.join(", ")) }
+    if !found.is_empty() {
+        return format!("; {}", found.join(", "));
+    }
+    let explained = docking::tolerated(robot, bond, &Tolerances::default()).distance;
+    let explained = quantity(explained, Dimension::LENGTH);
+    format!(
+        "; the connector explains {explained} of that (`capture`): leave a pin that reaches in out of `collides`, or \
+         state `touch` as deep as it is"
+    )
 }
 
 /// Returns the plan cut where bonds change and where exemptions begin or end, and the instant of its end,

@@ -119,6 +119,22 @@ impl Structure {
         first <= number && number <= last
     }
 
+    /// Returns the positions of some links in the order of the tree, ascending; a link that occurs twice is there twice.
+    pub(super) fn in_tree_order(&self, links: impl Iterator<Item = usize>) -> Vec<usize> {
+        let mut numbers: Vec<usize> = links.map(|link| self.span[link].0).collect();
+        numbers.sort_unstable();
+        numbers
+    }
+
+    /// Returns how many of some links are the link `at` or lie beyond it; `numbers`: their positions as
+    /// [`in_tree_order`](Self::in_tree_order) returns them.
+    pub(super) fn count_beyond(&self, at: usize, numbers: &[usize]) -> usize {
+        let (first, last) = self.span[at];
+        numbers
+            .partition_point(|number| *number <= last)
+            .saturating_sub(numbers.partition_point(|n| *n < first))
+    }
+
     /// Returns the number of the first link beyond the cut of an index.
     pub(super) fn cut_link(&self, cut: usize) -> usize {
         match self.cuts[cut] {

@@ -558,11 +558,11 @@ fn determinate_cuts<'s>(
     balanced: bool,
     tolerances: &Tolerances,
 ) -> impl Fn(usize) -> bool + use<'s> {
-    let near: Vec<usize> =
-        pushing(sample).filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link).collect();
+    let touching = pushing(sample).filter(|t| t.gap <= tolerances.gap_loaded).map(|t| t.link);
+    let near = structure.in_tree_order(touching);
     move |cut| {
         let at = structure.cut_link(cut);
-        let beyond = near.iter().filter(|&&link| structure.beyond(at, link)).count();
+        let beyond = structure.count_beyond(at, &near);
         let looped = |&(_, a, b): &(usize, usize, usize)| structure.beyond(at, a) != structure.beyond(at, b);
         (beyond == 0 || (beyond == near.len() && balanced)) && !structure.closing.iter().any(looped)
     }
