@@ -520,37 +520,6 @@ mod unix {
     }
 
     #[test]
-    fn a_signal_to_terminate_ends_a_command_and_leaves_no_half_file() {
-        use std::os::unix::process::ExitStatusExt;
-        let worm: &[u8] = br#"use std.smores.Chain3
-config Worm(n: Int) {
-  part seg[n]: Chain3
-  for i in 0..n - 1 { connect seg[i].tail -- seg[i + 1].head }
-  behavior bend(to: Angle) = Pc([move(m.tilt, to: to) for s in seg for m in s.m])
-  behavior crawl = repeat(Sc(bend(1deg), bend(-1deg)), 100)
-}
-emit(Worm(1).bend(1deg), "short.plan.json")
-emit(Worm(60).crawl(), "long.plan.json")
-"#;
-        let s = Sandbox::new(&[("a.mod", worm)]);
-        let mut command = s.command(&["run", "a.mod"]);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("runs");
-        // The first plan is there, and the second is judged.
-        let begin = std::time::Instant::now();
-        while !s.path("out/short.plan.json").exists() {
-            assert!(begin.elapsed() < std::time::Duration::from_secs(60), "nothing is written");
-            std::thread::yield_now();
-        }
-        let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
-        assert!(sent.expect("there is a kill").success());
-        let status = child.wait().expect("it ends");
-        assert_eq!((status.code(), status.signal()), (None, Some(15)), "{status}");
-        let left = fs::read_dir(s.path("out")).expect("there").map(|e| e.expect("listed").file_name());
-        assert_eq!(left.collect::<Vec<_>>(), ["short.plan.json"]);
-        assert_eq!(s.run(&["verify", "out/short.plan.json"]).code, 0);
-    }
-
-    #[test]
     fn an_import_that_is_a_pipe_is_not_waited_for() {
         let s = Sandbox::new(&[("a.mod", b"use \"pipe.mod\".{b}\n")]);
         if !Command::new("mkfifo").arg(s.path("pipe.mod")).status().is_ok_and(|status| status.success()) {

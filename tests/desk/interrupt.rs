@@ -4,7 +4,8 @@
 
 use crate::desk::cli::Sandbox;
 use crate::support::terminal::{PROMPT, Terminal};
-use std::process::Command;
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// What a person does not notice.
@@ -113,6 +114,36 @@ fn a_signal_to_terminate_ends_a_session_that_works() {
         assert!(begin.elapsed() < Duration::from_secs(5), "the session goes on");
         std::thread::yield_now();
     }
+}
+
+#[test]
+fn a_signal_to_terminate_ends_a_command_and_leaves_no_half_file() {
+    let worm: &[u8] = br#"use std.smores.Chain3
+config Worm(n: Int) {
+  part seg[n]: Chain3
+  for i in 0..n - 1 { connect seg[i].tail -- seg[i + 1].head }
+  behavior bend(to: Angle) = Pc([move(m.tilt, to: to) for s in seg for m in s.m])
+  behavior crawl = repeat(Sc(bend(1deg), bend(-1deg)), 100)
+}
+emit(Worm(1).bend(1deg), "short.plan.json")
+emit(Worm(60).crawl(), "long.plan.json")
+"#;
+    let sandbox = Sandbox::new(&[("a.mod", worm)]);
+    let mut command = sandbox.command(&["run", "a.mod"]);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("runs");
+    // The first plan is there, and the second is judged.
+    let begin = Instant::now();
+    while !sandbox.path("out/short.plan.json").exists() {
+        assert!(begin.elapsed() < Duration::from_secs(60), "nothing is written");
+        std::thread::yield_now();
+    }
+    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(sent.expect("there is a kill").success());
+    let status = child.wait().expect("it ends");
+    assert_eq!((status.code(), status.signal()), (None, Some(15)), "{status}");
+    let left = std::fs::read_dir(sandbox.path("out")).expect("there").map(|e| e.expect("listed").file_name());
+    assert_eq!(left.collect::<Vec<_>>(), ["short.plan.json"]);
+    assert_eq!(sandbox.run(&["verify", "out/short.plan.json"]).code, 0);
 }
 
 #[test]

@@ -21,6 +21,7 @@ const NOT_BY_TEXT: &[Code] = &[
     code::CANNOT_WRITE,
     code::CANNOT_READ,
     code::BAD_PLAN_FILE,
+    code::NOTHING_SHOWN,
 ];
 
 struct Fence {
