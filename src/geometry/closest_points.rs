@@ -11,7 +11,7 @@ use super::distance::signed_distance_within;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
 
-/// A segment from its first point to its second; the two may be one point.
+/// A segment from its first point to its second, m; the two may be one point.
 pub type Segment = (Vec3, Vec3);
 
 /// The squared sine of the angle of two segments below which they count as parallel in [`segment_segment`].

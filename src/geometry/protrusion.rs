@@ -13,19 +13,24 @@ use super::solid::Solid;
 use super::soundness::Unsound;
 use std::collections::BinaryHeap;
 
-/// The number of times that triangles of one part are divided. The bound then stands as it is, too large rather than
+/// The greatest number of divisions of triangles of one part. The bound then stands as it is, too large rather than
 /// too small.
 const DIVISIONS_MAX: usize = 2000;
 /// The fraction of the drawn part's radius within which a bound is near enough.
 const NEAR_ENOUGH: f64 = 1e-4;
 
-/// Returns an upper bound on the greatest distance of a point of `shapes` from the union of `cover`, m: 0 if all of
-/// them are covered, infinite if only `cover` is empty. Both are in the same frame. The bound is too large by at
-/// most 1e-4 of a part's radius if 2000 triangles suffice for that; for a ball or capsule that no single part of the
-/// cover holds it may be larger.
+/// Returns an upper bound, m, on the greatest distance of a point on the surfaces of `shapes` from the union of
+/// `cover`, both in one frame. A bound of 0 means that all surfaces are covered; a bound above 0 does not mean the
+/// opposite. The inside of a closed mesh of `cover` counts as covered. The bound is infinite if `cover` is empty and
+/// `shapes` is not.
+///
+/// For a part that is a polytope the bound is too large by at most 1e-4 of the radius of its bounding sphere, unless
+/// 2000 divisions of its surface do not suffice. A cylinder is judged as the prism around it, which adds up to 7.5e-5
+/// of the cylinder's radius. For a ball or capsule that no single part of the cover holds there is no such limit.
 ///
 /// # Errors
-/// The fault of a shape that is no solid.
+/// The fault of a shape of `shapes` or `cover` that is no solid; none is looked for if every shape is itself in
+/// `cover`.
 pub fn protrusion(shapes: &[Placed], cover: &[Placed]) -> Result<f64, Unsound> {
     let open: Vec<Placed> = shapes.iter().filter(|placed| !cover.contains(placed)).cloned().collect();
     if open.is_empty() {

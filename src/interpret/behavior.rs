@@ -219,8 +219,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the diagnostic of an action that asks for what its joint or ports can't do, at the argument that asks;
-    /// for an action of the library, at the user's call.
+    /// Returns the diagnostic of an action that asks for what its joint or ports can't do, or with a number that is
+    /// negative or not finite, at the argument that asks; for an action of the library, at the user's call.
     pub fn issue(&self, issue: &Issue) -> Diagnostic {
         let record = self.memory.causes.get(issue.cause);
         let (code, message, label) = issue_words(&issue.kind);

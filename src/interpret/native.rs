@@ -56,8 +56,8 @@ pub struct Call<'c> {
     pub args: &'c [Value],
     /// The spans of the arguments, in the order of `params`; that of the whole call for those left out.
     pub spans: &'c [Span],
-    /// The arguments as they are written, in the order of the declaration; none where the built-in is called as a
-    /// value.
+    /// The arguments as they are written, in the order of the declaration; `None` for one that is left out. Empty if
+    /// the built-in is called as a value.
     pub exprs: &'c [Option<Expr>],
     /// True if a built-in that gives a value or a signal is to give the signal.
     pub signal: bool,

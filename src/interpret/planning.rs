@@ -293,7 +293,7 @@ impl Interpreter<'_> {
     /// Returns the state at a time (s), which is clamped to 0 and the duration of the plan, as a record.
     ///
     /// # Errors
-    /// A fault at `span` where the plan's robot has no joints.
+    /// A fault at `span` if the plan is of a lattice or a truss.
     pub fn state_at(&mut self, planned: &Rc<PlanValue>, time: f64, span: Span) -> Eval<Value> {
         let time = time.clamp(0.0, planned.plan.body.duration());
         self.require_joints(planned, span)?;
@@ -304,7 +304,7 @@ impl Interpreter<'_> {
     /// Refuses a plan of a lattice or a truss, which has no joints.
     ///
     /// # Errors
-    /// A fault at `span` where it has none.
+    /// A fault at `span` if the plan is of a lattice or a truss.
     pub fn require_joints(&self, planned: &PlanValue, span: Span) -> Eval<()> {
         if planned.body.is_some() {
             return Ok(());

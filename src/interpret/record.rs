@@ -125,9 +125,9 @@ impl StateValue {
         self.planned.clearances(times).get(*own).copied().flatten()
     }
 
-    /// Returns the pose of the base module's body in the world: if the plan assumes ground, with all standing, rolling
-    /// and tipping up to its time, as the judge finds it; otherwise, and where the plan is not valid, as the state has
-    /// it.
+    /// Returns the world pose `X_WB` of the base module's body, m. If any world of the plan has ground, it is the
+    /// judge's: that of its last sample up to the time of this state, with the standing, rolling and tipping until
+    /// then. Otherwise, or if the plan is not valid, it is the pose in the state.
     pub fn base(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {

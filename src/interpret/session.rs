@@ -21,7 +21,8 @@ use std::sync::Arc;
 /// The greatest number of entries that can be taken back.
 pub const UNDO_MAX: usize = 200;
 
-/// Evaluates entries one after the other, each with what those before it left.
+/// The evaluator of a session, on a thread of its own: it keeps the values of earlier entries, and does one task after
+/// the other on them.
 pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
 /// A task of the session: the work, with the program that it is about.

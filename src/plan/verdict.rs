@@ -246,7 +246,8 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// Returns the quantities as (name, text with unit), for a plan of this duration in seconds.
+    /// Returns the lower bound on the duration and the four peak values, the bound first, each as (name, text with
+    /// unit). `duration`: that of the plan, s; the text of the bound says how many times the bound it is.
     pub fn in_words(&self, duration: f64) -> [(&'static str, String); 5] {
         let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
         let bound = quantity(self.lower_bound, Dimension::TIME);

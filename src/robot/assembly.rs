@@ -1,5 +1,5 @@
-//! A robot as connected modules, and the state it is in: Definitions IV.2 and V.1 of the compositional-design paper,
-//! flattened.
+//! A robot as connected modules, and the state it is in: Definitions IV.2 and V.1 of the compositional-design paper
+//! (Tosun, Jing, Kress-Gazit and Yim), flattened.
 //!
 //! A configuration is a tree of parts to a person; here it is a list of modules with path names and a list of bonds
 //! between their ports.
@@ -23,7 +23,7 @@ pub struct Assembly {
     /// Every bond that exists at some time; a bond is referred to by its index here, and which of them hold at the
     /// moment is part of the state.
     pub bonds: Vec<Bond>,
-    /// The index of the module whose body frame is drawn upright at the start, and whose pose is reported.
+    /// The index of the base module: its body's pose is part of the state, and is reported.
     pub base: usize,
     /// True if the connections may close loops.
     pub closed: bool,

@@ -78,9 +78,9 @@ pub struct Reply {
 
 /// The outcome of [`Session::reload`]: that of the evaluation, and the declarations that differ.
 pub struct Reloaded {
-    /// The outcome of evaluating the reloaded program.
+    /// The outcome of evaluating the reloaded program, or of checking it if that failed.
     pub reply: Reply,
-    /// The declarations that changed; also listed if evaluating them failed, and empty if checking did.
+    /// The declarations that changed; also listed if evaluating them failed, and empty if checking them failed.
     pub changes: Vec<Change>,
 }
 

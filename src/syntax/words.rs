@@ -1,6 +1,7 @@
 //! The keywords of the language.
 
-/// The words reserved everywhere. Every other keyword is one only at the beginning of an item or clause.
+/// The words reserved everywhere. Every other keyword is one only where an item or a clause has it, and a name
+/// elsewhere.
 pub const RESERVED: &[&str] = &[
     "and", "or", "not", "if", "else", "for", "in", "let", "fn", "use", "true", "false", "expect", "require",
     "X", "Y", "Z",

@@ -21,7 +21,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// The whole stage.
+    /// The whole stage, from 0 to 1.
     pub const WHOLE: Window = Window { from: (0, 1), to: (1, 1) };
 
     /// Returns the part of the interval in which the linear function with the values `start` at 0 and `end` at 1 is

@@ -45,7 +45,7 @@ struct RobotJson<'a> {
     joints: Vec<String>,
     /// Every bond that exists at some time.
     bonds: Vec<BondJson>,
-    /// The index of the module whose body frame is drawn upright at the start, and whose pose is reported.
+    /// The index of the base module: its body's pose is part of the state, and is reported.
     base: usize,
     /// The name of that module.
     base_name: String,

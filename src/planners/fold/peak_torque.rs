@@ -32,7 +32,7 @@ pub(super) struct Least {
     pub bound: f64,
 }
 
-/// Searches the layout with the root `root` (an index in [`Target::faces`]) of least greatest mean torque below
+/// Searches for the layout with the root `root` (an index in [`Target::faces`]) of least greatest mean torque below
 /// `known`, N·m for steps of one second; `steps` counts down the faces that are assigned, and at 0 the search ends.
 pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
     let around: Vec<(usize, usize)> = target.around(root).collect();

@@ -44,8 +44,8 @@ pub fn first_collision(
     })
 }
 
-/// Panels with thickness, by face: convex parts in the panel frame, whose origin is the centroid of the triangle,
-/// with x towards the middle of its side 0 and z along its outward normal.
+/// The panels of a target with thickness, by face: convex parts in the panel frame, whose origin is the centroid of the
+/// triangle, with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
     /// The convex parts of each face's panel.

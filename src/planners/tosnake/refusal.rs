@@ -61,7 +61,8 @@ pub enum InvalidStart {
     },
 }
 
-/// The smallest overload in those searches under gravity that made the most merges.
+/// An overload that ended a search: a joint would have had to hold more than its torque limit. A refusal has that of
+/// the search that made the most merges of chains ([`SearchStatus::made`]); of equal ones, the smallest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Overload {
     /// The overloaded joint, with its torque as a fraction of its limit.
