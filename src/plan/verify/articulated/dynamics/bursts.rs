@@ -8,7 +8,7 @@ use crate::plan::Tracks;
 pub(super) struct Bursts {
     /// Begin and end of each, s, in order of begin.
     spans: Vec<(f64, f64)>,
-    /// The steps of velocity, in order of time.
+    /// The steps of velocity, in order of time, then of joint.
     steps: Vec<VelocityStep>,
 }
 
@@ -67,13 +67,14 @@ impl Bursts {
         &self.steps
     }
 
-    /// Returns true if there is a step of velocity so near to a time (s) that the window holds it.
+    /// Returns true if there is a step of velocity within the longest window, 50 ms, before or after a time (s).
     pub(super) fn near_step(&self, time: f64) -> bool {
         let first = self.steps.partition_point(|step| step.time < time - PARAMETERS.window);
         self.steps.get(first).is_some_and(|step| step.time <= time + PARAMETERS.window)
     }
 
-    /// Returns the times within short motions at which loads are determined, s, ascending, each once.
+    /// Returns the times within short motions, their ends left out, at which loads are determined besides those of
+    /// samples, s, ascending, each once.
     pub(super) fn instants(&self) -> Vec<f64> {
         let parts = PARAMETERS.burst_instants;
         let inside = |&(from, to): &(f64, f64)| {
@@ -85,7 +86,8 @@ impl Bursts {
         times
     }
 
-    /// Returns the window of velocities and accelerations about a time, s: shorter where a short motion is near.
+    /// Returns the length of the window of velocities and accelerations about a time (s), s: a quarter of the shortest
+    /// of the short motions within half a window of it, at least 1 ms; 50 ms if there is none.
     pub(super) fn window(&self, time: f64) -> f64 {
         let half = PARAMETERS.window / 2.0;
         let begun = self.spans.partition_point(|span| span.0 <= time + half);

@@ -29,7 +29,8 @@ struct Recorded {
     world: World,
 }
 
-/// Gathers the attitudes of a rollout, at most one for each stretch of time.
+/// The attitudes of a rollout, gathered sample by sample: at most one for each 10 ms, and one where bonds or world
+/// change.
 #[derive(Default)]
 pub(in super::super) struct Recorder {
     recorded: Vec<Recorded>,
@@ -65,7 +66,8 @@ impl Recorder {
     }
 }
 
-/// Returns the recorded attitudes with further ones at these times (s, ascending), each that of the last before it.
+/// Returns the recorded attitudes with further ones at those of these times (s, ascending) that lie between them, each
+/// that of the last before it.
 fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recorded> {
     let mut all: Vec<Recorded> = Vec::with_capacity(recorded.len() + times.len());
     let mut times = times.iter().copied().peekable();
@@ -174,8 +176,8 @@ impl<'a> Course<'a> {
         recorded.iter().enumerate().map(motion).collect()
     }
 
-    /// Returns the velocity of the base at a time (s), between those of the instants; zero before the start and after the
-    /// end.
+    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the first
+    /// of them, and from the last of them on.
     fn at(&self, velocities: &[Twist], time: f64) -> Twist {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time);
@@ -222,9 +224,9 @@ impl<'a> Course<'a> {
         Some(Loaded { held, efforts: loads.efforts, ground, imbalance: loads.imbalance, open, slides })
     }
 
-    /// Returns the effort of each joint (N·m or N) at a time (s), between those of the instants about it, and the forces of
-    /// the ground at the nearer one, from the centre of mass in level axes. `None` where they can't be found, and for a
-    /// robot that floats.
+    /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it, and
+    /// the forces of the ground (N) at the nearer one, from the centre of mass in level axes. `None` if they can't be
+    /// found, if the robot floats at one of these instants, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));

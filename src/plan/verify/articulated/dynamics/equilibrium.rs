@@ -11,24 +11,24 @@ use nalgebra::Vector3;
 /// The forces and the twist of an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Equilibrium {
-    /// The twist of the body at the centre of mass.
+    /// The twist of the body at the centre of mass, m/s and rad/s, in level axes; zero if a fixture holds the base.
     pub twist: Twist,
-    /// The loads.
+    /// The loads of contacts, joints and closing bonds.
     pub loads: Loads,
-    /// The slip at each candidate, m/s, and the friction on it, N.
+    /// The slip at each candidate, m/s, and the friction on it, N, in level axes; empty if a fixture holds the base.
     pub friction: Vec<(Vec3, Vec3)>,
-    /// True if rounds ended before twist and loads agreed.
+    /// True if the rounds ended before the loads of two rounds agreed.
     pub open: bool,
     /// True if the inertial force is more than friction can carry.
     pub slides: bool,
 }
 
-/// The memory from one instant to the next.
+/// The result of the last instant, as a guess of the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Warm {
-    /// The twist.
+    /// The twist of the body at the centre of mass, m/s and rad/s.
     pub twist: Twist,
-    /// The load of each point of a feature, N.
+    /// The load of each point of a feature ([`Candidate::feature`]), N.
     pub loads: Vec<((usize, u8), f64)>,
 }
 

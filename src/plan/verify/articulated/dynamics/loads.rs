@@ -49,22 +49,23 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
         .collect()
 }
 
-/// The loads found.
+/// The loads of contacts, joints and closing bonds at an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Loads {
     /// The normal force at each candidate, N.
     pub normal: Vec<f64>,
     /// The effort of each joint, N·m or N.
     pub efforts: Vec<f64>,
-    /// The wrench in each bond that closes a loop: force (N) and moment (N·m).
+    /// The wrench in each bond that closes a loop, on the link of its first port at the bond, in level axes: force (N)
+    /// and moment (N·m).
     pub bonds: Vec<[f64; 6]>,
-    /// The imbalance of the base in height, roll and pitch, in parts of the weight (and of the weight times the size of
-    /// the robot).
+    /// The greatest imbalance of the base: of its force in height as a part of the weight, or of its moment in roll or
+    /// pitch as a part of the weight times [`Situation::size`]; 0 without gravity, or if a fixture holds the base.
     pub imbalance: f64,
 }
 
-/// Returns the loads under these forces of friction at the candidates (N), with `passive` as the guess of the contacts that
-/// bear; `None` where the method gives up.
+/// Returns the loads under these forces of friction at the candidates (N, in level axes), with `passive` as the guess of
+/// the contacts that bear; `None` where the method gives up.
 pub(super) fn solve(problem: &Situation, friction: &[Vec3], passive: &mut Vec<bool>) -> Option<Loads> {
     let (contacts, loops) = (problem.candidates.len(), problem.loops.len());
     let n = contacts + 6 * loops;
@@ -96,7 +97,7 @@ pub(super) fn solve(problem: &Situation, friction: &[Vec3], passive: &mut Vec<bo
     let target = DVector::from_iterator(joints, carried.iter().zip(soft.iter()).map(|(t, s)| t * s));
     let mut hessian = scaled.tr_mul(&scaled);
     let mut linear = -scaled.tr_mul(&target);
-    // The balance of the base, as a penalty far stiffer than anything else.
+    // The balance of the base, as a penalty.
     let stiff = PARAMETERS.balance_weight / PARAMETERS.contact_stiffness;
     let size = problem.size;
     let rows = if problem.free { 3 } else { 0 };

@@ -6,7 +6,7 @@
 //! inertia and friction ([`loads`], a quadratic program); friction follows from the slip of the contacts under the twist
 //! that friction balances ([`twist`]); loads and friction that belong together are the fixed point of the two
 //! ([`equilibrium`]). [`traction`] follows the base with its planar momentum, and decides the travel; [`course`] judges the
-//! loads in motion, as means over 50 ms.
+//! loads in motion, as means over 50 ms, or over less beside motions that are shorter than 200 ms.
 
 mod bursts;
 mod course;

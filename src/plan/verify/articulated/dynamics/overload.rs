@@ -5,7 +5,7 @@ use super::tolerances::PARAMETERS;
 use crate::plan::{CheckKind, Failure};
 use crate::units::{Dimension, number, quantity};
 
-/// A load that is over what it may be, at least for a window of time.
+/// A load whose mean over a window of time is over what it may be.
 pub(super) struct Overload {
     /// The name of the load.
     pub name: String,
@@ -13,7 +13,7 @@ pub(super) struct Overload {
     pub kind: LoadKind,
     /// Its index in the structure.
     pub load: usize,
-    /// The instant at which it is greatest, by index.
+    /// The index of the instant in the middle of the window in which its mean is greatest.
     pub instant: usize,
     since: f64,
     until: f64,

@@ -26,8 +26,8 @@ pub(super) struct Candidate {
     pub gap: f64,
     /// The coefficient of friction.
     pub friction: f64,
-    /// The velocity of the point for a unit velocity of each joint that moves it, by [`crate::robot::JointId`], with the
-    /// base still.
+    /// The velocity of the point (m/s, in level axes) for a velocity of 1 rad/s or 1 m/s of each joint that moves it, by
+    /// [`crate::robot::JointId`], with the base still.
     pub columns: Vec<(usize, Vec3)>,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Posed<'a> {
     pub model: &'a Model<'a>,
     /// Its masses.
     pub dynamics: &'a Dynamics,
-    /// The poses of all links, in level axes about the centre of mass.
+    /// The poses of all links, in level axes about the centre of mass, m.
     pub poses: Vec<Pose>,
     /// The mean velocities of the joints over the window, rad/s or m/s.
     pub velocities: Vec<f64>,
@@ -130,8 +130,9 @@ impl<'a> Posed<'a> {
         efforts
     }
 
-    /// Returns the points that the ground may bear: those near the lowest, at most one for each stretch of each link,
-    /// the lowest first. `friction` is the world's factor.
+    /// Returns the points that the ground may bear: those at most [`gap_max`](super::tolerances::Parameters::gap_max)
+    /// above the lowest, the lowest first, no two of one link nearer to each other than
+    /// [`candidate_distance`](super::tolerances::Parameters::candidate_distance). `friction` is the world's factor.
     pub(super) fn candidates(&self, friction: f64) -> Vec<Candidate> {
         let up = Vec3::z();
         let mut lowest = f64::INFINITY;
@@ -262,19 +263,19 @@ pub(super) struct Situation<'a> {
     pub candidates: Vec<Candidate>,
     /// The bonds that close loops.
     pub loops: Vec<Loop>,
-    /// The wrench that each attached link needs, about the centre of mass.
+    /// The wrench that each attached link needs, about the centre of mass in level axes, N and N·m.
     pub needed: Vec<(usize, Wrench)>,
-    /// The wrench that the surroundings must exert on the whole robot, about the centre of mass.
+    /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and N·m.
     pub base: Wrench,
-    /// The efforts of the joints without contacts.
+    /// The effort of each joint without contacts, by [`crate::robot::JointId`], N·m or N.
     pub efforts: Vec<f64>,
-    /// The stiffness of each joint, N·m/rad or N/m.
+    /// The stiffness of each joint, by [`crate::robot::JointId`], N·m/rad or N/m.
     pub stiffness: Vec<f64>,
-    /// True if the ground carries the base; false if a fixture does.
+    /// True if the robot settles on the ground; otherwise a fixture holds the base.
     pub free: bool,
     /// The weight, N.
     pub weight: f64,
-    /// The size of the robot on the ground, m.
+    /// The greatest horizontal distance of a candidate from the centre of mass, m; at least 5 cm.
     pub size: f64,
 }
 

@@ -10,8 +10,8 @@ pub(super) struct Parameters {
     pub window: f64,
     /// The shortest window, s. 1 ms: the step of a servo's own control.
     pub window_min: f64,
-    /// The number of windows that a motion must last, or the window is shortened to its part. 4: the acceleration of a
-    /// smooth motion is then within a few percent.
+    /// The number of windows that a motion must last; of a shorter one the window is the duration divided by this number.
+    /// 4: the acceleration of a smooth motion is then within a few percent.
     pub burst_windows: f64,
     /// The number of intervals into which a shorter motion is divided. 8: two in each of its quarters.
     pub burst_instants: u32,
@@ -34,7 +34,7 @@ pub(super) struct Parameters {
     pub traction_max: f64,
     /// The stiffness of a servo that turns, N·m/rad: 150, of position servos of the modules' size.
     pub servo_stiffness: f64,
-    /// The stiffness of a servo that slides, N/m: that of a turning one at a lever of 0.1 m.
+    /// The stiffness of a servo that slides, N/m: 1.5e4, that of a turning one at a lever of 0.1 m.
     pub slide_stiffness: f64,
     /// The stiffness of a joint without a motor against its planned position, N·m/rad or N/m: it bears nothing, but its
     /// position is planned.
@@ -45,7 +45,7 @@ pub(super) struct Parameters {
     pub bond_stiffness: f64,
     /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
     pub bond_turn_stiffness: f64,
-    /// The factor on a contact's stiffness with which the balance of the base is held. 1e3: a thousandth of its softness.
+    /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit: 1e3.
     pub balance_weight: f64,
     /// The change of the twist, m/s or rad/s, at which its rounds end.
     pub twist_change: f64,
@@ -67,15 +67,16 @@ pub(super) struct Parameters {
     pub size_min: f64,
     /// The speed from which on a contact counts as sliding, m/s: five times the one below which friction is viscous.
     pub sliding_speed: f64,
-    /// The factors on friction where contacts slide, and elsewhere, with which the way must stay what it is.
+    /// The factor on the friction of contacts that slide, in the other travel with which that of the plan is compared.
     pub friction_more: f64,
-    /// The second of them.
+    /// The factor on the friction of the other contacts there.
     pub friction_less: f64,
-    /// The part of a way by which it may differ with other friction before it is not determined.
+    /// The part of the distance travelled by which its end may differ with other friction before it counts as not
+    /// determined.
     pub way_undetermined: f64,
-    /// The part by which it may differ before that is told, ...
+    /// The part of the distance travelled by which its end may differ before that is noted.
     pub way_uncertain: f64,
-    /// ... if it is at least this, m.
+    /// The difference of the ends up to which it is neither noted nor a failure, m.
     pub way_uncertain_min: f64,
     /// The part of a limit that must be left. 0.15 separates what happens from what does not in 26 of 27 plans tried in
     /// MuJoCo; 0.2 would refuse four that work.

@@ -34,7 +34,7 @@ struct Last {
     carried: Vector3<f64>,
     /// The twist of the body at the centre of mass.
     twist: Twist,
-    /// The velocity of the centre of mass (m/s) and the turn (rad/s), and those of the other way.
+    /// The velocity of the centre of mass (x and y, m/s) and the turn (rad/s), and those of the other way.
     rates: [Vector3<f64>; 2],
     /// The slip of each loaded link, m/s, and its load in parts of the weight.
     slips: Vec<(usize, f64, f64)>,
@@ -54,15 +54,15 @@ pub(in super::super) struct GroundStep<'a> {
     pub before: f64,
     /// The time of this sample, s.
     pub time: f64,
-    /// The attitude of the base in level axes at the sample before.
+    /// The attitude of the base in level axes at the time `before`.
     pub R_before: &'a Mat3,
-    /// The attitude of the base at this sample.
+    /// The attitude of the base in level axes at this sample.
     pub R: &'a Mat3,
 }
 
 impl Traction {
-    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load in
-    /// parts of the weight.
+    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load as a
+    /// part of the weight. The robot stays, without slips, as long as no loads have been found.
     pub(in super::super) fn advance(
         &mut self,
         step: &GroundStep,
@@ -84,7 +84,8 @@ impl Traction {
         (pose.moved(&shift(&last.rates[0])), slips)
     }
 
-    /// Returns the length of the way, m, and the distance from its end at which it ends with other friction, m.
+    /// Returns the distance of the end of the travel from its start, m, and from the end that it has with other friction,
+    /// m.
     pub(in super::super) fn ways(&self) -> (f64, f64) {
         let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
         (libm::hypot(self.own.x, self.own.y), away)

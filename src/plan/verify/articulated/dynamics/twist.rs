@@ -25,9 +25,9 @@ pub(super) struct Momentum {
 pub(super) struct TwistProblem<'a> {
     /// The contacts.
     pub candidates: &'a [Candidate],
-    /// Their velocities by the joints alone, m/s.
+    /// The velocities of the contacts by the joints alone, m/s.
     pub by_joints: Vec<Vec3>,
-    /// Their loads, N.
+    /// The loads of the contacts, N.
     pub loads: &'a [f64],
     /// The horizontal force (N) and the moment about the vertical (N·m) that friction has to supply: x, y, yaw.
     pub needed: Vector3<f64>,
@@ -37,7 +37,8 @@ pub(super) struct TwistProblem<'a> {
     pub weight: f64,
 }
 
-/// Returns the twist of the body at the centre of mass, found from the guess `before`.
+/// Returns the twist of the body at the centre of mass, in level axes, found from the guess `before`; that of the last
+/// round if the rounds do not suffice.
 pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     let mut twist = Vector6::zeros();
     twist.fixed_rows_mut::<3>(0).copy_from(&before.linear);
@@ -111,7 +112,7 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     problem.candidates.iter().enumerate().map(one).collect()
 }
 
-/// Returns the wrench about the centre of mass of forces at the contacts.
+/// Returns the wrench about the centre of mass of forces (N) at the contacts, one for each.
 pub(super) fn wrench(candidates: &[Candidate], forces: impl Iterator<Item = Vec3>) -> Wrench {
     let mut sum = Wrench::default();
     for (candidate, force) in candidates.iter().zip(forces) {
@@ -121,8 +122,8 @@ pub(super) fn wrench(candidates: &[Candidate], forces: impl Iterator<Item = Vec3
     sum
 }
 
-/// Returns for each loaded link its slip (m/s), that of its contacts by their loads, and its load in parts of the weight
-/// (N).
+/// Returns for each loaded link the length of the mean slip of its contacts, weighted by their loads (m/s), and its load
+/// as a part of `weight` (N).
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
     loads: &[f64],
