@@ -1,5 +1,5 @@
-//! Motions that are short beside the window: bursts, whose accelerations a window of usual length would average away, and
-//! steps of velocity, whose accelerations are not known.
+//! Motions that are short beside the window: bursts, whose accelerations a window of usual length would average away,
+//! and steps of velocity, whose accelerations are not known.
 
 use super::tolerances::PARAMETERS;
 use crate::plan::Tracks;

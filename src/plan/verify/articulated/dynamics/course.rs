@@ -176,8 +176,8 @@ impl<'a> Course<'a> {
         recorded.iter().enumerate().map(motion).collect()
     }
 
-    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the first
-    /// of them, and from the last of them on.
+    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the
+    /// first of them, and from the last of them on.
     fn at(&self, velocities: &[Twist], time: f64) -> Twist {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time);
@@ -191,7 +191,8 @@ impl<'a> Course<'a> {
         Twist { linear: mix(&from.linear, &to.linear), angular: mix(&from.angular, &to.angular) }
     }
 
-    /// Returns the loads of an instant: in motion, or as if the robot stood still in it. `None` where they can't be found.
+    /// Returns the loads of an instant: in motion, or as if the robot stood still in it. `None` where they can't be
+    /// found.
     fn loads(&self, index: usize, moving: bool, friction: f64, warm: &mut Warm) -> Option<Loaded> {
         let recorded = &self.instants[index];
         let Compiled { model, structure } = &self.compiled[recorded.bonds];
@@ -224,9 +225,9 @@ impl<'a> Course<'a> {
         Some(Loaded { held, efforts: loads.efforts, ground, imbalance: loads.imbalance, open, slides })
     }
 
-    /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it, and
-    /// the forces of the ground (N) at the nearer one, from the centre of mass in level axes. `None` if they can't be
-    /// found, if the robot floats at one of these instants, or if no attitude was recorded.
+    /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it,
+    /// and the forces of the ground (N) at the nearer one, from the centre of mass in level axes. `None` if they can't
+    /// be found, if the robot floats at one of these instants, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));

@@ -64,8 +64,8 @@ pub(super) struct Loads {
     pub imbalance: f64,
 }
 
-/// Returns the loads under these forces of friction at the candidates (N, in level axes), with `passive` as the guess of
-/// the contacts that bear; `None` where the method gives up.
+/// Returns the loads under these forces of friction at the candidates (N, in level axes), with `passive` as the guess
+/// of the contacts that bear; `None` where the method gives up.
 pub(super) fn solve(problem: &Situation, friction: &[Vec3], passive: &mut Vec<bool>) -> Option<Loads> {
     let (contacts, loops) = (problem.candidates.len(), problem.loops.len());
     let n = contacts + 6 * loops;

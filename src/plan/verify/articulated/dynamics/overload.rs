@@ -44,8 +44,8 @@ impl Overload {
         }
     }
 
-    /// Returns the failure. `shares`: the load at rest without friction and with it, N or N·m; `None` where they are not
-    /// known.
+    /// Returns the failure. `shares`: the load at rest without friction and with it, N or N·m; `None` where they are
+    /// not known.
     pub(super) fn failure(&self, shares: Option<(f64, f64)>) -> Failure {
         let (kind, dimension, what) = match self.kind {
             LoadKind::Joint { turns: true, .. } => {

@@ -26,8 +26,8 @@ pub(super) struct Candidate {
     pub gap: f64,
     /// The coefficient of friction.
     pub friction: f64,
-    /// The velocity of the point (m/s, in level axes) for a velocity of 1 rad/s or 1 m/s of each joint that moves it, by
-    /// [`crate::robot::JointId`], with the base still.
+    /// The velocity of the point (m/s, in level axes) for a velocity of 1 rad/s or 1 m/s of each joint that moves it,
+    /// by [`crate::robot::JointId`], with the base still.
     pub columns: Vec<(usize, Vec3)>,
 }
 
@@ -178,8 +178,9 @@ impl<'a> Posed<'a> {
         kept
     }
 
-    /// Returns the points in the middle of the lines on which cylinders lie, as `(gap, link, index of the first rim, number,
-    /// point)`. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore it.
+    /// Returns the points in the middle of the lines on which cylinders lie, as `(gap, link, index of the first rim,
+    /// number, point)`. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims
+    /// bore it.
     fn treads(&self, placed: &[(f64, Feature)], lowest: f64) -> Vec<(f64, usize, usize, u8, Vec3)> {
         let up = Vec3::z();
         let mut found = Vec::new();
@@ -228,8 +229,8 @@ impl<'a> Posed<'a> {
         Vec3::z().cross(&self.poses[self.model.base_link()].translation.vector)
     }
 
-    /// Returns the wrench that each attached link needs for a motion under gravity (m/s²), about the centre of mass of the
-    /// robot. `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
+    /// Returns the wrench that each attached link needs for a motion under gravity (m/s²), about the centre of mass of
+    /// the robot. `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
     pub(super) fn link_wrenches(
         &self,
         motion: Option<&(Twist, Twist)>,
@@ -265,7 +266,8 @@ pub(super) struct Situation<'a> {
     pub loops: Vec<Loop>,
     /// The wrench that each attached link needs, about the centre of mass in level axes, N and N·m.
     pub needed: Vec<(usize, Wrench)>,
-    /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and N·m.
+    /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and
+    /// N·m.
     pub base: Wrench,
     /// The effort of each joint without contacts, by [`crate::robot::JointId`], N·m or N.
     pub efforts: Vec<f64>,

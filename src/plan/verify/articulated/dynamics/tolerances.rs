@@ -1,8 +1,8 @@
 //! Parameters of the dynamics of the judge: of contacts and servos, and of the methods that find forces.
 
 /// The model with which forces are determined, with the reason of each default. The stiffnesses matter less than that
-/// there are some: static torques of the robots tried changed by under 2 % in half of the plans, at most 20 %, for servos of
-/// 40 to 600 N·m/rad.
+/// there are some: static torques of the robots tried changed by under 2 % in half of the plans, at most 20 %, for
+/// servos of 40 to 600 N·m/rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Parameters {
     /// The window over which velocities and accelerations are taken and torques averaged, s. 50 ms: what is shorter, a
@@ -10,13 +10,13 @@ pub(super) struct Parameters {
     pub window: f64,
     /// The shortest window, s. 1 ms: the step of a servo's own control.
     pub window_min: f64,
-    /// The number of windows that a motion must last; of a shorter one the window is the duration divided by this number.
-    /// 4: the acceleration of a smooth motion is then within a few percent.
+    /// The number of windows that a motion must last; of a shorter one the window is the duration divided by this
+    /// number. 4: the acceleration of a smooth motion is then within a few percent.
     pub burst_windows: f64,
     /// The number of intervals into which a shorter motion is divided. 8: two in each of its quarters.
     pub burst_instants: u32,
-    /// The speed below which a joint is at rest between two motions, and its greatest jump that counts as none, rad/s or
-    /// m/s. 1e-6: rounding of control points.
+    /// The speed below which a joint is at rest between two motions, and its greatest jump that counts as none, rad/s
+    /// or m/s. 1e-6: rounding of control points.
     pub rest_speed: f64,
     /// The least time between two instants at which forces are determined, s. 10 ms, less rounding.
     pub spacing_least: f64,

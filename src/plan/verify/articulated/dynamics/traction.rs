@@ -61,8 +61,8 @@ pub(in super::super) struct GroundStep<'a> {
 }
 
 impl Traction {
-    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load as a
-    /// part of the weight. The robot stays, without slips, as long as no loads have been found.
+    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load
+    /// as a part of the weight. The robot stays, without slips, as long as no loads have been found.
     pub(in super::super) fn advance(
         &mut self,
         step: &GroundStep,
@@ -84,8 +84,8 @@ impl Traction {
         (pose.moved(&shift(&last.rates[0])), slips)
     }
 
-    /// Returns the distance of the end of the travel from its start, m, and from the end that it has with other friction,
-    /// m.
+    /// Returns the distance of the end of the travel from its start, m, and from the end that it has with other
+    /// friction, m.
     pub(in super::super) fn ways(&self) -> (f64, f64) {
         let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
         (libm::hypot(self.own.x, self.own.y), away)
@@ -148,8 +148,8 @@ fn yaw_between(from: &Mat3, to: &Mat3) -> f64 {
     libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)])
 }
 
-/// Returns the composite inertia in x, y and yaw about the centre of mass, and the planar momentum of the joints' motion
-/// with the base still.
+/// Returns the composite inertia in x, y and yaw about the centre of mass, and the planar momentum of the joints'
+/// motion with the base still.
 fn planar(posed: &Posed) -> (Matrix3<f64>, Vector3<f64>) {
     let momentum = posed.momentum();
     let inertia = Vector3::new(posed.model.mass, posed.model.mass, posed.yaw_inertia());

@@ -1,7 +1,7 @@
 //! The twist of the base under given loads of its contacts: the one that friction balances.
 //!
-//! Sliding contacts resist by Coulomb's law, and a robot that moves slowly takes the twist at which their forces carry what
-//! its motion needs: the minimum of a smooth, strictly convex power (Peshkin and Sanderson 1989; Moreau's maximum
+//! Sliding contacts resist by Coulomb's law, and a robot that moves slowly takes the twist at which their forces carry
+//! what its motion needs: the minimum of a smooth, strictly convex power (Peshkin and Sanderson 1989; Moreau's maximum
 //! dissipation), by iteratively reweighted least squares.
 
 use super::posed::Candidate;
@@ -122,8 +122,8 @@ pub(super) fn wrench(candidates: &[Candidate], forces: impl Iterator<Item = Vec3
     sum
 }
 
-/// Returns for each loaded link the length of the mean slip of its contacts, weighted by their loads (m/s), and its load
-/// as a part of `weight` (N).
+/// Returns for each loaded link the length of the mean slip of its contacts, weighted by their loads (m/s), and its
+/// load as a part of `weight` (N).
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
     loads: &[f64],
