@@ -69,10 +69,10 @@ impl Solid {
         !self.shells.is_empty()
     }
 
-    /// Returns how deep another solid at the pose `X_AB` is inside the meshes of this one that are not convex, m: the
-    /// greatest distance of a point of the other that is inside from the surface of the mesh, a lower bound on the
-    /// penetration depth. 0 where nothing of the other is inside, as in a hollow. Only where surfaces do not cross is
-    /// every solid found that is inside.
+    /// Returns a lower bound, m, on the depth to which another solid at the pose `X_AB` is inside the meshes of this
+    /// one that are not convex. One point inside each convex part of the other and inside each connected surface of its
+    /// meshes is tried: the bound is the greatest distance of those inside a mesh of this one from its surface, and 0
+    /// if none is, as in a hollow. A solid that is wholly inside is found if no surfaces cross.
     pub fn enclosed_depth(&self, other: &Solid, X_AB: &Pose) -> f64 {
         let (low, high) = self.bounds;
         let depth = |probe: &Vec3| {

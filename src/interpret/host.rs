@@ -77,7 +77,7 @@ pub struct Options {
     pub threads: usize,
 }
 
-/// Bounds on what a program may use. Going beyond one is an error: it ends the run, leaves a value unknown, or
+/// The bounds on what a program may use. Going beyond one is an error: it ends the run, leaves a value unknown, or
 /// a plan unverified.
 #[derive(Clone, Debug)]
 pub struct Limits {

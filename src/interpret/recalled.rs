@@ -16,7 +16,7 @@ const STEPS_MAX: u64 = 2_000_000;
 #[derive(Clone)]
 pub struct Recalled<C, B> {
     by_key: HashMap<CallKey, Vec<(C, B)>>,
-    /// The evaluation steps that all of them took.
+    /// The evaluation steps of all calls offered since the last were forgotten, also of those not remembered.
     steps: u64,
 }
 
@@ -38,8 +38,9 @@ impl<C, B: Clone> Recalled<C, B> {
         known.iter().find(|(call, _)| is_same(call)).map(|(_, behavior)| behavior.clone())
     }
 
-    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key at most 64 calls. If
-    /// all those remembered would then have taken more than two million steps, the others are forgotten first.
+    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key the first 64 calls. If those
+    /// offered, the ones beyond 64 included, would then have taken more than two million steps together, all earlier
+    /// ones are forgotten first.
     pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {

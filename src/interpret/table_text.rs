@@ -80,8 +80,8 @@ fn one_line(text: &str) -> String {
     text.replace('\n', " ")
 }
 
-/// Returns the number of decimals that all numbers of a column have: as many as the one that needs most, and no more
-/// than the largest is shown with. `None` where one is shown with an exponent.
+/// Returns the number of decimals that all numbers of a column have: as many as the one that needs most, but at
+/// most [`DECIMALS_MAX`]. `None` where one is shown with an exponent.
 fn decimals(numbers: &[f64]) -> Option<usize> {
     let shown: Vec<String> = numbers.iter().filter(|x| x.is_finite()).map(|x| number(*x)).collect();
     if shown.iter().any(|text| text.contains('e')) {

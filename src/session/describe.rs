@@ -84,8 +84,8 @@ impl Session {
         Ok(format!("// {}:{line}\n{}\n", file.name, self.checked.sources.text(def.whole)))
     }
 
-    /// Returns all declarations that are visible by a name, without those of the prelude, as (name, type or keyword),
-    /// sorted by name.
+    /// Returns all declarations that are visible by a name, without those of the prelude and the stored values of
+    /// expressions (`_1`), as (name, type or keyword), sorted by name.
     pub fn vars(&self) -> Vec<(String, String)> {
         let program = &self.checked.program;
         let own = meant(&self.checked).into_iter().filter(|(name, id)| {

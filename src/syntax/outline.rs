@@ -76,8 +76,8 @@ impl Outline {
     }
 }
 
-/// The tree of a text without positions: the rule and depth of each node, and the text of leaves. Texts of
-/// the same meaning have equal skeletons.
+/// The tree of a text without positions: the rule and depth of each node, and the text of leaves. Texts that differ
+/// only in white space without meaning have equal skeletons.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Skeleton(Vec<(Rule, usize, String)>);
 

@@ -25,8 +25,8 @@ struct Grammar;
 /// A node of pest's parse of a piece of text.
 pub(super) type Node<'i> = pest::iterators::Pair<'i, Rule>;
 
-/// The greatest number of diagnostics that [`parse`] returns for one text; if there are more, the first ones in the text
-/// are kept.
+/// The greatest number of diagnostics that [`parse`] returns for one text; if there are more, the first ones in the
+/// text are kept.
 pub const DIAGNOSTICS_MAX: usize = 200;
 
 /// The result of [`parse`]: the tree, with `Error` nodes where the text is wrong, and what is wrong there.

@@ -7,7 +7,7 @@ use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, V
 /// The greatest number of failures that are reported one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
 
-/// Records failures, excuses, notes and worst values while a plan is judged, and makes the verdict of them.
+/// The record of failures, excuses, notes and worst values while a plan is judged, of which the verdict is made.
 pub(super) struct Ledger<'a> {
     exemptions: &'a [Exemption],
     /// The end of the plan, which is never excused, s.

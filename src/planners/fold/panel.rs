@@ -95,7 +95,8 @@ impl Panel {
         })
     }
 
-    /// Returns true if its three sides differ by at most `TOLERANCES.side` of the longest.
+    /// Returns true if its second and its third side each differ from the first by at most `TOLERANCES.side` of the
+    /// longest.
     pub fn is_equilateral(&self) -> bool {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
@@ -127,8 +128,8 @@ impl Panel {
     }
 }
 
-/// Returns true if the sides of two triangles differ, one by one in their order, by at most `tol` times the longest
-/// side of the first.
+/// Returns true if each side of a triangle differs from that of the same index of another by at most `tol` times the
+/// longest side of the first.
 pub fn equal_sides(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
     let longest = a.into_iter().fold(0.0, f64::max);
     a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)

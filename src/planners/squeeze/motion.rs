@@ -66,7 +66,7 @@ pub struct PlanHeader {
 
 type Place<'a> = Box<dyn Fn(u64) -> CellState + 'a>;
 
-/// Builds a motion stage by stage.
+/// A motion that is built stage by stage.
 pub(super) struct Builder<'a> {
     limits: PlanLimits,
     motion: Motion,

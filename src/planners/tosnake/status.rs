@@ -33,7 +33,7 @@ impl SearchStatus {
     }
 }
 
-/// Reports a search to an observer: a new merge as a milestone, anything else on request.
+/// The reporter of a search to an observer: it reports a new merge as a milestone, anything else on request.
 pub(super) struct Reporter<'a> {
     progress: &'a mut dyn Progress,
     made: Option<usize>,

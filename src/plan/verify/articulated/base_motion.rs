@@ -9,7 +9,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
-/// Follows the base, sums slip, and watches for penetrating contact with a fixed base.
+/// The monitor of the base: it follows its motion, sums slip, and looks for penetrating contact with a fixed base.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     start: Option<Pose>,

@@ -81,7 +81,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &
     false
 }
 
-/// Watches the loops that the bonds close: mated faces must not be driven against each other.
+/// The monitor of the loops that the bonds close: mated faces must not be driven against each other.
 pub(super) struct Monitor<'a> {
     rollout: &'a Rollout<'a>,
     /// The bonds that did not dock: that their loops are open is reported already.

@@ -8,7 +8,7 @@ use crate::plan::verify::support_polygon::{self, Margin};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability, Status};
 use crate::units::{Dimension, quantity};
 
-/// Watches a rollout for the loss of support.
+/// The monitor of a rollout for the loss of support.
 pub(super) struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,

@@ -17,7 +17,7 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
 use crate::units::{Dimension, quantity};
 
-/// Judges loads from sample to sample.
+/// The monitor of loads, which judges them from sample to sample.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     compiled: Option<Compiled>,
@@ -432,7 +432,7 @@ impl Overload {
     }
 }
 
-/// Reads loads without judging them.
+/// A gauge of loads, which reads them without judging them.
 #[derive(Default)]
 pub(super) struct LoadGauge {
     compiled: Option<Compiled>,

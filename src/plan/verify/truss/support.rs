@@ -8,7 +8,7 @@ use crate::plan::verify::support_polygon::{self, Point};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-/// Judges static stability step after step, and records the slip.
+/// The monitor of static stability, which judges it step after step, and records the slip.
 pub(super) struct StabilityMonitor<'a> {
     judgement: &'a Judgement<'a>,
     contact: f64,
