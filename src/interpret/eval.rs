@@ -73,7 +73,7 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// Returns the value of an expression that may be left out; `None` for `None`.
+    /// Returns the value of an expression that may be left out; `None` if it is.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

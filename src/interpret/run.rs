@@ -11,8 +11,8 @@ use crate::interrupt;
 use crate::source::{Diagnostic, Files, Severity, code};
 
 /// Runs a checked program on a thread of its own and returns the outcome. Faults that `check` reported are not
-/// repeated; parts that it could not understand are passed over in silence. The only finding is
-/// that there is no memory for the thread, where the system gives none. Panics if the evaluator does.
+/// repeated; parts that it could not understand are passed over in silence. If the system
+/// gives no memory for the thread, that is the only finding. Panics if the evaluator does.
 pub fn run(
     routines: &Routines,
     checked: &Checked,

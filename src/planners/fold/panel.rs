@@ -101,8 +101,8 @@ impl Panel {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
 
-    /// Returns the panel with the lesser limits of its hinges and the greater thickness and `touch` of the two; a
-    /// limit that only one states is kept. Mass, sides, `contact` and parts stay its own.
+    /// Returns this panel with the lesser limits of the hinges and the greater thickness and `touch` of the two; a
+    /// limit that only one states is kept. Mass, sides, `contact` and parts are those of this panel.
     pub fn weaker(self, other: &Panel) -> Panel {
         let least = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(f64::min);
         let able = law::MotionLimits {
@@ -196,7 +196,7 @@ impl Panels {
     /// type in the modules of the library. Panics if `kinds` is empty, or an index is none of the library.
     ///
     /// # Errors
-    /// The reason for which the first module type that is no panel is none.
+    /// The reason for which a module type is no panel, that of the first such face.
     pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
         let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
         for &kind in &kinds {

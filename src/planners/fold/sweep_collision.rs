@@ -136,7 +136,8 @@ impl<'t> SweepCheck<'t> {
     }
 
     /// Returns the pairs of faces (indices in [`Target::faces`], the lesser first) that collide in the samples of a
-    /// layout that folds in steps, ascending and each once; after more than `most` were met no others are searched.
+    /// layout that folds in steps, ascending and each once; once more than `most` were met, counted anew in each step,
+    /// no others are searched for.
     /// `samples`: the number of states sampled of each step, at least 1.
     pub fn collisions(&self, steps: &[Vec<usize>], samples: usize, most: usize) -> Vec<[usize; 2]> {
         let mut folded = vec![false; self.reach.len()];

@@ -54,8 +54,9 @@ pub struct Report {
 /// that [`Settings::collisions`] is [`Collisions::Motion`]; the judge has to confirm it.
 ///
 /// # Errors
-/// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, torque limits or the budget do
-/// not suffice, the [paper](super)'s method fails, the steps can't be scheduled, or `progress` ended the search.
+/// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, the docks of a bond that closes a loop do
+/// not meet, torque limits or the budget do not suffice, the [paper](super)'s method fails or is asked for under
+/// gravity, the steps can't be scheduled, or `progress` ended the search.
 ///
 /// # Examples
 /// ```
