@@ -333,6 +333,7 @@ impl<'a> Stepper<'a> {
         if let Some((traction, dynamics)) = &mut self.traction {
             let ground = GroundStep {
                 rollout: &self.rollout,
+                bonds: &self.bonds,
                 model: &self.model,
                 dynamics,
                 world: &self.world,

@@ -45,7 +45,8 @@ pub(super) struct Parameters {
     pub bond_stiffness: f64,
     /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
     pub bond_turn_stiffness: f64,
-    /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit: 1e3.
+    /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit. 1e6: stiffer than
+    /// any servo at any lever of a robot, so that balance is not given up for less effort.
     pub balance_weight: f64,
     /// The change of the twist, m/s or rad/s, at which its rounds end.
     pub twist_change: f64,
@@ -105,7 +106,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     contact_stiffness: 1e5,
     bond_stiffness: 1e5,
     bond_turn_stiffness: 1e3,
-    balance_weight: 1e3,
+    balance_weight: 1e6,
     twist_change: 1e-6,
     twist_rounds_max: 80,
     load_change: 5e-3,

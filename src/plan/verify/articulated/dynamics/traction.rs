@@ -29,7 +29,8 @@ pub(in super::super) struct Traction {
 #[derive(Clone, Debug)]
 struct Last {
     time: f64,
-    bonds: usize,
+    /// A flag for every bond of the robot, true if it held.
+    bonds: Vec<bool>,
     /// Planar momentum of the joints' motion, N·s and N·m·s.
     carried: Vector3<f64>,
     /// The twist of the body at the centre of mass.
@@ -44,6 +45,8 @@ struct Last {
 pub(in super::super) struct GroundStep<'a> {
     /// The rollout.
     pub rollout: &'a Rollout<'a>,
+    /// A flag for every bond of the robot, true if it holds.
+    pub bonds: &'a [bool],
     /// The robot with the bonds that hold.
     pub model: &'a Model<'a>,
     /// Its masses.
@@ -68,9 +71,8 @@ impl Traction {
         step: &GroundStep,
         pose: &PlanarPose,
     ) -> (PlanarPose, Vec<(usize, f64, f64)>) {
-        let stale = |last: &Last| {
-            step.time - last.time >= PARAMETERS.spacing_least || last.bonds != step.model.attached.len()
-        };
+        let stale =
+            |last: &Last| step.time - last.time >= PARAMETERS.spacing_least || last.bonds != step.bonds;
         if self.last.as_ref().is_none_or(stale) {
             self.determine(step);
         }
@@ -112,7 +114,7 @@ impl Traction {
         let [least, most] = PARAMETERS.momentum_step;
         let duration = since.filter(|_| moving).unwrap_or(least).clamp(least, most);
         let momentum = Momentum { inertia, free, step: duration };
-        if self.last.as_ref().is_some_and(|last| last.bonds != step.model.attached.len()) {
+        if self.last.as_ref().is_some_and(|last| last.bonds != step.bonds) {
             self.warm = Warm::default();
         }
         let found = equilibrium::solve(&situation, Some(momentum), &mut self.warm);
@@ -133,7 +135,7 @@ impl Traction {
         let weight = situation.weight;
         self.last = Some(Last {
             time: step.time,
-            bonds: step.model.attached.len(),
+            bonds: step.bonds.to_vec(),
             carried,
             rates: [rate(&twist), rate(&other)],
             twist,
