@@ -241,7 +241,8 @@ pub enum MemberKind {
     Node,
 }
 
-/// A requirement that is checked when the body is complete: `require condition`.
+/// A requirement: `require condition, message`. A configuration or a truss checks it after all its clauses have run, a
+/// module at once, in the order of its clauses.
 #[derive(Clone, Debug)]
 pub struct Require {
     /// The span of the clause.

@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 pub use crate::syntax::ast::{BinaryOp, UnaryOp};
 
-/// Statements with the frame in which they run.
+/// Statements, with the number of slots for local variables that they need.
 #[derive(Clone, Debug, Default)]
 pub struct Body {
     /// The statements, in order.
     pub statements: Vec<Stmt>,
-    /// The number of slots of the frame.
+    /// The number of slots, each of which holds one local variable, in the frame in which the statements run.
     pub frame: usize,
 }
 

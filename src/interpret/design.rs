@@ -526,7 +526,7 @@ impl Instance {
         if array { Some(Value::List(Rc::new(ports.collect()))) } else { ports.next() }
     }
 
-    /// Returns the path name, or the name of the design for the whole.
+    /// Returns the path name within the robot, such as `leg[2]`; for the robot as a whole, the name of its design.
     pub fn title(&self) -> &str {
         if self.path.is_empty() { &self.design.name } else { &self.path }
     }

@@ -143,8 +143,8 @@ impl StateValue {
 /// Nodes, and struts by pairs of nodes.
 type NodesAndStruts = (Vec<Vec3>, Vec<(usize, usize)>);
 
-/// Returns the positions of the nodes (m) of a `Frame`, and its struts as pairs of indices of these; `None` for other
-/// values.
+/// Returns the parts of a `Frame`, which is the nodes and struts of a truss: the positions of the nodes, m, in the
+/// coordinate frame of the truss, and the struts as pairs of indices of nodes, from 0. `None` for other values.
 pub fn frame_parts(value: &Value) -> Option<NodesAndStruts> {
     match value {
         Value::Record(record) => match &**record {

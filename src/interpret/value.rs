@@ -150,14 +150,15 @@ pub struct Behavior {
     pub node: Arc<plan::Node>,
 }
 
-/// A call of a behaviour, to be compared with later ones, which may give the same.
+/// A call of a behaviour, remembered with its result, so that a later call that [is the same](BehaviorCall::is_same)
+/// takes that result instead of running the body again.
 #[derive(Clone, Debug)]
 pub struct BehaviorCall {
     /// The object that it is called of.
     pub object: Rc<Instance>,
     /// The index of the behaviour among those of the declaration, from 0.
     pub behavior: usize,
-    /// The arguments; `None` where the default is wanted.
+    /// The arguments, in the order of the parameters; `None` where the default is wanted.
     pub args: Vec<Option<Value>>,
     /// The user's call that led into the library, if the behaviour is declared there, since causes name it;
     /// otherwise `None`.

@@ -61,9 +61,9 @@ pub struct Extent {
     pub steps: u64,
 }
 
-/// Returns the extent of a program, or, in each count, that of the largest body of a phase, approach or stretch in
-/// it, which is carried out by itself, if it is larger. The work is linear in the distinct nodes, however often each
-/// is carried out.
+/// Returns the extent of a program. A phase, approach or stretch counts in it as one step without actions, since its
+/// body is carried out by itself; each count of the result is the greatest among the program and all such bodies. The
+/// work is linear in the distinct nodes, however often each is carried out.
 pub fn extent(root: &Arc<Node>) -> Extent {
     let graph = Graph::of(root);
     let mut extents: Vec<Extent> = Vec::with_capacity(graph.nodes.len());

@@ -115,7 +115,7 @@ impl Kinematics {
     }
 
     /// Returns the step from a link's parent to the link, given by its number; `None` for the root's body and for
-    /// links that are not connected with it.
+    /// links that are not connected with it. Panics if there is no such link.
     pub fn step(&self, link: usize) -> Option<&Step> {
         self.step_of[link].map(|index| &self.steps[index])
     }
@@ -199,8 +199,9 @@ impl Kinematics {
         (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 
-    /// Returns the closure errors (m, rad) of the bonds that close loops, ascending by bond, at these joint positions
-    /// (rad or m) and the world poses of all links that belong to them.
+    /// Returns the closure errors (m, rad) of the bonds that close loops, ascending by bond. `joints`: the positions
+    /// (rad or m) of all joints, by [`super::JointId`]; `poses`: the world poses of all links at these positions, by
+    /// their numbers.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }

@@ -117,7 +117,8 @@ impl Series {
     }
 }
 
-/// The mean and the peak of the absolute value of a function, in its own unit: torques in N·m.
+/// The mean over an interval and the peak in it of the absolute value of a function, in its own unit. For torques, in
+/// N·m, the interval is the time of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
     /// The mean of the absolute value, in the unit of the function.

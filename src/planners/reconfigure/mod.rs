@@ -109,14 +109,17 @@ impl fmt::Display for Refusal {
 
 impl Error for Refusal {}
 
-/// Plans the motion from one configuration of RoFI modules to another.
+/// Plans the motion from one configuration of RoFI modules to another, through the snake: the first half unwinds the
+/// start, as [`tosnake`] does; the second half is the unwinding of the goal, run backwards.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
 /// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
 /// the judge; without, it was not judged.
 ///
 /// # Errors
-/// [`Refusal`]: the numbers of modules differ, either configuration can't be unwound, or the two halves do not fit.
+/// [`Refusal`]: the numbers of modules differ; either configuration can't be unwound, or not within the budget, or the
+/// search was stopped; the two snakes differ; or, under gravity, no motion found that unwinds the goal is held at the
+/// same position in the snake as the start and passes the judge.
 ///
 /// # Examples
 /// ```

@@ -269,9 +269,10 @@ pub fn merge(state: &mut State, pairs: &[Pair]) {
     state.rebuild_tree();
 }
 
-/// Returns the state of a robot under gravity after the ends of a pair docked and the first bond was undocked, in the
-/// order that [`merge`] prefers, without which no joint is overloaded. `None` if there is no such bond, in which case
-/// `state` notes the smallest overload, and for a floating robot.
+/// Docks the ends of a pair and undocks the first replaceable bond, in the order that [`merge`] prefers, after which no
+/// joint bears more than [`State::load_share`] of its torque limit; returns the state after that. `None` if there is no
+/// such bond, and for a floating robot. Overloads met on the way are noted in [`State::least_overload`], also if a
+/// later bond succeeds. Panics if the pair is of one chain.
 pub fn merged_within_limits(state: &State, pair: &Pair) -> Option<State> {
     replaceable_bonds(state, pair).into_iter().find_map(|bond| {
         let mut after = state.clone();

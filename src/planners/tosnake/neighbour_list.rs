@@ -6,15 +6,17 @@ use super::motion_check::Scene;
 use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 
-/// A pair of balls whose centres are near each other.
+/// A pair of balls (the spheres of two shoes, which are halves of modules) whose centres are near each other, from
+/// [`NeighbourList::within`].
 pub struct Neighbours {
-    /// Index in the tree's order of the one ball's shoe, the smaller.
+    /// Index in the tree's order ([`Tree::shoe`](super::tree::Tree::shoe)) of the one ball's shoe, the smaller.
     pub a: usize,
     /// Index in the tree's order of the other ball's shoe.
     pub b: usize,
     /// Distance of their centres, in pitches.
     pub distance: f64,
-    /// Unit vector from the centre of a to that of b, in the frame of the poses given; x if the centres coincide.
+    /// Unit vector from the centre of a to that of b, in the frame of the `poses` given to
+    /// [`NeighbourList::within`]; x if the centres coincide.
     pub normal: Vec3,
 }
 
