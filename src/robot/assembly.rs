@@ -138,10 +138,14 @@ impl Assembly {
             JointOwner::Module { module, joint } => {
                 format!("{}.{}", self.modules[module].name, self.module_type(module).joints[joint].name)
             }
-            JointOwner::Bond(bond) => {
-                format!("{} -- {}", self.port_name(self.bonds[bond].a), self.port_name(self.bonds[bond].b))
-            }
+            JointOwner::Bond(bond) => self.bond_name(bond),
         }
+    }
+
+    /// Returns the name of a bond, given by its index: those of its two ports, such as `a.front -- b.back`. Panics if
+    /// there is no such bond.
+    pub fn bond_name(&self, bond: usize) -> String {
+        format!("{} -- {}", self.port_name(self.bonds[bond].a), self.port_name(self.bonds[bond].b))
     }
 
     /// Returns the path name of a port, such as `leg[2].m[0].front`. Panics if there is no such port.

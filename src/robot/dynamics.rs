@@ -243,20 +243,17 @@ impl Dynamics {
             let Some(axis) = step.joint_axis(poses) else { continue };
             let (linear, angular) = axis.velocity(&origin);
             let momentum = composites[step.link].momentum(&linear, &angular);
-            let mut ancestor = Some(step);
-            while let Some(above) = ancestor {
-                if let Some(axis) = above.joint_axis(poses) {
-                    let value = along(&axis, &momentum, &origin);
-                    for &(i, f) in above.terms() {
-                        for &(j, g) in step.terms() {
-                            matrix[(6 + i, 6 + j)] += f * g * value;
-                            if above.link != step.link {
-                                matrix[(6 + j, 6 + i)] += f * g * value;
-                            }
+            for above in kinematics.ancestors(step.link) {
+                let Some(axis) = above.joint_axis(poses) else { continue };
+                let value = along(&axis, &momentum, &origin);
+                for &(i, f) in above.terms() {
+                    for &(j, g) in step.terms() {
+                        matrix[(6 + i, 6 + j)] += f * g * value;
+                        if above.link != step.link {
+                            matrix[(6 + j, 6 + i)] += f * g * value;
                         }
                     }
                 }
-                ancestor = kinematics.step(above.parent);
             }
             for &(joint, factor) in step.terms() {
                 for axis in 0..3 {

@@ -25,8 +25,8 @@ impl LinkFrame {
     /// Returns the frame of a port: origin on the mating face, +x outward, +z up. Panics if the assembly has no such
     /// port.
     pub fn of_port(robot: &Assembly, kinematics: &Kinematics, port: PortRef) -> LinkFrame {
-        let declared = &robot.module_type(port.module).ports[port.port];
-        LinkFrame { link: kinematics.link(port.module, declared.link), X_LF: declared.pose }
+        let X_LF = robot.module_type(port.module).ports[port.port].pose;
+        LinkFrame { link: kinematics.port_link(robot, port), X_LF }
     }
 
     /// Returns the world pose `X_WF` of the frame from the world poses of all links, by their numbers.

@@ -120,6 +120,12 @@ impl Kinematics {
         self.step_of[link].map(|index| &self.steps[index])
     }
 
+    /// Iterates over the steps from a link, given by its number, up to the root: the link's own first. Nothing for the
+    /// root's body and for links that are not connected with it. Panics if there is no such link.
+    pub fn ancestors(&self, link: usize) -> impl Iterator<Item = &Step> {
+        std::iter::successors(self.step(link), |step| self.step(step.parent))
+    }
+
     /// Returns the step between two links, given by their numbers, that are neighbours in the tree, such as those that
     /// follow each other on a [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it
     /// leads back. Panics if the links are not neighbours.
@@ -155,18 +161,22 @@ impl Kinematics {
         poses[self.link(module, 0)]
     }
 
+    /// Returns the number of the link of a port among all links. Panics if the assembly has no such port.
+    pub fn port_link(&self, robot: &Assembly, port: PortRef) -> usize {
+        self.link(port.module, robot.module_type(port.module).ports[port.port].link)
+    }
+
     /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
-        let declared = &robot.module_type(port.module).ports[port.port];
-        poses[self.link(port.module, declared.link)] * declared.pose
+        poses[self.port_link(robot, port)] * robot.module_type(port.module).ports[port.port].pose
     }
 
     /// Returns the numbers of the links from `a` to `b` along the tree, both included, in order; `None` if bonds do
     /// not connect them.
     pub fn path(&self, a: usize, b: usize) -> Option<Vec<usize>> {
         let to_root = |link: usize| {
-            let parents = std::iter::successors(Some(link), |&l| self.step(l).map(|step| step.parent));
-            parents.collect::<Vec<_>>()
+            let parents = self.ancestors(link).map(|step| step.parent);
+            std::iter::once(link).chain(parents).collect::<Vec<_>>()
         };
         let (mut up, mut down) = (to_root(a), to_root(b));
         if up.last() != down.last() {
@@ -285,8 +295,7 @@ impl Kinematics {
             Some((hinge, joint)) => (Motion::revolute(hinge.axis * sign), vec![(joint, 1.0)]),
             None => (Motion::Fixed, vec![]),
         };
-        let (from, to) = (port(parent).link, port(child).link);
-        let (from, to) = (self.link(parent.module, from), self.link(child.module, to));
+        let (from, to) = (self.port_link(robot, parent), self.port_link(robot, child));
         self.push(Step::new(from, to, &X_Pparent, &X_Pchild, motion, terms));
     }
 

@@ -26,7 +26,7 @@ pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mu
         "kinds": robot.library.modules.iter().map(|kind| module_type(kind, meshes)).collect::<Vec<_>>(),
         "modules": robot.modules.iter().map(|m| json!([m.name, m.kind])).collect::<Vec<_>>(),
         "hinges": hinges(robot),
-        "bonds": robot.bonds.iter().map(|b| bond_name(robot, b)).collect::<Vec<_>>(),
+        "bonds": (0..robot.bonds.len()).map(|bond| robot.bond_name(bond)).collect::<Vec<_>>(),
         "start": list(tracks.start.joints.iter().copied()),
         "forms": forms.list,
         "trees": trees,
@@ -34,11 +34,6 @@ pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mu
         "docks": docks(tracks),
         "base": base,
     })
-}
-
-/// Returns the name of a bond, by its two ports.
-fn bond_name(robot: &Assembly, bond: &crate::robot::Bond) -> String {
-    format!("{} -- {}", robot.port_name(bond.a), robot.port_name(bond.b))
 }
 
 /// Returns a module type: its links with their shapes, and its joints.

@@ -200,7 +200,7 @@ fn sound_inertia(link: &Link) -> [f64; 6] {
 /// Returns the names of the sites of a bond's constraint, on its first and second port. A bond that turns has two
 /// pairs, on either side along its axis.
 pub(super) fn site_names(trees: &Trees, bond: usize) -> Vec<[String; 2]> {
-    let name = trees.bond_name(bond);
+    let name = trees.robot.bond_name(bond);
     let ends: &[&str] = if trees.robot.hinge(bond).is_some() { &[", low", ", high"] } else { &[""] };
     ends.iter().map(|end| ["first", "second"].map(|side| format!("{name}: {side}{end}"))).collect()
 }

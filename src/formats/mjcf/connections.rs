@@ -19,7 +19,8 @@ pub(super) fn exclusions(xml: &mut Xml, trees: &Trees) {
         }
     }
     for bond in &trees.robot.bonds {
-        pairs.insert((trees.port_link(bond.a), trees.port_link(bond.b)));
+        let [a, b] = [bond.a, bond.b].map(|port| trees.start.port_link(trees.robot, port));
+        pairs.insert((a, b));
     }
     let pairs: BTreeSet<(usize, usize)> =
         pairs.into_iter().filter(|(a, b)| a != b).map(|(a, b)| (a.min(b), a.max(b))).collect();
@@ -73,7 +74,7 @@ pub(super) fn couplings(xml: &mut Xml, trees: &Trees, holds: &[bool]) {
             let [first, second] = names;
             let end = if turns { end } else { "" };
             let attributes: Vec<Attribute> = vec![
-                ("name", format!("{}{end}", trees.bond_name(bond))),
+                ("name", format!("{}{end}", trees.robot.bond_name(bond))),
                 ("site1", first),
                 ("site2", second),
                 ("active", holds[bond].to_string()),

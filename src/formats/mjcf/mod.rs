@@ -16,7 +16,6 @@ mod xml;
 
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
-use crate::robot::JointOwner;
 pub use fault::MjcfFault;
 use tree::Trees;
 use xml::{Xml, number, numbers};
@@ -125,7 +124,7 @@ fn notes(xml: &mut Xml, plan: &Plan, tracks: &Tracks) {
             DockingKind::Dock => "docks",
             DockingKind::Undock => "undocks",
         };
-        let name = robot.joint_name(JointOwner::Bond(event.bond));
+        let name = robot.bond_name(event.bond);
         xml.comment(&format!("At {} s {name} {what}.", number(event.time)));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::tree::Trees;
 use super::xml::{Attribute, Xml, number, numbers};
+use crate::robot::Joint;
 
 /// A position servo with damping, and the inertia of its rotor as the joint feels it.
 struct Servo {
@@ -16,9 +17,11 @@ struct Servo {
 }
 
 /// The servo of joints that turn.
-const TURNING: Servo = Servo { class: "turning", stiffness: 150.0, damping: 6.0, armature: 2e-3 };
+const TURNING: Servo =
+    Servo { class: "turning", stiffness: Joint::TURN_STIFFNESS_DEFAULT, damping: 6.0, armature: 2e-3 };
 /// The servo of joints that slide: that of joints that turn at a lever of 0.1 m.
-const SLIDING: Servo = Servo { class: "sliding", stiffness: 1.5e4, damping: 600.0, armature: 0.2 };
+const SLIDING: Servo =
+    Servo { class: "sliding", stiffness: Joint::SLIDE_STIFFNESS_DEFAULT, damping: 600.0, armature: 0.2 };
 
 fn servo(trees: &Trees, joint: usize) -> &'static Servo {
     if trees.slides(joint) { &SLIDING } else { &TURNING }

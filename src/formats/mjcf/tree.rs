@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{DockingKind, Tracks};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, PortRef, Step};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -77,7 +77,7 @@ impl<'a> Trees<'a> {
         for bond in (0..ever.len()).filter(|&bond| ever[bond]) {
             trees.constraints.push(bond);
             for (port, second) in [(robot.bonds[bond].a, false), (robot.bonds[bond].b, true)] {
-                let link = trees.port_link(port);
+                let link = trees.start.port_link(robot, port);
                 trees.constraints_at[link].push((bond, second));
             }
         }
@@ -99,7 +99,7 @@ impl<'a> Trees<'a> {
             if let Some(bond) = bond {
                 let declared = &self.robot.bonds[bond];
                 let at = if declared.b.module == module { declared.b } else { declared.a };
-                let link = self.port_link(at);
+                let link = kinematics.port_link(self.robot, at);
                 self.joint_of[link] = kinematics.hinge(bond);
             }
             for (index, joint) in self.robot.module_type(module).joints.iter().enumerate() {
@@ -149,11 +149,6 @@ impl<'a> Trees<'a> {
         self.depth_first().into_iter().filter_map(|link| Some((self.joint_of[link]?, link))).collect()
     }
 
-    /// Returns the number of a port's link.
-    pub(super) fn port_link(&self, port: PortRef) -> usize {
-        self.start.link(port.module, self.robot.module_type(port.module).ports[port.port].link)
-    }
-
     /// Returns the declaration of a link.
     pub(super) fn link(&self, link: usize) -> &'a Link {
         let (module, index) = self.links[link];
@@ -176,11 +171,6 @@ impl<'a> Trees<'a> {
         self.robot.joint_name(self.joints[joint])
     }
 
-    /// Returns the names of a bond's two ports, as in plan files.
-    pub(super) fn bond_name(&self, bond: usize) -> String {
-        self.robot.joint_name(JointOwner::Bond(bond))
-    }
-
     /// Returns the range of a joint, rad or m, as two numbers of which the second is larger, as MuJoCo wants them;
     /// `None` if it has no end.
     pub(super) fn range(&self, joint: usize) -> Option<[f64; 2]> {
@@ -198,12 +188,7 @@ impl<'a> Trees<'a> {
 
     /// Returns true if a joint slides; its positions are then in m.
     pub(super) fn slides(&self, joint: usize) -> bool {
-        match self.joints[joint] {
-            JointOwner::Module { module, joint } => {
-                self.robot.module_type(module).joints[joint].kind == JointKind::Prismatic
-            }
-            JointOwner::Bond(_) => false,
-        }
+        self.robot.slides(self.joints[joint])
     }
 
     /// Returns true if a joint has a motor that takes commands.

@@ -92,9 +92,8 @@ impl BondedLinks {
         overlaps: &mut NominalOverlaps,
     ) {
         let Bond { a, b, .. } = robot.bonds[bond];
-        let port = |at: PortRef| &robot.module_type(at.module).ports[at.port];
-        let [x, y] = [a, b].map(|at| kinematics.link(at.module, port(at).link));
-        let origin = |at: PortRef| port(at).pose.translation.vector;
+        let [x, y] = [a, b].map(|at| kinematics.port_link(robot, at));
+        let origin = |at: PortRef| robot.module_type(at.module).ports[at.port].pose.translation.vector;
         let error = docking::tolerated(robot, bond, &Tolerances::default());
         let overlap = overlaps.of(robot, bodies, bond);
         let new = BondedPair {

@@ -103,7 +103,7 @@ impl Collision {
             }
             None => format!("{a} and {b} meet, up to {depth} deep ({} and {})", links.0, links.1),
             Some(bond) => {
-                let (name, why) = (docking::bond_name(robot, bond), reason(robot, bond));
+                let (name, why) = (robot.bond_name(bond), reason(robot, bond));
                 format!(
                     "{a} and {b} meet, {depth} deep ({} and {}), as {name} docks them{why}",
                     links.0, links.1

@@ -76,7 +76,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &
     if within(robot, &residual, rollout.tolerances) {
         return true;
     }
-    let message = format!("{} does not dock: {}", bond_name(robot, dock.bond), apart(&residual));
+    let message = format!("{} does not dock: {}", robot.bond_name(dock.bond), apart(&residual));
     ledger.fail(failure(CheckKind::Docking, robot, &residual, dock.time, message, vec![dock.cause], rollout));
     false
 }
@@ -110,7 +110,7 @@ impl<'a> Monitor<'a> {
             if fits || self.missed.iter().any(|&missed| on_loop(sample, residual.bond, missed)) {
                 continue;
             }
-            let name = bond_name(sample.model.robot, residual.bond);
+            let name = sample.model.robot.bond_name(residual.bond);
             match self.open.iter_mut().find(|f| f.at[0] == name) {
                 Some(failure) => failure.until = Some(sample.time),
                 None => {
@@ -137,7 +137,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
     let (robot, kinematics) = (sample.model.robot, &sample.model.kinematics);
     let ends = |bond: usize| {
         let Bond { a, b, .. } = robot.bonds[bond];
-        [a, b].map(|p| kinematics.link(p.module, robot.module_type(p.module).ports[p.port].link))
+        [a, b].map(|port| kinematics.port_link(robot, port))
     };
     let [from, to] = ends(closing);
     let path = kinematics.path(from, to).unwrap_or_default();
@@ -148,7 +148,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
 pub(super) fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
     residuals(sample)
         .iter()
-        .any(|r| bond_name(sample.model.robot, r.bond) == name && !within(sample.model.robot, r, tolerances))
+        .any(|r| sample.model.robot.bond_name(r.bond) == name && !within(sample.model.robot, r, tolerances))
 }
 
 fn residuals(sample: &Sample) -> Vec<Residual> {
@@ -172,12 +172,6 @@ pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) 
     capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
 }
 
-/// Returns the name of the bond of an index for messages: those of its two ports, such as `a.x -- b.y`.
-pub(super) fn bond_name(robot: &Assembly, bond: usize) -> String {
-    let declared = &robot.bonds[bond];
-    format!("{} -- {}", robot.port_name(declared.a), robot.port_name(declared.b))
-}
-
 fn apart(residual: &Residual) -> String {
     let distance = quantity(residual.distance, Dimension::LENGTH);
     format!("the ports are {distance} and {} apart", quantity(residual.angle, Dimension::ANGLE))
@@ -197,7 +191,7 @@ fn failure(
         kind,
         time,
         until: None,
-        at: vec![bond_name(robot, residual.bond)],
+        at: vec![robot.bond_name(residual.bond)],
         message,
         value: residual.distance,
         limit,

@@ -297,12 +297,9 @@ impl Structure {
                 true => (declared.a, declared.b),
                 false => (declared.b, declared.a),
             };
-            let name =
-                format!("{} -- {}", model.robot.port_name(declared.a), model.robot.port_name(declared.b));
+            let name = model.robot.bond_name(bond);
             let (force, moment) = holds(model, near, far);
-            let link = |port: PortRef| {
-                model.kinematics.link(port.module, model.robot.module_type(port.module).ports[port.port].link)
-            };
+            let link = |port: PortRef| model.kinematics.port_link(model.robot, port);
             let pose = model.robot.module_type(near.module).ports[near.port].pose;
             let cut = |axis: Vec3, moment| Cut::Bond {
                 link: link(far),
@@ -331,7 +328,7 @@ impl Structure {
     pub(super) fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
         let a = model.robot.bonds[bond].a;
         let port = &model.robot.module_type(a.module).ports[a.port];
-        let link = model.kinematics.link(a.module, port.link);
+        let link = model.kinematics.port_link(model.robot, a);
         let posture = &stance.posture;
         stance.R * (posture.R[link] * port.pose.translation.vector + posture.p[link] - posture.centre)
     }
@@ -389,9 +386,7 @@ fn spans(model: &Model) -> Vec<(usize, usize)> {
 }
 
 fn closing(model: &Model) -> Vec<(usize, usize, usize)> {
-    let link = |port: PortRef| {
-        model.kinematics.link(port.module, model.robot.module_type(port.module).ports[port.port].link)
-    };
+    let link = |port: PortRef| model.kinematics.port_link(model.robot, port);
     let bond = |&b: &usize| (b, link(model.robot.bonds[b].a), link(model.robot.bonds[b].b));
     model.kinematics.tree.closing.iter().map(bond).collect()
 }
