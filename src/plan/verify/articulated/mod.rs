@@ -31,6 +31,7 @@ mod base_motion;
 mod contact_forces;
 mod contact_lp;
 mod fixed_base;
+mod load_limits;
 mod stability;
 mod statics;
 mod torque;

@@ -7,14 +7,14 @@
 use super::contact::ContactPoint;
 use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
 use super::fixed_base::BetweenSamples;
+use super::load_limits::{MotorWork, Overload, is_excused, keep_margin, note_open_motors};
 use super::model::Model;
 use super::rollout::{Rollout, Sample, bonds_at};
 use super::statics::{LoadKind, Section, Structure, Wrench, effects};
-use super::tolerances::NUMERICS;
-use super::tolerances::Tolerances;
+use super::tolerances::{NUMERICS, Tolerances};
 use crate::geometry::Vec3;
-use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status};
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CheckKind, Ground, Status};
 use crate::units::{Dimension, quantity};
 
 /// The monitor of loads, which judges them from sample to sample.
@@ -26,8 +26,7 @@ pub(super) struct Monitor<'a> {
     /// Overloads so far: one for each load.
     failures: Vec<Overload>,
     warm_starts: [WarmStart; 2],
-    joints: Vec<f64>,
-    efforts: Vec<f64>,
+    work: MotorWork,
     samples: usize,
     /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
     unknown: usize,
@@ -36,7 +35,6 @@ pub(super) struct Monitor<'a> {
     /// The samples at which the existence of forces that overload nothing was not decided.
     undecided: usize,
     uneven: Option<UnevenForces>,
-    energy: f64,
     /// True if loads were bounded between the samples, too.
     proved: bool,
     /// The grounds of the decision about the joints of the sample, for those who read it.
@@ -74,23 +72,6 @@ struct Compiled {
 const UNDECIDED: &str =
     "an overload was not proved: the best contact forces found are within rounding of the limit";
 
-/// A load over its limit.
-#[derive(Clone, Debug)]
-pub(super) struct Overload {
-    /// The name of the load, as in [`Load::name`](super::statics::Load::name).
-    pub name: String,
-    /// The kind of the load: a joint's, a motor's or a bond's.
-    pub kind: LoadKind,
-    /// The time of the first sample over the limit, s.
-    pub since: f64,
-    /// The time of the last sample over the limit, s.
-    pub until: f64,
-    /// The greatest load so far; N·m or N.
-    pub value: f64,
-    /// The limit of the load, N·m or N.
-    pub limit: f64,
-}
-
 /// A time at which evenly distributed contact forces would overload something.
 struct UnevenForces {
     time: f64,
@@ -124,14 +105,12 @@ impl<'a> Monitor<'a> {
             over: vec![],
             failures: vec![],
             warm_starts: Default::default(),
-            joints: vec![],
-            efforts: vec![],
+            work: MotorWork::default(),
             samples: 0,
             unknown: 0,
             effort: 0,
             undecided: 0,
             uneven: None,
-            energy: 0.0,
             proved: false,
             decided: None,
         }
@@ -205,16 +184,18 @@ impl<'a> Monitor<'a> {
         if loads.judged.len() < structure.loads.len() {
             self.unknown += 1;
         }
-        self.work(sample, compiled, &loads.held);
+        let effort = |joint| structure.joint_effort(joint, &loads.held, &compiled.effects);
+        self.work.add(sample.joints.to_vec(), (0..sample.joints.len()).map(effort).collect());
         self.over.clear();
         // Joints and motors first, then bonds: each has a margin of its own.
-        for (slot, bonds) in [(0, false), (1, true)] {
-            let own = |i: &usize| bonds != matches!(structure.loads[*i].kind, LoadKind::Joint { .. });
+        for (slot, check) in [CheckKind::Torque, CheckKind::BondLoad].into_iter().enumerate() {
+            let bonds = check == CheckKind::BondLoad;
+            let own = |i: &usize| structure.loads[*i].kind.check() == check;
             let judged: Vec<usize> = loads.judged.iter().copied().filter(own).collect();
             let Some(worst) = greatest(&judged, |i| loads.ratios[i]) else { continue };
             // Feasible already: these forces exist, and overload nothing.
             if loads.ratios[worst] <= 1.0 {
-                self.margin(sample, structure, worst, loads.ratios[worst], ledger);
+                keep_margin(&structure.loads[worst], loads.ratios[worst], sample.time, ledger);
                 continue;
             }
             // Otherwise a query for the best contact forces.
@@ -252,7 +233,7 @@ impl<'a> Monitor<'a> {
             // Feasible contact forces settle it; otherwise the overloads are recorded.
             match best {
                 Some(best) if best.ratio <= 1.0 => {
-                    self.margin(sample, structure, best.load, best.ratio, ledger);
+                    keep_margin(&structure.loads[best.load], best.ratio, sample.time, ledger);
                     self.uneven(sample.time, query, (worst, loads.ratios[worst]), &best);
                 }
                 best => {
@@ -263,22 +244,13 @@ impl<'a> Monitor<'a> {
                         .map_or((sure.unwrap_or(worst), loads.ratios[sure.unwrap_or(worst)]), |b| {
                             (b.load, b.ratio)
                         });
-                    self.margin(sample, structure, load, ratio, ledger);
+                    keep_margin(&structure.loads[load], ratio, sample.time, ledger);
                     let all = judged.iter().copied().filter(|&i| sure.is_some() && loads.ratios[i] > 1.0);
                     let sures: Vec<_> = all.map(|i| (i, loads.ratios[i])).collect();
                     self.over.extend(if sures.is_empty() { vec![(load, ratio)] } else { sures });
                 }
             }
         }
-    }
-
-    fn margin(&self, sample: &Sample, structure: &Structure, load: usize, ratio: f64, ledger: &mut Ledger) {
-        let load = &structure.loads[load];
-        let worst = match load.kind {
-            LoadKind::Joint { .. } => &mut ledger.verdict.torque_margin,
-            LoadKind::Pull | LoadKind::Moment => &mut ledger.verdict.bond_margin,
-        };
-        keep_least(worst, 1.0 - ratio, sample.time, || vec![load.name.clone()]);
     }
 
     /// Records the greatest load that even contact forces would make, if it is over its limit, and if others without
@@ -293,46 +265,19 @@ impl<'a> Monitor<'a> {
         self.uneven = Some(UnevenForces { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
-    /// Adds the positive work of the motors since the sample before; negative work is not regained.
-    fn work(&mut self, sample: &Sample, compiled: &Compiled, held: &[f64]) {
-        let effort = |joint| compiled.structure.joint_effort(joint, held, &compiled.effects);
-        let efforts: Vec<f64> = (0..sample.joints.len()).map(effort).collect();
-        if self.joints.len() == efforts.len() {
-            for (joint, effort) in efforts.iter().enumerate() {
-                let mean = (effort + self.efforts[joint]) / 2.0;
-                self.energy += (mean * (sample.joints[joint] - self.joints[joint])).max(0.0);
-            }
-        }
-        (self.joints, self.efforts) = (sample.joints.to_vec(), efforts);
-    }
-
     fn record(&mut self, sample: &Sample, ledger: &mut Ledger) {
         let Some(compiled) = &self.compiled else { return };
         for &(index, ratio) in &self.over {
             let load = &compiled.structure.loads[index];
-            if let LoadKind::Joint { joint, .. } = load.kind {
-                let of = |kind: &ExemptionKind| match kind {
-                    ExemptionKind::Overload(only) => only.is_none_or(|j| j as usize == joint),
-                    _ => false,
-                };
-                if ledger.excuses(CheckKind::Torque, sample.time, of) {
-                    continue;
-                }
+            if is_excused(load, sample.time, ledger) {
+                continue;
             }
             let value = ratio * load.limit;
-            match self.failures.iter_mut().find(|f| f.name == load.name && f.kind == load.kind) {
+            match self.failures.iter_mut().find(|f| f.is_of(load)) {
                 Some(failure) => {
-                    failure.until = sample.time;
-                    failure.value = failure.value.max(value);
+                    failure.grow(value, sample.time);
                 }
-                None => self.failures.push(Overload {
-                    name: load.name.clone(),
-                    kind: load.kind,
-                    since: sample.time,
-                    until: sample.time,
-                    value,
-                    limit: load.limit,
-                }),
+                None => self.failures.push(Overload::new(load, value, sample.time)),
             }
         }
     }
@@ -343,9 +288,7 @@ impl<'a> Monitor<'a> {
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
             let model = Model::new(&rollout.tracks.robot, &bonds_at(rollout.tracks, *time));
             let load = &Structure::new(&model).loads[*load];
-            let (since, until) = (*time, *time);
-            let (name, value) = (load.name.clone(), ratio * load.limit);
-            self.failures.push(Overload { name, kind: load.kind, since, until, value, limit: load.limit });
+            self.failures.push(Overload::new(load, ratio * load.limit, *time));
         }
     }
 
@@ -356,7 +299,7 @@ impl<'a> Monitor<'a> {
 
     /// Records the energy that the joints spend, notes on uneven forces, and the status of each check of loads.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
-        ledger.verdict.energy = self.energy;
+        ledger.verdict.energy = self.work.energy();
         if let Some(uneven) = &self.uneven {
             let (time, name) = (quantity(uneven.time, Dimension::TIME), &uneven.name);
             let ratios = format!("{:.2} of its limit", uneven.even);
@@ -376,12 +319,9 @@ impl<'a> Monitor<'a> {
                 self.unknown
             ));
         }
-        let stated = |bonds: bool| {
-            self.compiled.as_ref().is_some_and(|c| {
-                c.structure.loads.iter().any(|l| bonds != matches!(l.kind, LoadKind::Joint { .. }))
-            })
-        };
-        let status = |bonds| match (self.samples, stated(bonds)) {
+        let structure = self.compiled.as_ref().map(|compiled| &compiled.structure);
+        let stated = |check| structure.is_some_and(|structure| structure.has_limits(check));
+        let status = |check| match (self.samples, stated(check)) {
             (0, _) => Status::NotChecked("nothing is weighed without gravity and a ground".to_owned()),
             (_, false) => Status::NoLimit,
             (samples, true) if self.undecided > 0 => Status::NotChecked(format!(
@@ -391,43 +331,9 @@ impl<'a> Monitor<'a> {
             (_, true) if self.proved => Status::Proved,
             (samples, true) => Status::Sampled(samples),
         };
-        if self.compiled.as_ref().is_some_and(|c| c.structure.motors_open) {
-            ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
-        }
-        ledger.check(CheckKind::Torque, status(false));
-        ledger.check(CheckKind::BondLoad, status(true));
-    }
-}
-
-impl Overload {
-    /// Returns the failure of the overload.
-    pub(super) fn failure(&self) -> Failure {
-        let (kind, dimension, what) = match self.kind {
-            LoadKind::Joint { turns: true, .. } => {
-                (CheckKind::Torque, Dimension::TORQUE, "would have to hold")
-            }
-            LoadKind::Joint { turns: false, .. } => {
-                (CheckKind::Torque, Dimension::FORCE, "would have to hold")
-            }
-            LoadKind::Pull => (CheckKind::BondLoad, Dimension::FORCE, "is pulled apart with"),
-            LoadKind::Moment => (CheckKind::BondLoad, Dimension::TORQUE, "is bent with"),
-        };
-        let words = |v| quantity(v, dimension);
-        Failure {
-            kind,
-            time: self.since,
-            until: Some(self.until),
-            at: vec![self.name.clone()],
-            message: format!(
-                "{} {what} up to {}; it holds {}",
-                self.name,
-                words(self.value),
-                words(self.limit)
-            ),
-            value: self.value,
-            limit: self.limit,
-            blame: vec![],
-            blames_start: false,
+        note_open_motors(structure.into_iter(), ledger);
+        for check in [CheckKind::Torque, CheckKind::BondLoad] {
+            ledger.check(check, status(check));
         }
     }
 }

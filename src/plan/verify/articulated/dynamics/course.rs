@@ -2,17 +2,18 @@
 //! against the balance of the robot.
 
 use super::super::ground_features::Mat3;
+use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
-use super::super::rollout::{Rollout, Sample};
-use super::super::statics::{LoadKind, Structure, Wrench as LinkWrench};
+use super::super::rollout::{Rollout, Sample, positions};
+use super::super::statics::{Structure, Wrench as LinkWrench};
 use super::bursts::Bursts;
 use super::equilibrium::{self, Equilibrium, Warm};
-use super::overload::Overload;
+use super::overload::MeanOverload;
 use super::posed::{Posed, Situation};
 use super::tolerances::PARAMETERS;
 use crate::geometry::Vec3;
-use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
+use crate::plan::verify::ledger::Ledger;
+use crate::plan::{CheckKind, Failure, Ground, Status, World};
 use crate::robot::dynamics::{Dynamics, Twist};
 use crate::units::{Dimension, number, quantity};
 use std::collections::VecDeque;
@@ -249,7 +250,6 @@ impl<'a> Course<'a> {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
-        let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
         for (index, recorded) in self.instants.iter().enumerate() {
             crate::interrupt::checkpoint();
             if recorded.world.ground == Ground::Off {
@@ -269,16 +269,17 @@ impl<'a> Course<'a> {
             if loaded.slides {
                 found.slides.get_or_insert(recorded.time);
             }
-            self.work(index, &loaded, &mut before, &mut found);
+            let mut joints = Vec::new();
+            positions(self.rollout, recorded.time, &mut joints);
+            found.work.add(joints, loaded.efforts.clone());
             window.push_back((recorded.time, index, loaded));
             while window.front().is_some_and(|(t, _, _)| recorded.time - t > self.windows[index]) {
                 window.pop_front();
             }
             self.compare(&window, &mut found, ledger);
         }
-        for overload in std::mem::take(&mut found.overloads) {
-            let failure = self.explained(overload);
-            ledger.fail(failure);
+        for overload in &found.overloads {
+            ledger.fail(self.explained(overload));
         }
         self.finish(&found, ledger);
     }
@@ -294,29 +295,13 @@ impl<'a> Course<'a> {
         for (index, load) in structure.loads.iter().enumerate() {
             let value = structure.size(load, &mean);
             let ratio = value / load.limit;
-            let joint = match load.kind {
-                LoadKind::Joint { joint, .. } => Some(joint),
-                LoadKind::Pull | LoadKind::Moment => None,
-            };
-            let worst = match joint {
-                Some(_) => &mut ledger.verdict.torque_margin,
-                None => &mut ledger.verdict.bond_margin,
-            };
-            found.stated[usize::from(joint.is_none())] = true;
-            keep_least(worst, 1.0 - ratio, *time, || vec![load.name.clone()]);
-            if ratio <= 1.0 - PARAMETERS.reserve {
+            keep_margin(load, ratio, *time, ledger);
+            if ratio <= 1.0 - PARAMETERS.reserve || is_excused(load, *time, ledger) {
                 continue;
             }
-            let of = |kind: &ExemptionKind| match (kind, joint) {
-                (ExemptionKind::Overload(only), Some(joint)) => only.is_none_or(|j| j as usize == joint),
-                _ => false,
-            };
-            if joint.is_some() && ledger.excuses(CheckKind::Torque, *time, of) {
-                continue;
-            }
-            match found.overloads.iter_mut().find(|o| o.name == load.name && o.kind == load.kind) {
+            match found.overloads.iter_mut().find(|over| over.overload.is_of(load)) {
                 Some(over) => over.grow(value, *time, *middle),
-                None => found.overloads.push(Overload::new(load, index, value, *time, *middle)),
+                None => found.overloads.push(MeanOverload::new(load, index, value, *time, *middle)),
             }
         }
         let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
@@ -329,27 +314,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Adds the positive work of the motors since the instant before; negative work is not regained.
-    fn work(
-        &self,
-        index: usize,
-        loaded: &Loaded,
-        before: &mut Option<(Vec<f64>, Vec<f64>)>,
-        found: &mut Findings,
-    ) {
-        let mut joints = Vec::new();
-        super::super::rollout::positions(self.rollout, self.instants[index].time, &mut joints);
-        if let Some((was, efforts)) = before {
-            for joint in 0..joints.len() {
-                let mean = (efforts[joint] + loaded.efforts[joint]) / 2.0;
-                found.energy += (mean * (joints[joint] - was[joint])).max(0.0);
-            }
-        }
-        *before = Some((joints, loaded.efforts.clone()));
-    }
-
     /// Returns the failure of an overload, with its shares by origin.
-    fn explained(&self, overload: Overload) -> Failure {
+    fn explained(&self, overload: &MeanOverload) -> Failure {
         let structure = &self.compiled[self.instants[overload.instant].bonds].structure;
         let load = &structure.loads[overload.load];
         let size = |moving, friction| {
@@ -362,7 +328,7 @@ impl<'a> Course<'a> {
     }
 
     fn finish(&self, found: &Findings, ledger: &mut Ledger) {
-        ledger.verdict.energy = found.energy;
+        ledger.verdict.energy = found.work.energy();
         if let Some((since, until, worst)) = found.unbalanced {
             ledger.fail(Failure {
                 kind: CheckKind::Balance,
@@ -437,8 +403,12 @@ impl<'a> Course<'a> {
             _ if !stated => Status::NoLimit,
             instants => Status::Sampled(instants),
         };
-        ledger.check(CheckKind::Torque, sampled(found.stated[0]));
-        ledger.check(CheckKind::BondLoad, sampled(found.stated[1]));
+        let judged = self.instants.iter().filter(|instant| instant.world.ground != Ground::Off);
+        let structures = judged.map(|instant| &self.compiled[instant.bonds].structure);
+        for check in [CheckKind::Torque, CheckKind::BondLoad] {
+            let stated = structures.clone().any(|structure| structure.has_limits(check));
+            ledger.check(check, sampled(stated));
+        }
         ledger.check(
             CheckKind::Balance,
             match found.stepped {
@@ -447,9 +417,7 @@ impl<'a> Course<'a> {
             },
         );
         ledger.check(CheckKind::Traction, sampled(true));
-        if self.compiled.iter().any(|compiled| compiled.structure.motors_open) {
-            ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
-        }
+        note_open_motors(self.compiled.iter().map(|compiled| &compiled.structure), ledger);
     }
 }
 
@@ -467,10 +435,8 @@ struct Findings {
     unbalanced: Option<(f64, f64, f64)>,
     /// True if the robot is not balanced near a step of velocity.
     stepped: bool,
-    overloads: Vec<Overload>,
-    /// True if joints state limits; true if bonds do.
-    stated: [bool; 2],
-    energy: f64,
+    overloads: Vec<MeanOverload>,
+    work: MotorWork,
 }
 
 /// Returns a twist in axes turned back by `yaw` (rad) about the vertical: from level axes to those of the world.
