@@ -121,33 +121,31 @@ impl Dimension {
     /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
     pub fn power(self, n: i64) -> Option<Dimension> {
         let scaled = |exponent: i8| i8::try_from(i64::from(exponent).checked_mul(n)?).ok();
-        Some(Dimension {
-            length: scaled(self.length)?,
-            mass: scaled(self.mass)?,
-            time: scaled(self.time)?,
-            angle: scaled(self.angle)?,
-            param: scaled(self.param)?,
-            energy: self.energy && n == 1,
-        })
+        Some(Dimension { energy: self.energy && n == 1, ..self.map(scaled)? })
     }
 
     /// Returns the dimension whose `n`th power this is: every exponent divided by `n`; `None` where one is no
     /// multiple of it, or `n` is 0.
     pub fn root(self, n: i8) -> Option<Dimension> {
         let part = |exponent: i8| (exponent.checked_rem(n)? == 0).then(|| exponent.checked_div(n))?;
-        Some(Dimension {
-            length: part(self.length)?,
-            mass: part(self.mass)?,
-            time: part(self.time)?,
-            angle: part(self.angle)?,
-            param: part(self.param)?,
-            energy: self.energy && n == 1,
-        })
+        Some(Dimension { energy: self.energy && n == 1, ..self.map(part)? })
     }
 
     /// Returns the exponents, which say what dimension it is.
     fn exponents(self) -> [i8; 5] {
         [self.length, self.mass, self.time, self.angle, self.param]
+    }
+
+    /// Returns the dimension with `op` of each exponent, no energy; `None` where `op` has no answer.
+    fn map(self, op: impl Fn(i8) -> Option<i8>) -> Option<Dimension> {
+        Some(Dimension {
+            length: op(self.length)?,
+            mass: op(self.mass)?,
+            time: op(self.time)?,
+            angle: op(self.angle)?,
+            param: op(self.param)?,
+            energy: false,
+        })
     }
 
     fn combine(self, o: Dimension, op: fn(i8, i8) -> Option<i8>) -> Option<Dimension> {

@@ -432,7 +432,7 @@ fn a_program_with_nothing_to_show_says_so() {
     let ran = s.run(&["show", "a.mod"]);
     assert!(ran.code == 0 && ran.err.contains("W0010") && ran.err.contains("emits no plan"), "{}", ran.err);
     assert!(s.run(&["run", "a.mod"]).err.is_empty());
-    // What is wrong is told, and not that nothing came of it.
+    // The error is told, and not that nothing came of it.
     let ran = s.run(&["show", "b.mod"]);
     assert!(ran.code == 1 && ran.err.contains("E0316") && !ran.err.contains("W0010"), "{}", ran.err);
     let checked = s.run(&["check", "b.mod"]);

@@ -120,7 +120,7 @@ fn pages_without_a_source_are_removed_and_nothing_else_is() {
     for name in ["notes.html", "pictures/mine.png"] {
         fs::write(sandbox.path(&format!("out/doc/{name}")), "mine").expect("a file");
     }
-    // What someone has changed is theirs.
+    // A page that someone has changed is theirs.
     let edited = sandbox.path("out/doc/claw-mod.html");
     fs::write(&edited, "edited").expect("a file");
     for name in ["pair.mod", "claw.mod"] {

@@ -100,7 +100,7 @@ fn every_command_answers_in_json_wherever_the_option_stands_or_says_why_not() {
             assert!(documented.contains(&format!("`{field}`")), "docs/json.md does not tell of `{field}`");
         }
     }
-    // What is made is there, so these can't be asked twice.
+    // A project that was made stays, so that these can't be asked twice.
     for words in [["--json", "new", "p"], ["new", "q", "--json"]] {
         let answer = json(&sandbox.run(&words));
         assert_eq!((&answer["ok"], answer.as_object().map(serde_json::Map::len)), (&true.into(), Some(2)));
@@ -248,7 +248,7 @@ fn printed_values_say_which_line_shows_them() {
 
 #[test]
 fn values_too_many_or_too_deep_are_left_out_and_counted() {
-    // What is told of it all is bounded, and what is left out is counted.
+    // The list of what was printed is bounded, and what is left out is counted.
     let told = values("let many = [i for i in 0..400_000]\nprint(many)\nprint(1)\n");
     let list = told[0]["list"].as_array().expect("a list").len();
     assert_eq!(list as u64 + told[0]["omitted"].as_u64().expect("a number"), 400_000);
