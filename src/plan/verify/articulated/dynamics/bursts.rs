@@ -19,8 +19,6 @@ pub(super) struct VelocityStep {
     pub time: f64,
     /// The joint by [`crate::robot::JointId`].
     pub joint: usize,
-    /// The change, rad/s or m/s.
-    pub change: f64,
 }
 
 impl Bursts {
@@ -33,7 +31,7 @@ impl Bursts {
             let mut rate = 0.0;
             let mut step = |time: f64, change: f64| {
                 if change.abs() > PARAMETERS.rest_speed {
-                    steps.push(VelocityStep { time, joint, change });
+                    steps.push(VelocityStep { time, joint });
                 }
             };
             for (index, segment) in track.segments.iter().enumerate() {

@@ -37,13 +37,11 @@ pub(in super::super) struct Recorder {
     recorded: Vec<Recorded>,
     bonds: Vec<Vec<bool>>,
     ways: (f64, f64),
-    samples: usize,
 }
 
 impl Recorder {
     /// Takes a sample.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
-        self.samples += 1;
         self.ways = sample.ways;
         let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
         let bonds = known.unwrap_or_else(|| {
@@ -208,7 +206,8 @@ impl<'a> Course<'a> {
         let mut wrenches: Vec<LinkWrench> = situation
             .needed
             .iter()
-            .map(|(link, w)| LinkWrench { link: *link, p: zero, f: -w.force, m: -w.moment })
+            .enumerate()
+            .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
             .collect();
         let pushed = situation.candidates.iter().zip(&loads.normal).zip(&friction);
         let pushed = pushed.filter(|((_, normal), _)| **normal > 0.0).map(|((candidate, normal), (_, f))| {

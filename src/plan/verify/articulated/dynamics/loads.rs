@@ -29,12 +29,8 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
         .iter()
         .map(|&bond| {
             let declared = robot.bonds[bond];
-            let sides = [declared.a, declared.b].map(|port| {
-                let link = robot.module_type(port.module).ports[port.port].link;
-                kinematics.link(port.module, link)
-            });
-            let port = &robot.module_type(declared.a.module).ports[declared.a.port];
-            let p = posed.poses[sides[0]].transform_point(&port.pose.translation.vector.into()).coords;
+            let sides = [declared.a, declared.b].map(|port| kinematics.port_link(robot, port));
+            let p = kinematics.port_pose(robot, declared.a, &posed.poses).translation.vector;
             let columns = std::array::from_fn(|axis| {
                 let unit = Vec3::ith(axis % 3, 1.0);
                 let (force, moment) = if axis < 3 { (unit, Vec3::zeros()) } else { (Vec3::zeros(), unit) };

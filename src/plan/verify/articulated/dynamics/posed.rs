@@ -8,9 +8,8 @@ use super::loads::{self, Loop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, World};
-use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
-use crate::robot::jacobian::JointAxis;
-use crate::robot::{JointKind, JointOwner};
+use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench, along};
+use crate::robot::{Joint, JointOwner};
 use nalgebra::{Rotation3, UnitQuaternion};
 
 /// A point of the robot that the ground may bear.
@@ -95,37 +94,27 @@ impl<'a> Posed<'a> {
     /// Returns the velocity of each joint that moves a point fixed to a link: [`Candidate::columns`].
     pub(super) fn columns(&self, link: usize, p: &Vec3) -> Vec<(usize, Vec3)> {
         let mut columns: Vec<(usize, Vec3)> = Vec::new();
-        let mut at = self.model.kinematics.step(link);
-        while let Some(step) = at {
-            if let Some(axis) = step.joint_axis(&self.poses) {
-                let velocity = axis.velocity(p).0;
-                for &(joint, factor) in step.terms() {
-                    match columns.iter_mut().find(|(known, _)| *known == joint) {
-                        Some((_, column)) => *column += velocity * factor,
-                        None => columns.push((joint, velocity * factor)),
-                    }
+        for step in self.model.kinematics.ancestors(link) {
+            let Some(axis) = step.joint_axis(&self.poses) else { continue };
+            let velocity = axis.velocity(p).0;
+            for &(joint, factor) in step.terms() {
+                match columns.iter_mut().find(|(known, _)| *known == joint) {
+                    Some((_, column)) => *column += velocity * factor,
+                    None => columns.push((joint, velocity * factor)),
                 }
             }
-            at = self.model.kinematics.step(step.parent);
         }
         columns
     }
 
-    /// Returns the efforts of joints by a wrench (N, N·m) that acts on a link at `p`: `(joint, effort)`.
+    /// Returns the efforts of joints by a wrench (N, N·m) that acts on a link, with its moment about `p`: `(joint,
+    /// effort)`.
     pub(super) fn efforts_of(&self, link: usize, p: &Vec3, wrench: &Wrench) -> Vec<(usize, f64)> {
         let mut efforts = Vec::new();
-        let mut at = self.model.kinematics.step(link);
-        while let Some(step) = at {
-            if let Some(axis) = step.joint_axis(&self.poses) {
-                let effort = match axis {
-                    JointAxis::Revolute { axis, point } => {
-                        axis.dot(&(wrench.moment + (p - point).cross(&wrench.force)))
-                    }
-                    JointAxis::Prismatic { axis } => axis.dot(&wrench.force),
-                };
-                efforts.extend(step.terms().iter().map(|&(joint, factor)| (joint, factor * effort)));
-            }
-            at = self.model.kinematics.step(step.parent);
+        for step in self.model.kinematics.ancestors(link) {
+            let Some(axis) = step.joint_axis(&self.poses) else { continue };
+            let effort = along(&axis, wrench, p);
+            efforts.extend(step.terms().iter().map(|&(joint, factor)| (joint, factor * effort)));
         }
         efforts
     }
@@ -229,13 +218,10 @@ impl<'a> Posed<'a> {
         Vec3::z().cross(&self.poses[self.model.base_link()].translation.vector)
     }
 
-    /// Returns the wrench that each attached link needs for a motion under gravity (m/s²), about the centre of mass of
-    /// the robot. `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
-    pub(super) fn link_wrenches(
-        &self,
-        motion: Option<&(Twist, Twist)>,
-        gravity: f64,
-    ) -> Vec<(usize, Wrench)> {
+    /// Returns the wrench that each link, by its number, needs for a motion under gravity (m/s²), about the centre of
+    /// mass of the robot; zero for loose ones. `motion`: velocity and acceleration of the base's own frame; `None` for
+    /// a robot at rest.
+    pub(super) fn link_wrenches(&self, motion: Option<&(Twist, Twist)>, gravity: f64) -> Vec<Wrench> {
         let still = vec![0.0; self.velocities.len()];
         let (base, base_acceleration) = motion.copied().unwrap_or_default();
         let (velocities, accelerations) = match motion {
@@ -244,15 +230,7 @@ impl<'a> Posed<'a> {
         };
         let state = MotionState { poses: &self.poses, base, base_acceleration, velocities, accelerations };
         let down = Vec3::new(0.0, 0.0, -gravity);
-        let all = self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros());
-        self.model.attached.iter().map(|&link| (link, all[link])).collect()
-    }
-
-    /// Returns the effort of each joint that carries these wrenches on links, by [`crate::robot::JointId`].
-    fn efforts(&self, wrenches: &[(usize, Wrench)]) -> Vec<f64> {
-        let mut sums = vec![Wrench::default(); self.poses.len()];
-        wrenches.iter().for_each(|(link, wrench)| sums[*link] = *wrench);
-        self.dynamics.efforts(&self.model.kinematics, &self.poses, &mut sums, &Vec3::zeros())
+        self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros())
     }
 }
 
@@ -264,8 +242,9 @@ pub(super) struct Situation<'a> {
     pub candidates: Vec<Candidate>,
     /// The bonds that close loops.
     pub loops: Vec<Loop>,
-    /// The wrench that each attached link needs, about the centre of mass in level axes, N and N·m.
-    pub needed: Vec<(usize, Wrench)>,
+    /// The wrench that each link needs, by its number, about the centre of mass in level axes, N and N·m; zero for
+    /// loose ones.
+    pub needed: Vec<Wrench>,
     /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and
     /// N·m.
     pub base: Wrench,
@@ -298,20 +277,19 @@ impl<'a> Situation<'a> {
         let reach = candidates.iter().map(|c| libm::hypot(c.p.x, c.p.y));
         let size = reach.fold(PARAMETERS.size_min, f64::max);
         let needed = posed.link_wrenches(motion, world.gravity);
-        let mut base = Wrench::default();
-        for (_, wrench) in &needed {
-            base.force += wrench.force;
-            base.moment += wrench.moment;
-        }
+        // Each link's own, then the sums over all that it carries.
+        let mut carried = needed.clone();
+        let kinematics = &posed.model.kinematics;
+        let efforts = posed.dynamics.efforts(kinematics, &posed.poses, &mut carried, &Vec3::zeros());
         Situation {
-            efforts: posed.efforts(&needed),
+            base: carried[kinematics.link(kinematics.root, 0)],
+            efforts,
             loops: loads::loops(posed),
             stiffness: stiffness(posed.model),
             weight: posed.model.mass * world.gravity,
             posed,
             candidates,
             needed,
-            base,
             free,
             size,
         }
@@ -321,15 +299,11 @@ impl<'a> Situation<'a> {
 /// Returns the stiffness of each joint, by [`crate::robot::JointId`].
 fn stiffness(model: &Model) -> Vec<f64> {
     let of = |owner| match owner {
-        JointOwner::Module { module, joint } => {
-            let declared = &model.robot.module_type(module).joints[joint];
-            match declared.kind {
-                _ if declared.passive => PARAMETERS.passive_stiffness,
-                JointKind::Prismatic => PARAMETERS.slide_stiffness,
-                JointKind::Revolute | JointKind::Fixed => PARAMETERS.servo_stiffness,
-            }
+        JointOwner::Module { module, joint } if model.robot.module_type(module).joints[joint].passive => {
+            PARAMETERS.passive_stiffness
         }
-        JointOwner::Bond(_) => PARAMETERS.servo_stiffness,
+        _ if model.robot.slides(owner) => Joint::SLIDE_STIFFNESS_DEFAULT,
+        _ => Joint::TURN_STIFFNESS_DEFAULT,
     };
     model.robot.joints().map(of).collect()
 }

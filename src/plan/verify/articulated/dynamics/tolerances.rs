@@ -32,10 +32,6 @@ pub(super) struct Parameters {
     pub regularization: f64,
     /// The part of the friction that an inertial force may use up. 0.97: beyond, the slip has no bound.
     pub traction_max: f64,
-    /// The stiffness of a servo that turns, N·m/rad: 150, of position servos of the modules' size.
-    pub servo_stiffness: f64,
-    /// The stiffness of a servo that slides, N/m: 1.5e4, that of a turning one at a lever of 0.1 m.
-    pub slide_stiffness: f64,
     /// The stiffness of a joint without a motor against its planned position, N·m/rad or N/m: it bears nothing, but its
     /// position is planned.
     pub passive_stiffness: f64,
@@ -100,8 +96,6 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     normal_weight: 30.0,
     regularization: 1e-5,
     traction_max: 0.97,
-    servo_stiffness: 150.0,
-    slide_stiffness: 1.5e4,
     passive_stiffness: 1e-2,
     contact_stiffness: 1e5,
     bond_stiffness: 1e5,

@@ -12,7 +12,7 @@ use super::twist::{self, Momentum};
 use crate::geometry::Vec3;
 use crate::plan::World;
 use crate::robot::dynamics::{Dynamics, Twist};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 /// The state of travel, which goes on from sample to sample.
 #[derive(Clone, Debug, Default)]
@@ -109,8 +109,14 @@ impl Traction {
             _ => (Vector3::zeros(), Vector3::zeros()),
         };
         // Without friction momentum stays: what the joints gain, the base loses.
-        let recoil = inertia.try_inverse().map(|inverse| inverse * (carried - had));
-        let free = was - recoil.unwrap_or_else(Vector3::zeros);
+        // A single point has no inertia in yaw, and gains no turn.
+        let recoil = (carried - had).zip_map(
+            &inertia,
+            |gained, inertia| {
+                if inertia > 0.0 { gained / inertia } else { 0.0 }
+            },
+        );
+        let free = was - recoil;
         let [least, most] = PARAMETERS.momentum_step;
         let duration = since.filter(|_| moving).unwrap_or(least).clamp(least, most);
         let momentum = Momentum { inertia, free, step: duration };
@@ -152,8 +158,8 @@ fn yaw_between(from: &Mat3, to: &Mat3) -> f64 {
 
 /// Returns the composite inertia in x, y and yaw about the centre of mass, and the planar momentum of the joints'
 /// motion with the base still.
-fn planar(posed: &Posed) -> (Matrix3<f64>, Vector3<f64>) {
+fn planar(posed: &Posed) -> (Vector3<f64>, Vector3<f64>) {
     let momentum = posed.momentum();
     let inertia = Vector3::new(posed.model.mass, posed.model.mass, posed.yaw_inertia());
-    (Matrix3::from_diagonal(&inertia), Vector3::new(momentum.force.x, momentum.force.y, momentum.moment.z))
+    (inertia, Vector3::new(momentum.force.x, momentum.force.y, momentum.moment.z))
 }

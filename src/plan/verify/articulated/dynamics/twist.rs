@@ -8,13 +8,13 @@ use super::posed::Candidate;
 use super::tolerances::PARAMETERS;
 use crate::geometry::Vec3;
 use crate::robot::dynamics::{Twist, Wrench};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// The planar momentum that the robot keeps where friction is low.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Momentum {
     /// The composite inertia in x, y and yaw about the centre of mass: kg and kg·m².
-    pub inertia: Matrix3<f64>,
+    pub inertia: Vector3<f64>,
     /// The velocity that the robot would have without friction: x, y (m/s) and yaw (rad/s).
     pub free: Vector3<f64>,
     /// The time over which friction acts, s.
@@ -37,6 +37,9 @@ pub(super) struct TwistProblem<'a> {
     pub weight: f64,
 }
 
+/// The rows of a twist that are planar: x, y and yaw.
+const PLANAR: [usize; 3] = [0, 1, 5];
+
 /// Returns the twist of the body at the centre of mass, in level axes, found from the guess `before`; that of the last
 /// round if the rounds do not suffice.
 pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
@@ -49,17 +52,14 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     for _ in 0..PARAMETERS.twist_rounds_max {
         let mut matrix = Matrix6::identity() * ridge;
         let mut right = start * ridge;
-        for axis in 0..3 {
-            right[[0, 1, 5][axis]] -= problem.needed[axis];
+        for (axis, row) in PLANAR.into_iter().enumerate() {
+            right[row] -= problem.needed[axis];
         }
         if let Some(momentum) = &problem.momentum {
             let inertia = momentum.inertia / momentum.step;
-            let pull = inertia * momentum.free;
-            for (i, &row) in [0, 1, 5].iter().enumerate() {
-                right[row] += pull[i];
-                for (j, &column) in [0, 1, 5].iter().enumerate() {
-                    matrix[(row, column)] += inertia[(i, j)];
-                }
+            for (axis, row) in PLANAR.into_iter().enumerate() {
+                right[row] += inertia[axis] * momentum.free[axis];
+                matrix[(row, row)] += inertia[axis];
             }
         }
         for (i, candidate) in problem.candidates.iter().enumerate() {
