@@ -1,6 +1,6 @@
 //! The command and the system that it runs on: devices that are full, terminals that obey, little memory.
 
-use super::cli::{Sandbox, ran};
+use super::cli::{Ran, Sandbox, ran};
 use std::fs;
 use std::process::{Command, Stdio};
 
@@ -53,18 +53,22 @@ fn names_of_others_do_not_command_the_terminal() {
     assert_eq!(printed.out, "\\u{1b}[2J\tdone\n");
 }
 
+/// Runs the command with a limit of the shell's `ulimit`.
+#[cfg(unix)]
+fn limited(s: &Sandbox, limit: &str, arguments: &str) -> Ran {
+    let line = format!("ulimit {limit} && exec {} {arguments}", env!("CARGO_BIN_EXE_modl"));
+    let mut command = Command::new("sh");
+    command.args(["-c", &line]).current_dir(s.path("")).stdin(Stdio::null());
+    ran(command.output().expect("a shell"))
+}
+
 #[cfg(unix)]
 #[test]
 fn little_memory_and_a_small_stack_suffice() {
     let powers = format!("let a = {}2\n", "2^".repeat(100_000));
     let deep = "fn f(n: Int) -> Int = if n == 0 { 0 } else { 1 + f(n - 1) }\nprint(f(150))\n";
     let s = Sandbox::new(&[("powers.mod", powers.as_bytes()), ("deep.mod", deep.as_bytes())]);
-    let limited = |limit: &str, arguments: &str| {
-        let line = format!("ulimit {limit} && exec {} {arguments}", env!("CARGO_BIN_EXE_modl"));
-        let mut command = Command::new("sh");
-        command.args(["-c", &line]).current_dir(s.path("")).stdin(Stdio::null());
-        ran(command.output().expect("a shell"))
-    };
+    let limited = |limit: &str, arguments: &str| limited(&s, limit, arguments);
     for limit in ["-v 2000000", "-v 400000", "-s 512"] {
         let run = limited(limit, "run deep.mod");
         assert_eq!((run.code, run.out.as_str()), (0, "150\n"), "{limit}: {}", run.err);
@@ -73,4 +77,23 @@ fn little_memory_and_a_small_stack_suffice() {
         let run = limited(limit, "check powers.mod");
         assert!(run.code == 1 && run.err.contains("E0005"), "{limit}: {}", run.err);
     }
+}
+
+/// Between too little memory for the command and enough for the evaluator lie the 20 MiB of its smallest stack. The
+/// limit at which they begin depends on the system, so it is searched for in smaller steps.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_memory_for_the_evaluator_is_told() {
+    const STEP_KILOBYTES: usize = 4 << 10;
+    let s = Sandbox::new(&[("a.mod", b"print(1 + 1)\n")]);
+    let mut limits = (8..128).map(|steps| format!("-v {}", steps * STEP_KILOBYTES));
+    let told = limits.find_map(|limit| {
+        let run = limited(&s, &limit, "run a.mod");
+        run.err.contains("E0509").then_some(run)
+    });
+    let run = told.expect("of these limits one leaves too little for the evaluator alone");
+    assert_eq!((run.code, run.out.as_str()), (1, ""), "{}", run.err);
+    let words = ["gives no memory to evaluate the program", "end other programs, or raise the limit"];
+    assert!(words.iter().all(|words| run.err.contains(words)), "{}", run.err);
+    assert_eq!(s.run(&["run", "a.mod"]).out, "2\n");
 }
