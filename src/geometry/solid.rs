@@ -93,6 +93,14 @@ impl Solid {
         self.parts.iter().map(depth).fold(0.0, f64::max)
     }
 
+    /// Returns true if a point (m, in the link's frame) is on the surface of one of the parts, within `tol` (m), though
+    /// it may be inside of another, such as of a pin that stands on the surface.
+    pub fn has_on_surface(&self, point: &Vec3, tol: f64) -> bool {
+        let point = Part::sphere(*point, 0.0);
+        let distance = |part: &Part| signed_distance(part, &point, &Pose::identity()).distance;
+        self.parts.iter().any(|part| distance(part).abs() <= tol)
+    }
+
     fn add(&mut self, placed: &Placed, X_LS: &Pose) -> Result<(), Unsound> {
         soundness::check(&placed.shape)?;
         let X = X_LS * placed.pose;

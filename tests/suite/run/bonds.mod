@@ -80,6 +80,42 @@ expect verify(File(4mm)).ok and not verify(File(4.1mm)).ok
 print(verify(Row(25mm)).failures[0])
 //> at 0ms: c[0] and c[1] meet, 50mm deep (body and body), as c[0].right -- c[1].left docks them; c[0].right lies 25mm beneath the surface of its link, c[1].left lies 25mm beneath the surface of its link
 
+--- pins that reach deeper into the other link than the connector explains
+connector Bolt { mates Bolt, turns 4, capture 2mm 3deg }
+module Pinned(pin: Length, aside: Length = 0mm) {
+  mass 1kg
+  link body = union(box(100mm, 100mm, 100mm), placed(box(2 * pin, 10mm, 10mm), at: [50mm, aside, 0mm]))
+  port left : Bolt on body at [-50mm, 0mm, 0mm] facing -X up +Z
+  port right : Bolt on body at [50mm, 0mm, 0mm] facing +X up +Z
+}
+// As the hint says: a pin that is drawn only, and a pin whose depth is stated.
+module Drawn {
+  mass 1kg
+  link body = union(box(100mm, 100mm, 100mm), placed(box(10mm, 10mm, 10mm), at: [50mm, 0mm, 0mm]))
+    collides box(100mm, 100mm, 100mm)
+  port left : Bolt on body at [-50mm, 0mm, 0mm] facing -X up +Z
+  port right : Bolt on body at [50mm, 0mm, 0mm] facing +X up +Z
+}
+module Stated {
+  mass 1kg
+  touch 5mm
+  link body = union(box(100mm, 100mm, 100mm), placed(box(10mm, 10mm, 10mm), at: [50mm, 0mm, 0mm]))
+  port left : Bolt on body at [-50mm, 0mm, 0mm] facing -X up +Z
+  port right : Bolt on body at [50mm, 0mm, 0mm] facing +X up +Z
+}
+config Row(pin: Length, aside: Length = 0mm) {
+  part c[2]: Pinned(pin: pin, aside: aside)
+  connect c[0].right -- c[1].left
+}
+config RowDrawn { part c[2]: Drawn  connect c[0].right -- c[1].left }
+config RowStated { part c[2]: Stated  connect c[0].right -- c[1].left }
+expect verify(Row(2mm)).ok and verify(RowDrawn()).ok and verify(RowStated()).ok
+// A pin through the port, and one beside it.
+print(verify(Row(5mm)).failures[0])
+print(verify(Row(5mm, aside: 20mm)).failures[0])
+//> at 0ms: c[0] and c[1] meet, 5mm deep (body and body), as c[0].right -- c[1].left docks them; the connector explains 2mm of that (`capture`): leave a pin that reaches in out of `collides`, or state `touch` as deep as it is
+//> at 0ms: c[0] and c[1] meet, 5mm deep (body and body), as c[0].right -- c[1].left docks them; the connector explains 2mm of that (`capture`): leave a pin that reaches in out of `collides`, or state `touch` as deep as it is
+
 --- a joint that stops at once is not at rest
 use std.smores.Smores
 config One {

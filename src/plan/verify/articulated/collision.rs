@@ -126,15 +126,16 @@ impl Collision {
 
 /// Returns in words why the links of a bond overlap more than they may: the depth of its ports beneath the surfaces
 /// of their links, if one is deeper than `touch`; else that a shape reaches in deeper than the connector explains, and
-/// how to say that it is meant.
+/// how to say that it is meant. A port on the surface of a part is not beneath the pin that stands there.
 fn reason(robot: &Assembly, bond: usize) -> String {
     let port_depth = |at: PortRef| {
         let kind = robot.module_type(at.module);
         let port = &kind.ports[at.port];
         let solid = Solid::new(&kind.links[port.link].collides).ok()?;
-        let depth = solid.depth_of(&port.pose.translation.vector);
+        let origin = port.pose.translation.vector;
+        let depth = solid.depth_of(&origin);
         let words = quantity(depth, Dimension::LENGTH);
-        (depth > kind.touch)
+        (depth > kind.touch && !solid.has_on_surface(&origin, kind.touch))
             .then(|| format!("{} lies {words} beneath the surface of its link", robot.port_name(at)))
     };
     let Bond { a, b, .. } = robot.bonds[bond];
