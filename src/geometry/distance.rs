@@ -151,13 +151,18 @@ pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64
 }
 
 /// Returns how deep one of two solids is inside the meshes of the other that are not convex, m (see
-/// [`Solid::enclosed_depth`]); 0 if neither is. `X_AB` is the pose of b in a.
+/// [`Solid::enclosed_point`]); 0 if neither is. `X_AB` is the pose of b in a.
 pub fn enclosed_depth(a: &Solid, b: &Solid, X_AB: &Pose) -> f64 {
-    if a.has_shells() || b.has_shells() {
-        a.enclosed_depth(b, X_AB).max(b.enclosed_depth(a, &X_AB.inverse()))
-    } else {
-        0.0
-    }
+    enclosed_point(a, b, X_AB).map_or(0.0, |(depth, _)| depth)
+}
+
+/// Returns the depth as [`enclosed_depth`] does, with a point that is as deep, in a's frame (m); `None` if neither solid
+/// is inside the other's meshes.
+pub fn enclosed_point(a: &Solid, b: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
+    let in_a = a.enclosed_point(b, X_AB);
+    let in_b = b.enclosed_point(a, &X_AB.inverse());
+    let in_b = in_b.map(|(depth, point)| (depth, X_AB.transform_point(&point.into()).coords));
+    in_a.into_iter().chain(in_b).max_by(|x, y| x.0.total_cmp(&y.0))
 }
 
 /// Returns the penetration of parts about one centre (on which parry's expansion gives up, or takes the first

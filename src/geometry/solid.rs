@@ -69,20 +69,26 @@ impl Solid {
         !self.shells.is_empty()
     }
 
-    /// Returns a lower bound, m, on the depth to which another solid at the pose `X_AB` is inside the meshes of this
-    /// one that are not convex. One point inside each convex part of the other and inside each connected surface of its
-    /// meshes is tried: the bound is the greatest distance of those inside a mesh of this one from its surface, and 0
-    /// if none is, as in a hollow. A solid that is wholly inside is found if no surfaces cross.
-    pub fn enclosed_depth(&self, other: &Solid, X_AB: &Pose) -> f64 {
+    /// Returns a point (m) of another solid at the pose `X_AB` that is inside the meshes of this one that are not
+    /// convex, in this one's frame, with its distance from their surface: a lower bound, m, on the depth to which the
+    /// other is inside. One point inside each convex part of the other and inside each connected surface of its meshes
+    /// is tried, and the deepest is returned; `None` if none is inside, as in a hollow. A solid that is wholly inside is
+    /// found if no surfaces cross.
+    pub fn enclosed_point(&self, other: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
         let (low, high) = self.bounds;
-        let depth = |probe: &Vec3| {
+        let found = |probe: &Vec3| {
             let point = X_AB.transform_point(&(*probe).into()).coords;
             let within = (0..3).all(|i| low[i] < point[i] && point[i] < high[i]);
             let around = self.shells.iter().filter(|shell| within && is_inside(shell, &point));
             let from = |t: &[Vec3; 3]| (closest_points::point_triangle(point, *t) - point).norm();
-            around.map(|shell| shell.iter().map(from).fold(f64::INFINITY, f64::min)).fold(0.0, f64::max)
+            let depth = around.map(|shell| shell.iter().map(from).fold(f64::INFINITY, f64::min));
+            (depth.fold(0.0, f64::max), point)
         };
-        if self.has_shells() { other.probes.iter().map(depth).fold(0.0, f64::max) } else { 0.0 }
+        if !self.has_shells() {
+            return None;
+        }
+        let deepest = other.probes.iter().map(found).max_by(|x, y| x.0.total_cmp(&y.0));
+        deepest.filter(|(depth, _)| *depth > 0.0)
     }
 
     /// Returns the penetration depth of a point (m, in the link's frame), m: that in the part in which it is

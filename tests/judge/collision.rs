@@ -1,13 +1,15 @@
 //! Self-collision at every instant, against closed forms and against dense sampling.
 
+use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
 use crate::support::robots::{self, boxed};
 use modl::geometry::pose::{shifted, turned};
-use modl::geometry::{Pose, Vec3};
+use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::collision::judge;
-use modl::plan::verify::articulated::{Bodies, Findings, Precision};
+use modl::plan::verify::articulated::{Bodies, Findings, Precision, collision_point};
 use modl::plan::{
-    CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Segment, Settings, Status, Track, Tracks,
+    CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Ground, Segment, Settings, Status, Track,
+    Tracks, World,
 };
 use modl::robot::{
     Assembly, Capture, Joint, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType,
@@ -41,13 +43,18 @@ fn judged(tracks: &Tracks) -> Findings {
     judge(tracks, &Settings::default(), &[], &Precision::default()).expect("sound shapes")
 }
 
-fn cube(half: f64) -> Vec<modl::geometry::Placed> {
+fn cube(half: f64) -> Vec<Placed> {
     vec![boxed(Vec3::repeat(-half), Vec3::repeat(half))]
 }
 
 /// A rail with a cube at its end, on which a carriage slides that bears another cube. With the slide
 /// at q the two cubes, of 20 mm, are q apart.
 fn rail() -> Assembly {
+    rail_between(cube(0.01), cube(0.01))
+}
+
+/// The same with another shape at the end of the rail and on the carriage, both about the middles of the cubes.
+fn rail_between(end: Vec<Placed>, borne: Vec<Placed>) -> Assembly {
     let carriage = vec![boxed(Vec3::new(0.02, 0.0, 0.1), Vec3::new(0.03, 0.01, 0.11))];
     let slide = Joint {
         name: "slide".into(),
@@ -74,12 +81,12 @@ fn rail() -> Assembly {
     let link = |name: &str, shape| robots::link(name, shape, 1.0, Vec3::zeros(), 0.5);
     let frame = kind(
         "Rail",
-        vec![link("end", cube(0.01)), link("carriage", carriage)],
+        vec![link("end", end), link("carriage", carriage)],
         vec![slide],
         vec![port(1, shifted(Vec3::new(0.02, 0.0, 0.0)))],
     );
     // The half turn of the mate is undone, so that the block is drawn as it is.
-    let block = kind("Block", vec![link("cube", cube(0.01))], vec![], vec![port(0, turned(Vec3::z(), PI))]);
+    let block = kind("Block", vec![link("cube", borne)], vec![], vec![port(0, turned(Vec3::z(), PI))]);
     let connectors = robots::smores_library().connectors.clone();
     let library = Arc::new(Library { connectors, modules: vec![frame, block], ..Library::default() });
     let modules = [("rail", 0), ("block", 1)].map(|(name, kind)| ModuleInstance { name: name.into(), kind });
@@ -87,6 +94,43 @@ fn rail() -> Assembly {
     design.0.modules = modules.to_vec();
     design.connect((0, 0), (1, 0), 0);
     design.0
+}
+
+/// A cube of these half edges, m, around a hollow of those, as a mesh of two surfaces.
+fn hollow_cube(half: f64, hollow: f64) -> Vec<Placed> {
+    let corner = |i: u8, half: f64| Vec3::from_fn(|axis, _| if i >> axis & 1 == 0 { -half } else { half });
+    let vertices = (0..8).map(|i| corner(i, half)).chain((0..8).map(|i| corner(i, hollow))).collect();
+    // For each axis the two faces across it, each of two triangles, seen from outside.
+    let faces = (0..3).flat_map(|axis| {
+        let (u, v) = (1u32 << ((axis + 1) % 3), 1u32 << ((axis + 2) % 3));
+        let far = 1u32 << axis;
+        [[0, v, u + v], [0, u + v, u], [far, far + u, far + u + v], [far, far + u + v, far + v]]
+    });
+    let outside: Vec<[u32; 3]> = faces.collect();
+    let inside = outside.iter().map(|[a, b, c]| [8 + a, 8 + c, 8 + b]);
+    let triangles = outside.iter().copied().chain(inside).collect();
+    let shape = Shape::Mesh { name: "hollow.stl".into(), vertices, triangles };
+    vec![Placed { pose: Pose::identity(), shape }]
+}
+
+#[test]
+fn a_link_wholly_inside_another_has_a_point_of_collision_within_it() {
+    let small = 0.002;
+    let robot = || rail_between(hollow_cube(0.06, 0.03), cube(small));
+    let point = |q: f64| {
+        let mut motion = Motion::new(robot());
+        motion.tracks.start.joints[0] = q;
+        let plan = motion.plan(World { ground: Ground::Held, ..World::default() });
+        collision_point(&plan, (0, 1), 0.0)
+    };
+    // With the slide at q the small cube's middle is at 20 mm + q: in the wall, which is 30 mm thick, in the hollow,
+    // and outside.
+    for q in [0.015, 0.025, 0.035] {
+        let found = point(q).expect("the cube is inside the wall");
+        let off = found - Vec3::new(0.02 + q, 0.0, 0.0);
+        assert!(off.amax() <= small, "{found} with the slide at {q}");
+    }
+    assert_eq!((point(-0.009), point(0.05)), (None, None));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::tolerances::Tolerances;
 use crate::geometry::distance::{
-    distance_of_solids, enclosed_depth, signed_distance, signed_distance_within,
+    distance_of_solids, enclosed_depth, enclosed_point, signed_distance, signed_distance_within,
 };
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
@@ -149,6 +149,16 @@ impl Bodies {
     /// [`overlap`](Self::overlap) takes them; 0 if neither is.
     pub(super) fn enclosed_depth(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         enclosed_depth(self.solid(a), self.solid(b), X_AB)
+    }
+
+    /// Returns that depth with a point that is as deep, in the frame of the first link (m); `None` if neither is.
+    pub(super) fn enclosed_point(
+        &self,
+        a: (usize, usize),
+        b: (usize, usize),
+        X_AB: &Pose,
+    ) -> Option<(f64, Vec3)> {
+        enclosed_point(self.solid(a), self.solid(b), X_AB)
     }
 
     fn solid(&self, (module, link): (usize, usize)) -> &Solid {

@@ -59,7 +59,8 @@ fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
 
 /// Returns the point (in the world, m) at which two modules, given by their indices in the assembly, penetrate each
 /// other at a time (s); for one index twice, at which two links of that module do. It is that of the two links that
-/// exceed their allowed depth most. `None` if these do not overlap, for a plan that is not of an articulated robot,
+/// exceed their allowed depth most; of a link that is wholly inside another's mesh that is not convex, a point within
+/// it, far from the surface of the mesh. `None` if these do not overlap, for a plan that is not of an articulated robot,
 /// and for one that is not valid.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
@@ -80,11 +81,40 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
     let mut overlaps = NominalOverlaps::default();
     let bonded = BondedLinks::new(&tracks.robot, &state.bonds, &kinematics, &bodies, &mut overlaps);
     let pairs = pairs(tracks, &bodies, &bonded, modules);
-    let deepest = pairs.into_iter().map(|pair| (depth(&pair), pair)).max_by(|x, y| x.0.total_cmp(&y.0));
-    let (_, (a, b, _)) = deepest.filter(|(depth, (.., allowed))| depth + allowed >= 0.0)?;
+    let deepest = pairs.iter().map(|pair| (depth(pair), *pair)).max_by(|x, y| x.0.total_cmp(&y.0));
+    let deepest = deepest.filter(|(depth, (.., allowed))| depth + allowed >= 0.0);
+    let enclosed = enclosed_point(&bodies, &kinematics, &poses, &pairs);
+    if let Some((depth, point)) = enclosed
+        && deepest.is_none_or(|(known, _)| depth > known)
+    {
+        return Some(point);
+    }
+    let (_, (a, b, _)) = deepest?;
     let (a, b) = (&bodies.bodies[a], &bodies.bodies[b]);
     let met = contact_point(&a.part, &b.part, &relative(a, b));
     Some(poses[a.carrier].transform_point(&met.into()).coords)
+}
+
+/// Returns by how much the link that is deepest inside another's mesh that is not convex exceeds its allowed depth, m,
+/// and a point that is as deep, in the world, m; `None` if there is no such link. `pairs`: as of [`pairs`]; `poses`: the
+/// world poses of all links.
+fn enclosed_point(
+    bodies: &Bodies,
+    kinematics: &Kinematics,
+    poses: &[Pose],
+    pairs: &[(usize, usize, f64)],
+) -> Option<(f64, Vec3)> {
+    // One pair of bodies stands for its two links.
+    let first = |body: usize| bodies.first_of_link(bodies.bodies[body].link) == Some(body);
+    let of_links = pairs.iter().filter(|(a, b, _)| first(*a) && first(*b));
+    let found = of_links.filter_map(|&(a, b, allowed)| {
+        let (a, b) = (&bodies.bodies[a], &bodies.bodies[b]);
+        let local = |body: &Body| (body.module, body.link - kinematics.link(body.module, 0));
+        let X_AB = poses[a.link].inverse() * poses[b.link];
+        let (depth, point) = bodies.enclosed_point(local(a), local(b), &X_AB)?;
+        Some((depth - allowed, poses[a.link].transform_point(&point.into()).coords))
+    });
+    found.max_by(|x, y| x.0.total_cmp(&y.0))
 }
 
 /// Returns the pairs of bodies that may not meet, with the penetration depth that each may have, m.
