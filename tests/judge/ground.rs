@@ -3,10 +3,13 @@
 
 use crate::support::motions::Motion;
 use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, TILT};
-use modl::geometry::Vec3;
+use modl::geometry::pose::shifted;
+use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::{Rollout, RolloutEnd, TipOver, Tolerances, roll_out};
 use modl::plan::{Settings, World, WorldFrom};
+use modl::robot::{Library, ModuleType};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// What a walk through a plan showed.
 #[derive(Debug, Default)]
@@ -341,4 +344,28 @@ fn a_module_rocks_on_its_round_wheels() {
         assert!(seen.fall <= 0.3, "{}", seen.fall);
         close(seen.base.norm(), 0.0, 5e-4);
     }
+}
+
+#[test]
+fn a_robot_rests_on_the_last_of_a_hundred_thousand_shapes() {
+    // Specks that hang 30 mm above the ground, and a sole of 200 mm, the last of all shapes, that stands on it.
+    let speck = Placed { pose: shifted(Vec3::z() * 0.03), shape: Shape::Sphere { radius: 1e-3 } };
+    let specks = Placed { pose: Pose::identity(), shape: Shape::Union { parts: vec![speck; 100_000] } };
+    let sole = robots::boxed(Vec3::new(-0.1, -0.1, -0.01), Vec3::new(0.1, 0.1, 0.0));
+    let kind = ModuleType {
+        name: "Specks".into(),
+        links: vec![robots::link("body", vec![specks, sole], 1.0, Vec3::zeros(), 0.5)],
+        joints: vec![],
+        ports: vec![],
+        motors: vec![],
+        touching: vec![],
+        touch: 1e-4,
+        contact: 1e-3,
+    };
+    let library = Library { modules: vec![kind], ..Library::default() };
+    let mut design = robots::Design::new("Specks", Arc::new(library));
+    design.add("m");
+    let seen = still(&Motion::new(design.0));
+    close(seen.margins.0.expect("it stands on the sole"), 100.0, 1e-6);
+    close(seen.settling, 0.0, 1e-6);
 }

@@ -224,7 +224,8 @@ impl Kind {
         }
         let mut inner = vec![];
         for b in 0..bodies.len() {
-            for a in 0..b {
+            // Bodies of one link are never a pair, and a mesh may have thousands.
+            for a in 0..bodies.partition_point(|body| body.0 < bodies[b].0) {
                 inner.extend(pair(kind, &solids, &bodies, (a, b)));
             }
         }

@@ -13,9 +13,6 @@ pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 /// than one point.
 pub(super) const CIRCLE_POINTS: u8 = 8;
 
-/// The greatest number of shapes, nested unions included, that are examined; no robot declares more.
-const UNIONS_MAX: usize = 100_000;
-
 /// A part of a link's surface that can touch the ground, in the frame of the link or in another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
@@ -128,13 +125,12 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     (across - axis * across.dot(axis)).normalize()
 }
 
-/// Returns the features of a link's shapes, in the frame of the link, in the order in which the shapes are declared.
-/// Unions and shapes beyond the first [`UNIONS_MAX`] are left out.
+/// Returns the features of a link's shapes, of all of them however many they are, in the frame of the link, in the order
+/// in which the shapes are declared.
 pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();
-    for _ in 0..UNIONS_MAX {
-        let Some((pose, shape)) = open.pop() else { break };
+    while let Some((pose, shape)) = open.pop() {
         if let Shape::Union { parts } = shape {
             open.extend(parts.iter().rev().map(|part| (pose * part.pose, &part.shape)));
             continue;
