@@ -40,12 +40,13 @@ pub struct ContactPatch {
 }
 
 /// Returns all points within their module's contact tolerance (at least `gap_loaded`) of the ground, which is `height`
-/// (m) below the centre of mass, with normal forces as on elastic ground. `features`: as [`Model::placed`] returns
-/// them.
+/// (m) below the centre of mass, with normal forces as on elastic ground, or without if nothing is `weighed`.
+/// `features`: as [`Model::placed`] returns them.
 pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],
     height: f64,
+    weighed: bool,
     tolerances: &Tolerances,
 ) -> Vec<ContactPoint> {
     let up = Vec3::z();
@@ -64,7 +65,9 @@ pub(super) fn contact_points(
             }
         }
     }
-    spread(&mut found, tolerances);
+    if weighed {
+        spread(&mut found, tolerances);
+    }
     found
 }
 

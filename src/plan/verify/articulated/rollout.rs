@@ -211,7 +211,8 @@ impl<'a> Stepper<'a> {
         let stance = match from {
             Some(checkpoint) => checkpoint.stance.clone(),
             None => {
-                Stance::start(&model, posture, &tracks.start.base, unsettled(&world), rollout.tolerances).0
+                let placement = (&world, unsettled(&world));
+                Stance::start(&model, posture, &tracks.start.base, placement, rollout.tolerances).0
             }
         };
         let held_since = from.and_then(|w| w.held_since);
@@ -290,7 +291,7 @@ impl<'a> Stepper<'a> {
         let step = match self.on_ground() {
             true => self.step_on_ground(t, posture, may_halve)?,
             false => {
-                self.stance = self.stance.kept(&self.model, posture, self.rollout.tolerances);
+                self.stance = self.stance.kept(&self.model, posture, &self.world, self.rollout.tolerances);
                 Step { moved: true, ..Step::default() }
             }
         };
@@ -401,6 +402,7 @@ impl<'a> Stepper<'a> {
         if changes.world {
             let before = self.world.ground;
             self.world = world_at(self.rollout.worlds, t);
+            self.stance.enter(&self.model, &self.world, self.rollout.tolerances);
             step.moved = true;
             if self.on_ground() && before != Ground::Settle {
                 let pose = self.stance.base_pose(&self.model);
@@ -416,14 +418,15 @@ impl<'a> Stepper<'a> {
         let pose = self.stance.base_pose(&self.model);
         let held = self.stance.held;
         let posture = self.model.posture(&self.joints, &mut self.poses);
-        self.stance = Stance::start(&self.model, posture, &pose, Placement::Fixed, self.rollout.tolerances).0;
+        let placement = (&self.world, Placement::Fixed);
+        self.stance = Stance::start(&self.model, posture, &pose, placement, self.rollout.tolerances).0;
         self.stance.held = held;
     }
 
     fn place_on_ground(&mut self, pose: &Pose, placement: Placement) -> (f64, f64) {
         let posture = self.model.posture(&self.joints, &mut self.poses);
         let (stance, fall, turn) =
-            Stance::start(&self.model, posture, pose, placement, self.rollout.tolerances);
+            Stance::start(&self.model, posture, pose, (&self.world, placement), self.rollout.tolerances);
         (self.stance, self.held_since) = (stance, None);
         (turn, fall)
     }

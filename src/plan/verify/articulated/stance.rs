@@ -8,6 +8,7 @@ use super::model::{Model, Posture};
 use super::settle::{SettledAttitude, height, settle};
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
+use crate::plan::World;
 use crate::plan::verify::support_polygon::Margin;
 use nalgebra::{Rotation3, UnitQuaternion};
 
@@ -22,14 +23,19 @@ pub struct Stance {
     pub height: f64,
     /// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
     pub planar_pose: PlanarPose,
-    /// The features with the centre of mass at the origin, turned by `R`, in the order of [`Model::features`].
+    /// The features with the centre of mass at the origin, turned by `R`, in the order of [`Model::features`]; none
+    /// without a floor.
     pub features: Vec<Feature>,
-    /// The contact points with their normal forces.
+    /// The contact points with their normal forces; none without a floor.
     pub contact_points: Vec<ContactPoint>,
     /// The contact points gathered by link.
     pub patches: Vec<ContactPatch>,
     /// True if the base is held because the support was lost.
     pub held: bool,
+    /// True if there is a floor.
+    floor: bool,
+    /// True if the floor carries the weight of the robot: the contact points have normal forces only then.
+    weighed: bool,
     /// The contact points before the base was held, each with the same load; empty otherwise.
     anchors: Vec<ContactPoint>,
 }
@@ -61,7 +67,7 @@ pub enum StepOutcome {
 }
 
 impl Stance {
-    /// Returns the stance of a robot with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
+    /// Returns the stance of a robot in a world, with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
     /// ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`).
     /// Also returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless it
     /// settles.
@@ -69,11 +75,12 @@ impl Stance {
         model: &Model,
         posture: Posture,
         X_WB: &Pose,
-        placement: Placement,
+        (world, placement): (&World, Placement),
         tolerances: &Tolerances,
     ) -> (Stance, f64, f64) {
         let R = *X_WB.rotation.to_rotation_matrix().matrix();
-        let features = model.placed(&posture, &R);
+        let idle = placement == Placement::Fixed && !world.has_floor();
+        let features = if idle { vec![] } else { model.placed(&posture, &R) };
         let up = height(&features, &Vec3::z());
         let c = X_WB.transform_point(&posture.centre.into());
         let planar_pose = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
@@ -90,6 +97,8 @@ impl Stance {
             contact_points: vec![],
             patches: vec![],
             held: false,
+            floor: world.has_floor(),
+            weighed: world.gravity > 0.0 && world.has_floor(),
             anchors: vec![],
         };
         if placement != Placement::Settled {
@@ -158,10 +167,22 @@ impl Stance {
         next
     }
 
-    /// Returns the stance with the same base pose in a new posture, without settling.
-    pub fn kept(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> Stance {
+    /// Returns the stance with the same base pose in a new posture in a world, without settling.
+    pub fn kept(&self, model: &Model, posture: Posture, world: &World, tolerances: &Tolerances) -> Stance {
         let X_WB = self.base_pose(model);
-        Stance::start(model, posture, &X_WB, Placement::Fixed, tolerances).0
+        Stance::start(model, posture, &X_WB, (world, Placement::Fixed), tolerances).0
+    }
+
+    /// Brings the robot as it stands into another world, whose floor its contact points may touch, or which has none.
+    pub fn enter(&mut self, model: &Model, world: &World, tolerances: &Tolerances) {
+        let (floor, weighed) = (world.has_floor(), world.gravity > 0.0 && world.has_floor());
+        if (floor, weighed) != (self.floor, self.weighed) {
+            if floor && !self.floor {
+                self.features = model.placed(&self.posture, &self.R);
+            }
+            (self.floor, self.weighed) = (floor, weighed);
+            self.find_contacts(model, tolerances);
+        }
     }
 
     /// Returns the static stability margin in the support polygon of the contacts; `None` if they span no area.
@@ -202,6 +223,8 @@ impl Stance {
             contact_points: vec![],
             patches: vec![],
             held: self.held,
+            floor: self.floor,
+            weighed: self.weighed,
             anchors: self.anchors.clone(),
         }
     }
@@ -215,7 +238,11 @@ impl Stance {
     }
 
     fn find_contacts(&mut self, model: &Model, tolerances: &Tolerances) {
-        self.contact_points = contact::contact_points(model, &self.features, self.height, tolerances);
+        self.contact_points.clear();
+        if self.floor {
+            self.contact_points =
+                contact::contact_points(model, &self.features, self.height, self.weighed, tolerances);
+        }
         self.patches = contact::patches(&self.contact_points);
     }
 }
