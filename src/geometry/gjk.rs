@@ -50,7 +50,7 @@ pub(super) fn closest_cores(
             gap = SignedDistance { distance: along, normal };
         }
         let close = distance - gap.distance <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
-        if close || gap.distance >= enough || simplex.known().contains(&point) {
+        if close || gap.distance >= enough || simplex.has(&point) {
             break;
         }
         simplex.corners[simplex.count] = point;
@@ -75,8 +75,9 @@ struct Simplex {
 }
 
 impl Simplex {
-    fn known(&self) -> &[Vec3] {
-        &self.corners[..self.count]
+    fn has(&self, point: &Vec3) -> bool {
+        let same = |corner: &Vec3| corner.x == point.x && corner.y == point.y && corner.z == point.z;
+        self.corners[..self.count].iter().any(same)
     }
 
     fn keep(&mut self, carriers: &[usize]) {
@@ -86,9 +87,10 @@ impl Simplex {
     }
 }
 
-/// Returns the point of a simplex nearest to the origin, and leaves in the simplex only the corners that carry it (the
-/// distance subalgorithm, by trying all faces). `None` where the origin is inside, which can't be where the bodies are
-/// known to be `apart`.
+/// Returns the point of a simplex nearest to the origin among its last corner and the edges and faces that have that
+/// corner, and leaves in the simplex only the corners that carry it (the distance subalgorithm, by trying all of them).
+/// The others were tried before the last corner was added: no point of theirs is nearer than the one found then. `None`
+/// where the origin is inside, which can't be where the bodies are known to be `apart`.
 fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
     let corners = simplex.corners;
     let count = simplex.count;
@@ -101,16 +103,15 @@ fn reduce(simplex: &mut Simplex, apart: bool) -> Option<Vec3> {
             best = (point.norm_squared(), point, carriers, carrying);
         }
     };
-    for i in 0..count {
-        offer(corners[i], [i, 0, 0], 1);
-        for j in 0..i {
-            if let Some(point) = on_edge(&corners[i], &corners[j]) {
-                offer(point, [i, j, 0], 2);
-            }
-            for k in 0..j {
-                if let Some(point) = on_face(&corners[i], &corners[j], &corners[k]) {
-                    offer(point, [i, j, k], 3);
-                }
+    let last = count - 1;
+    offer(corners[last], [last, 0, 0], 1);
+    for j in 0..last {
+        if let Some(point) = on_edge(&corners[last], &corners[j]) {
+            offer(point, [last, j, 0], 2);
+        }
+        for k in 0..j {
+            if let Some(point) = on_face(&corners[last], &corners[j], &corners[k]) {
+                offer(point, [last, j, k], 3);
             }
         }
     }
