@@ -426,9 +426,12 @@ fn sampled(tracks: &Tracks, samples: usize) -> Sampled {
 /// Whatever dense sampling sees, the proof saw, no later and no less deep; and what it reports, it
 /// reports rightly: every failure is there at the instant that it names.
 fn agrees(seed: u64, samples: usize) -> bool {
-    let tracks = random_tracks(&mut Numbers(seed));
-    let found = judged(&tracks);
-    let dense = sampled(&tracks, samples);
+    agree(&random_tracks(&mut Numbers(seed)), seed, samples)
+}
+
+fn agree(tracks: &Tracks, seed: u64, samples: usize) -> bool {
+    let found = judged(tracks);
+    let dense = sampled(tracks, samples);
     let clearance = found.clearance.as_ref().expect("several modules").value;
     assert!(
         clearance <= dense.clearance + 2.1e-5,
@@ -478,23 +481,42 @@ fn a_thousand_random_behaviours_are_judged_as_sampling_a_hundred_times_as_dense_
     assert!((100..900).contains(&free), "both outcomes occur: {free}");
 }
 
-#[test]
-fn what_is_found_does_not_depend_on_how_many_pairs_may_be_open() {
-    let found = (0..8).map(|seed| {
-        let tracks = random_tracks(&mut Numbers(seed));
-        let few = Precision { open_pairs_max: 3, ..Precision::default() };
-        let few = judge(&tracks, &Settings::default(), &[], &few).expect("sound shapes");
-        let many = judged(&tracks);
-        assert_eq!(few.status, many.status, "seed {seed}");
-        let who = |found: &Findings| found.collisions.iter().map(|c| c.modules).collect::<Vec<_>>();
-        assert_eq!(who(&few), who(&many), "seed {seed}");
-        for (a, b) in few.collisions.iter().zip(&many.collisions) {
-            assert!((a.time - b.time).abs() < 2e-6 && (a.depth - b.depth).abs() < 4e-5, "{a:?}, {b:?}");
-        }
-        let least = |found: &Findings| found.clearance.as_ref().expect("several modules").value;
-        assert!((least(&few) - least(&many)).abs() < 4e-5, "seed {seed}");
-        // Intervals were cut that would have been halved with fewer pairs.
-        (few.samples, many.samples)
+/// A chain that curls up from straight while each joint wobbles: far modules of one end and the other meet, or nearly
+/// so, and all others stay apart.
+fn curling(numbers: &mut Numbers, modules: usize) -> Tracks {
+    let turn = 2.0 * PI / modules as f64 * numbers.between(0.8, 1.25);
+    let motions = (0..modules).map(|module| {
+        let at = |part: f64| turn * part + numbers.between(-0.04, 0.04);
+        let [a, b, c] = [0.0, 0.5, 1.0].map(at);
+        let half = DURATION / 2.0;
+        (4 * module + robots::TILT, vec![smooth(0.0, half, a, b), smooth(half, DURATION, b, c)])
     });
-    assert!(found.filter(|(few, many)| few != many).count() > 0);
+    let motions = motions.collect();
+    plan(robots::snake(modules), motions, DURATION)
+}
+
+#[test]
+fn modules_far_apart_along_a_chain_are_judged_as_dense_sampling_judges_them() {
+    let samples = (20.0 * DURATION / Settings::default().sample) as usize;
+    let free = (0..6).filter(|seed| {
+        let tracks = curling(&mut Numbers(*seed), 24 + *seed as usize);
+        agree(&tracks, *seed, samples)
+    });
+    assert!((1..6).contains(&free.count()), "both outcomes occur");
+}
+
+#[test]
+fn a_chain_of_thousands_that_moves_is_refused_within_a_limit_of_work() {
+    let moving = |modules: usize, samples_max: usize| {
+        let motions = (0..modules).map(|m| (4 * m + robots::TILT, vec![smooth(0.0, 1.0, 0.0, 0.02)]));
+        let tracks = plan(robots::snake(modules), motions.collect(), 1.0);
+        let settings = Settings { samples_max, ..Settings::default() };
+        judge(&tracks, &settings, &[], &Precision::default()).expect("sound shapes")
+    };
+    // The same limit for each sample refuses the large robot after few of the intervals that the limit of samples
+    // allows, and not the small one.
+    let (small, large) = (moving(30, 1_000), moving(1_000, 1_000));
+    assert_eq!(small.status, Status::Proved, "{small:?}");
+    assert_eq!(large.status, Status::Sampled(large.samples), "{large:?}");
+    assert!(large.samples < 100, "{large:?}");
 }

@@ -6,10 +6,12 @@ use super::bodies::{Bodies, Body, InnerPair};
 use super::bonded::{BondedLinks, NominalOverlaps};
 use super::collision::{Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
+use super::module_clusters::{Cluster, ClusterBounds, ClusterPair, NEARLY, Proximity, Scene};
 use super::motion_bounds::MotionBounds;
 use super::reference_links::{self, ReferenceLinks};
-use super::separation::{self, BodyPair, ModulePair, View};
+use super::separation::{self, BodyPair, Bound, ModulePair, Slab, View};
 use super::tolerances::Precision;
+use super::work_budget::{DISTANCE_WORK, LINK_WORK, MODULES_SMALL, SLAB_WORK, WorkBudget};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::plan::tolerances::TOLERANCES;
@@ -18,30 +20,27 @@ use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The fraction of the sum of two modules' radii up to which a gap between their bounding spheres counts as near.
-const NEARLY: f64 = 1.0 / 16.0;
-
-/// Pairs that may be examined for each sample that the settings allow. Most intervals of most robots examine fewer.
-pub(super) const CHECKS_PER_SAMPLE: usize = 2_000;
-
 /// The state of the search over all intervals.
 pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
     bodies: Bodies,
-    bounds: MotionBounds,
+    /// The least penetration depth that any two modules are allowed, m.
+    allowed_min: f64,
     /// The instants at which segments begin and end: intervals are preferably cut at them.
     instants: Vec<f64>,
     precision: Precision,
     samples_max: usize,
     samples: usize,
-    /// Pairs examined, each on each interval.
-    checks: usize,
+    work: WorkBudget,
     clearance: Option<Clearance>,
     /// The key: the pair of modules, and true if it is excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
     overlaps: NominalOverlaps,
     state: IntervalState,
+    clusters: ClusterBounds,
+    /// Memory of lists of pairs that are done with.
+    spare: Vec<Vec<BodyPair>>,
 }
 
 struct Clearance {
@@ -54,6 +53,8 @@ struct Clearance {
 struct Region<'a> {
     kinematics: Kinematics,
     levels: ReferenceLinks,
+    /// The place of each module in the order of the tree.
+    rank: Vec<usize>,
     /// The pairs of links that bonds join.
     bonded: BondedLinks,
     excused: &'a [Excuse],
@@ -66,10 +67,20 @@ struct Instant {
     bond: Option<usize>,
 }
 
+/// The state of two modules over an interval.
+enum ModuleProximity {
+    /// They are separated.
+    Separated,
+    /// They stay open as a pair.
+    Open,
+    /// Their bounding spheres meet in the middle, or nearly so.
+    Near,
+}
+
 /// The pairs that are not proved to be separated.
 #[derive(Clone, Default)]
 struct Open {
-    modules: Vec<ModulePair>,
+    clusters: Vec<ClusterPair>,
     bodies: Vec<BodyPair>,
 }
 
@@ -83,18 +94,20 @@ impl<'a> Advancement<'a> {
     ) -> Advancement<'a> {
         Advancement {
             robot: &tracks.robot,
+            allowed_min: bodies.least_allowed_depth(),
             bodies,
-            bounds: MotionBounds::new(tracks),
             instants: tracks.instants(),
             precision,
             samples_max,
             samples: 0,
-            checks: 0,
+            work: WorkBudget::new(samples_max, tracks.robot.modules.len()),
             clearance: None,
             collisions: BTreeMap::new(),
             used: BTreeSet::new(),
             overlaps: NominalOverlaps::default(),
-            state: IntervalState::default(),
+            state: IntervalState::new(MotionBounds::new(tracks)),
+            clusters: ClusterBounds::default(),
+            spare: Vec::new(),
         }
     }
 
@@ -110,7 +123,9 @@ impl<'a> Advancement<'a> {
             let kinematics = Kinematics::new(self.robot, bonds, reference_links::middle(self.robot, &part));
             let levels = ReferenceLinks::new(self.robot, &kinematics);
             let bonded = BondedLinks::new(self.robot, bonds, &kinematics, &self.bodies, &mut self.overlaps);
-            let region = Region { kinematics, levels, bonded, excused };
+            let mut rank = vec![0; self.robot.modules.len()];
+            kinematics.tree.order.iter().enumerate().for_each(|(at, (module, _))| rank[*module] = at);
+            let region = Region { kinematics, levels, rank, bonded, excused };
             self.fixed_pairs(&region, window.0);
             self.rigid_bonds(&region);
             let mut within = Vec::new();
@@ -119,7 +134,8 @@ impl<'a> Advancement<'a> {
             }
             self.guess_clearance(&region, window.0, &within);
             self.enclosed(&region, window.0);
-            self.advance_all(&region, window.0, window.1, &within);
+            let clusters = ClusterPair::all(&region.levels, &region.kinematics);
+            self.advance(&region, window.0, window.1, Open { clusters, bodies: within });
         }
     }
 
@@ -226,9 +242,9 @@ impl<'a> Advancement<'a> {
     }
 
     /// Measures within modules and between neighbours at one instant, so that the search begins with a clearance
-    /// that few pairs can go below.
+    /// that few pairs can go below. In a large robot of which neither count, it measures between the root and others.
     fn guess_clearance(&mut self, region: &Region, time: f64, within: &[BodyPair]) {
-        self.state.set(&region.kinematics, &self.bounds, time, time);
+        self.state.set(&region.kinematics, time, time);
         let mut near = within.to_vec();
         for &(module, bond) in &region.kinematics.tree.order {
             let Some(bond) = bond.map(|b| &self.robot.bonds[b]) else { continue };
@@ -236,8 +252,28 @@ impl<'a> Advancement<'a> {
             debug_assert!(module == a || module == b);
             self.expand(region, a.min(b), a.max(b), &mut near);
         }
-        for pair in near.iter_mut().filter(|pair| pair.counts) {
+        self.measure_all(region, near, time);
+        let order = &region.kinematics.tree.order;
+        if order.len() > MODULES_SMALL {
+            let root = order[0].0;
+            for &(module, _) in order[1..].iter() {
+                if self.clearance.is_some() {
+                    break;
+                }
+                let mut near = Vec::new();
+                self.expand(region, root.min(module), root.max(module), &mut near);
+                self.measure_all(region, near, time);
+            }
+        }
+    }
+
+    /// Measures the distances that count for the clearance at the instant whose state is set.
+    fn measure_all(&mut self, region: &Region, mut pairs: Vec<BodyPair>, time: f64) {
+        for pair in pairs.iter_mut().filter(|pair| pair.counts) {
             let enough = self.least();
+            for body in [pair.a, pair.b] {
+                self.state.require(&region.kinematics, self.bodies.bodies[body as usize].carrier);
+            }
             self.measure(pair, enough, time);
         }
     }
@@ -247,12 +283,16 @@ impl<'a> Advancement<'a> {
     fn enclosed(&mut self, region: &Region, time: f64) {
         let modules = || region.kinematics.tree.order.iter().map(|(module, _)| *module);
         let enclosing: Vec<usize> = modules().filter(|module| self.bodies.may_enclose(*module)).collect();
+        if !enclosing.is_empty() {
+            let links = modules().flat_map(|module| region.kinematics.links_of(module));
+            links.for_each(|link| self.state.require(&region.kinematics, link));
+        }
         for &m in &enclosing {
             let mut pairs: Vec<BodyPair> = Vec::new();
             let first = self.bodies.of(m).start;
             let inner = self.bodies.inner_enclosing(m).iter();
             pairs.extend(inner.map(|inner| inner_pair(inner, first, 0)));
-            self.checks += region.kinematics.tree.order.len();
+            self.work.spend(region.kinematics.tree.order.len());
             // Of two modules that may both enclose links each pair is examined once.
             for n in modules().filter(|n| *n > m || (*n < m && !self.bodies.may_enclose(*n))) {
                 let [a, b] = [m, n].map(|module| self.state.links[region.kinematics.link(module, 0)].p);
@@ -287,49 +327,63 @@ impl<'a> Advancement<'a> {
         self.bodies.enclosed_depth(local(a), local(b), &self.state.relative(a.link, b.link))
     }
 
-    /// Judges all pairs of modules, and the pairs of bodies `within` a module, over `from..to` (s). Pairs of modules
-    /// are listed only where the interval leaves them open: a large robot has more of them than memory holds. If too
-    /// many stay open, each half judges all of them anew.
-    fn advance_all(&mut self, region: &Region, from: f64, to: f64, within: &[BodyPair]) {
-        if !self.begin_interval(from) {
-            return;
-        }
-        self.prepare(region, from, to, &vec![true; region.levels.levels.len()]);
-        let tree = &region.kinematics.tree.order;
-        self.checks += tree.len() * tree.len() / 2;
-        let mut open = Open { modules: Vec::new(), bodies: within.to_vec() };
-        for (i, &(a, _)) in tree.iter().enumerate() {
-            for &(b, _) in &tree[..i] {
-                let level = region.levels.between(a, b) as u32;
-                let pair = ModulePair { a: a.min(b) as u32, b: a.max(b) as u32, level };
-                if self.stays_open(region, &pair, &mut open.bodies) {
-                    open.modules.push(pair);
-                }
-            }
-            crate::interrupt::checkpoint();
-            if open.modules.len() > self.precision.open_pairs_max && to - from > self.precision.tol_time {
-                drop(open);
-                let cut = self.cut(from, to);
-                self.advance_all(region, from, cut, within);
-                return self.advance_all(region, cut, to, within);
-            }
-        }
-        self.halve(region, from, to, open);
-    }
-
     /// Discards the pairs that are separated over `from..to` (s), and goes on with the rest in two halves.
     fn advance(&mut self, region: &Region, from: f64, to: f64, open: Open) {
         if !self.begin_interval(from) {
             return;
         }
-        let Open { mut modules, mut bodies } = open;
-        let mut used = vec![false; region.levels.levels.len()];
-        modules.iter().for_each(|pair| used[pair.level as usize] = true);
-        bodies.iter().for_each(|pair| used[pair.level as usize] = true);
-        self.prepare(region, from, to, &used);
-        self.checks += modules.len();
-        modules.retain(|pair| self.stays_open(region, pair, &mut bodies));
-        self.halve(region, from, to, Open { modules, bodies });
+        self.state.set(&region.kinematics, from, to);
+        let Open { clusters, mut bodies } = open;
+        let clusters = self.examine(region, clusters, &mut bodies);
+        self.halve(region, from, to, Open { clusters, bodies });
+    }
+
+    /// Returns those of the pairs of modules that stay open as such, in clusters. Only where the bounding spheres of
+    /// two modules meet in the middle, or nearly so, are their bodies added to `bodies` instead: they are dozens of
+    /// pairs for one, which costs more than a few halvings.
+    fn examine(
+        &mut self,
+        region: &Region,
+        mut pairs: Vec<ClusterPair>,
+        bodies: &mut Vec<BodyPair>,
+    ) -> Vec<ClusterPair> {
+        let least = self.least() - self.precision.tol_clearance;
+        let needs = (least, least.max(-self.allowed_min - self.precision.tol_depth));
+        let mut open = Vec::new();
+        let mut near = Vec::new();
+        while let Some(pair) = pairs.pop() {
+            interrupt::checkpoint();
+            if self.reached_limit() {
+                break;
+            }
+            self.work.spend(1);
+            if let (Cluster::Module(a), Cluster::Module(b)) = (pair.a, pair.b) {
+                let modules = ModulePair { a: a.min(b), b: a.max(b), level: pair.level };
+                match self.proximity(region, &modules) {
+                    ModuleProximity::Separated => {}
+                    ModuleProximity::Open => open.push(pair),
+                    ModuleProximity::Near => {
+                        self.work.spend(DISTANCE_WORK);
+                        near.push((modules.a as usize, modules.b as usize));
+                    }
+                }
+                continue;
+            }
+            let Region { kinematics, levels, .. } = region;
+            let scene = Scene { bodies: &self.bodies, kinematics, levels };
+            match self.clusters.proximity(&mut self.state, &scene, &pair, needs) {
+                Proximity::Separated => {}
+                Proximity::Open => open.push(pair),
+                Proximity::Undecided(first) => pair.split(first, levels, &mut pairs),
+            }
+        }
+        // In the order of the tree, whatever the clusters are.
+        near.sort_unstable_by_key(|&(a, b)| {
+            let (x, y) = (region.rank[a], region.rank[b]);
+            (x.max(y), x.min(y))
+        });
+        near.iter().for_each(|&(a, b)| self.expand(region, a, b, bodies));
+        open
     }
 
     /// Counts an interval; returns false where a limit is reached.
@@ -341,37 +395,31 @@ impl<'a> Advancement<'a> {
             let at = quantity(from, Dimension::TIME);
             format!("looked for collisions up to {at}, {} stretches{least}", self.samples)
         });
+        self.work.spend(LINK_WORK * self.state.take_computed());
         let within = !self.reached_limit();
         self.samples += usize::from(within);
         within
     }
 
-    /// Returns true where as many intervals, or as many pairs, were examined as may be.
+    /// Returns true where as many intervals were examined, or as much work was done, as may be.
     fn reached_limit(&self) -> bool {
-        self.samples >= self.samples_max || self.checks >= self.samples_max.saturating_mul(CHECKS_PER_SAMPLE)
+        self.samples >= self.samples_max || self.work.is_spent()
     }
 
     /// Discards the pairs of bodies that are separated over an interval, and goes on with the rest in two halves.
     fn halve(&mut self, region: &Region, from: f64, to: f64, open: Open) {
-        let Open { modules, mut bodies } = open;
-        self.checks += bodies.len();
+        let Open { clusters, mut bodies } = open;
         bodies.retain_mut(|pair| !self.is_separated(region, pair, to - from));
-        let done = modules.is_empty() && bodies.is_empty();
+        let done = clusters.is_empty() && bodies.is_empty();
         if done || to - from <= self.precision.tol_time {
+            self.spare.push(bodies);
             return;
         }
         let cut = self.cut(from, to);
-        let rest = Open { modules, bodies };
-        self.advance(region, from, cut, rest.clone());
-        self.advance(region, cut, to, rest);
-    }
-
-    /// Brings the state to the middle of an interval, with the levels at which pairs are open.
-    fn prepare(&mut self, region: &Region, from: f64, to: f64, used: &[bool]) {
-        self.state.set(&region.kinematics, &self.bounds, from, to);
-        for level in (0..used.len()).filter(|level| used[*level]) {
-            self.state.deviations(&region.kinematics, &region.levels, level);
-        }
+        let mut copy = self.spare.pop().unwrap_or_default();
+        copy.clone_from(&bodies);
+        self.advance(region, from, cut, Open { clusters: clusters.clone(), bodies: copy });
+        self.advance(region, cut, to, Open { clusters, bodies });
     }
 
     /// Returns the time at which to cut an interval (s): at an event in its middle half, or in the middle.
@@ -383,21 +431,24 @@ impl<'a> Advancement<'a> {
         near.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs())).unwrap_or(middle)
     }
 
-    /// Returns true if a pair of modules stays open as such. Only if their bounding spheres meet in the middle, or
-    /// nearly so, are its bodies added to `bodies` instead: they are dozens of pairs for one, which costs more than
-    /// a few halvings.
-    fn stays_open(&self, region: &Region, pair: &ModulePair, bodies: &mut Vec<BodyPair>) -> bool {
+    /// Returns the state of two modules over the interval, by their bounding spheres.
+    fn proximity(&mut self, region: &Region, pair: &ModulePair) -> ModuleProximity {
         let (a, b) = (pair.a as usize, pair.b as usize);
+        let Region { kinematics, levels, .. } = region;
+        for module in [a, b] {
+            let link = kinematics.link(module, 0);
+            self.state.require_deviation(kinematics, levels, pair.level as usize, link);
+        }
         let bound = separation::module_bound(&self.view(region), &self.bodies, pair);
         let need = self.need(region, a, b, true, self.bodies.allowed_depth(a, b));
+        let near = NEARLY * (self.bodies.reach[a] + self.bodies.reach[b]);
         if bound.least >= need {
-            return false;
+            ModuleProximity::Separated
+        } else if bound.middle >= need + near {
+            ModuleProximity::Open
+        } else {
+            ModuleProximity::Near
         }
-        let hopeful = bound.middle >= need + NEARLY * (self.bodies.reach[a] + self.bodies.reach[b]);
-        if !hopeful {
-            self.expand(region, a, b, bodies);
-        }
-        hopeful
     }
 
     /// Returns true if two bodies are proved to have the distance that they need over the whole interval of this
@@ -405,6 +456,12 @@ impl<'a> Advancement<'a> {
     fn is_separated(&mut self, region: &Region, pair: &mut BodyPair, length: f64) -> bool {
         crate::interrupt::checkpoint();
         let (a, b) = (pair.a as usize, pair.b as usize);
+        for body in [a, b] {
+            let carrier = self.bodies.bodies[body].carrier;
+            let (kinematics, levels) = (&region.kinematics, &region.levels);
+            self.state.require_deviation(kinematics, levels, pair.level as usize, carrier);
+        }
+        self.work.spend(1);
         let need = self.need_of(region, pair);
         let mut bound = separation::sphere_bound(
             &self.view(region),
@@ -416,7 +473,9 @@ impl<'a> Advancement<'a> {
             return true;
         }
         if pair.normal != Vec3::zeros() {
-            bound = self.slab(region, pair);
+            self.work.spend(SLAB_WORK);
+            let slab = self.slab(region, pair);
+            bound = Bound { least: slab.least(), middle: slab.middle() };
             // If it fails by motion alone, another direction would not help before the interval is
             // a quarter. A pair that comes nearer is measured all the same, so that the clearance follows it and
             // leaves room.
@@ -427,22 +486,23 @@ impl<'a> Advancement<'a> {
                 return bound.least >= need;
             }
         }
+        self.work.spend(DISTANCE_WORK + SLAB_WORK);
         let time = self.state.interval.middle;
         let distance = self.measure(pair, need + 2.0 * (bound.middle - bound.least), time);
         if distance < -pair.allowed {
             let instant = (length <= self.precision.tol_time).then(Instant::default);
             self.collide(region, pair, distance, instant);
         }
-        self.slab(region, pair).least >= self.need_of(region, pair)
+        self.slab(region, pair).least() >= self.need_of(region, pair)
     }
 
     fn view<'v>(&'v self, region: &'v Region) -> View<'v> {
         View { state: &self.state, levels: &region.levels, kinematics: &region.kinematics }
     }
 
-    fn slab(&self, region: &Region, pair: &BodyPair) -> separation::Bound {
-        let (a, b) = (pair.a as usize, pair.b as usize);
-        separation::slab_bound(&self.view(region), &self.bodies.bodies[a], &self.bodies.bodies[b], pair)
+    fn slab<'s>(&'s self, region: &'s Region, pair: &BodyPair) -> Slab<'s> {
+        let [a, b] = [pair.a, pair.b].map(|body| &self.bodies.bodies[body as usize]);
+        Slab::new(&self.view(region), a, b, pair)
     }
 
     fn need_of(&self, region: &Region, pair: &BodyPair) -> f64 {

@@ -119,6 +119,11 @@ impl Bodies {
         f64::min(touch(a), touch(b))
     }
 
+    /// Returns the least penetration depth that any two modules are allowed, m; infinite for no module.
+    pub(super) fn least_allowed_depth(&self) -> f64 {
+        self.kind_of.iter().map(|kind| self.kinds[*kind].touch).fold(f64::INFINITY, f64::min)
+    }
+
     /// Returns the penetration depth of two links, m, each given by the index of its module and its index there;
     /// `X_AB` is the pose of the second in the first. 0 if they are apart.
     pub(super) fn overlap(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {

@@ -1,10 +1,10 @@
 //! Collisions in the verdict: failures with the actions to blame.
 
-use super::advancement::CHECKS_PER_SAMPLE;
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision};
 use super::rollout::Rollout;
+use super::work_budget::work_max;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
@@ -37,9 +37,10 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     }
     if let Status::Sampled(samples) = found.status {
         let most = rollout.settings.samples_max;
+        let modules = tracks.robot.modules.len();
         let within = if samples < most {
-            let checks = most.saturating_mul(CHECKS_PER_SAMPLE);
-            format!("{checks} tests of two modules or links ({CHECKS_PER_SAMPLE} for each of {most} samples)")
+            let work = work_max(most, modules);
+            format!("the work of {work} comparisons, for {most} samples of a robot of {modules} modules")
         } else {
             format!("{samples} stretches of time")
         };

@@ -6,7 +6,7 @@
 //! all angles before it. Intervals are halved until that is enough.
 
 use super::model::{Model, Posture};
-use super::motion_bounds::{Interval, MotionBounds};
+use super::motion_bounds::{Interval, JointMotion, MotionBounds};
 use super::rollout::{Rollout, bonds_at, world_at};
 use super::sampling;
 use super::statics::{LoadKind, Structure, moves};
@@ -40,7 +40,6 @@ pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     let instants = sampling::instants(rollout.tracks, rollout.worlds, rollout.exemptions);
     let mut bonds = bonds_at(rollout.tracks, 0.0);
     let mut loads = GravityLoads::new(rollout, &bonds);
-    let mut interval = Interval::default();
     for ends in instants.windows(2) {
         let now = bonds_at(rollout.tracks, ends[0]);
         if now != bonds {
@@ -55,8 +54,10 @@ pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
         let mut open = vec![(ends[0], ends[1])];
         while let Some((from, to)) = open.pop() {
             interrupt::checkpoint();
-            bounds.over(from, to, &mut interval);
-            match loads.assess(&interval, gravity) {
+            let interval = bounds.interval(from, to);
+            let motions: Vec<JointMotion> =
+                (0..bounds.joint_count()).map(|joint| bounds.over(joint, &interval)).collect();
+            match loads.assess(&interval, &motions, gravity) {
                 Assessment::Within => {}
                 Assessment::Over { load, ratio } => {
                     return BetweenSamples::Over { time: interval.middle, load, ratio };
@@ -136,9 +137,10 @@ impl<'a> GravityLoads<'a> {
             && self.structure.loads.iter().all(|load| turns(load.kind))
     }
 
-    fn assess(&mut self, interval: &Interval, gravity: f64) -> Assessment {
-        let posture = self.model.posture(&interval.at, &mut self.poses);
-        let distal = self.distal(&posture, interval, gravity);
+    fn assess(&mut self, interval: &Interval, motions: &[JointMotion], gravity: f64) -> Assessment {
+        let positions: Vec<f64> = motions.iter().map(|motion| motion.at).collect();
+        let posture = self.model.posture(&positions, &mut self.poses);
+        let distal = self.distal(&posture, (interval, motions), gravity);
         let (mut over, mut near) = (None, false);
         for (index, load) in self.structure.loads.iter().enumerate() {
             let (mut size, mut deviation) = (0.0, 0.0);
@@ -162,13 +164,17 @@ impl<'a> GravityLoads<'a> {
         }
     }
 
-    fn distal(&self, posture: &Posture, interval: &Interval, gravity: f64) -> Vec<DistalLoad> {
+    fn distal(
+        &self,
+        posture: &Posture,
+        (interval, motions): (&Interval, &[JointMotion]),
+        gravity: f64,
+    ) -> Vec<DistalLoad> {
         let steps = &self.model.kinematics.steps;
         let mut distal = vec![DistalLoad::default(); steps.len()];
         let points: Vec<Vec3> = (0..steps.len()).map(|step| self.point(posture, step)).collect();
         for (index, step) in steps.iter().enumerate() {
-            let reach =
-                |joint: usize| (interval.rate[joint].abs() + interval.deviation[joint]) * interval.half;
+            let reach = |joint: usize| (motions[joint].rate.abs() + motions[joint].deviation) * interval.half;
             let turn = step.terms().iter().map(|&(joint, factor)| factor.abs() * reach(joint)).sum();
             let parent = self.step_of[step.parent].map_or(0.0, |p| distal[p].before + self.angle(p, &distal));
             (distal[index].turn, distal[index].before) = (turn, parent);

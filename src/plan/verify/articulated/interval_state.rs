@@ -10,27 +10,44 @@
 //! - moving: `v' = v + ω × r`, where r turns with its link, deviates by the deviation of ω times `|r|` plus
 //!   `|ω|` times the distance that the tip of r can move.
 
-use super::motion_bounds::{Interval, MotionBounds};
+use super::motion_bounds::{Interval, JointMotion, MotionBounds};
 use super::reference_links::ReferenceLinks;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::Kinematics;
 use crate::robot::{Motion, Step};
 use nalgebra::Matrix3;
 
-/// The state of all links in the middle of an interval, with bounds on their motion.
-#[derive(Clone, Debug, Default)]
+/// The state of the links in the middle of an interval, with bounds on their motion. A link is computed when it is first
+/// asked for by a `require`; others cost nothing, for most intervals leave few pairs open.
+#[derive(Clone, Debug)]
 pub(super) struct IntervalState {
-    /// The joints over the interval.
+    bounds: MotionBounds,
+    /// The interval.
     pub interval: Interval,
+    /// The number of the interval: an entry of the lists below is of this interval where its mark is this number.
+    epoch: u32,
+    /// The motion of each joint, by the number in its `JointId`.
+    motions: Vec<JointMotion>,
+    motions_of: Vec<u32>,
+    /// The positions of the joints in the middle, rad or m.
+    at: Vec<f64>,
+    /// The rates of the joints in the middle, rad/s or m/s.
+    rate: Vec<f64>,
     poses: Vec<Pose>,
-    /// Orientation, position (m), angular velocity (rad/s) and velocity (m/s) of each link, by its number in the
-    /// kinematics, in the frame of the root link.
+    /// Orientation, position (m), angular velocity (rad/s) and velocity (m/s) of each link that was required, by its
+    /// number in the kinematics, in the frame of the root link.
     pub links: Vec<Moving>,
-    /// The state of each step of the kinematics.
+    links_of: Vec<u32>,
+    /// The state of the step to each link.
     joints: Vec<JointInterval>,
-    /// The deviation of each link, for each level that was asked for.
-    deviations: Vec<Vec<Deviation>>,
-    known: Vec<bool>,
+    /// The deviation of each link that was required, for each level, with the mark of its interval.
+    deviations: Vec<Vec<(u32, Deviation)>>,
+    /// The links that remain to be computed, on the way to the one that is required.
+    pending: Vec<usize>,
+    /// The links whose deviations remain to be computed.
+    pending_deviations: Vec<usize>,
+    /// The number of links and deviations computed since it was asked for.
+    computed: usize,
 }
 
 /// Pose and velocity of a link, in the frame of the root link.
@@ -60,22 +77,89 @@ pub(super) struct Deviation {
 }
 
 impl IntervalState {
-    /// Computes poses and velocities in the middle of `from..to` (s).
-    pub(super) fn set(&mut self, kinematics: &Kinematics, bounds: &MotionBounds, from: f64, to: f64) {
-        bounds.over(from, to, &mut self.interval);
-        self.poses.resize(kinematics.link_count(), Pose::identity());
-        self.links.resize(kinematics.link_count(), Moving::default());
-        kinematics.link_poses(&self.interval.at, &Pose::identity(), &mut self.poses);
-        let root = kinematics.link(kinematics.root, 0);
-        self.links[root] = Moving { R: Matrix3::identity(), ..Moving::default() };
-        for step in &kinematics.steps {
-            self.links[step.link] = self.moving(step);
+    /// Returns the state of no interval, of joints that move within these bounds.
+    pub(super) fn new(bounds: MotionBounds) -> IntervalState {
+        let joints = bounds.joint_count();
+        IntervalState {
+            bounds,
+            interval: Interval::default(),
+            epoch: 0,
+            motions: vec![JointMotion::default(); joints],
+            motions_of: vec![0; joints],
+            at: vec![0.0; joints],
+            rate: vec![0.0; joints],
+            poses: Vec::new(),
+            links: Vec::new(),
+            links_of: Vec::new(),
+            joints: Vec::new(),
+            deviations: Vec::new(),
+            pending: Vec::new(),
+            pending_deviations: Vec::new(),
+            computed: 0,
         }
-        let mut joints = std::mem::take(&mut self.joints);
-        joints.clear();
-        joints.extend(kinematics.steps.iter().map(|step| self.joint(step)));
-        self.joints = joints;
-        self.known.clear();
+    }
+
+    /// Begins the interval `from..to` (s), of which nothing is computed yet.
+    pub(super) fn set(&mut self, kinematics: &Kinematics, from: f64, to: f64) {
+        self.interval = self.bounds.interval(from, to);
+        self.epoch += 1;
+        let count = kinematics.link_count();
+        self.poses.resize(count, Pose::identity());
+        self.links.resize(count, Moving::default());
+        self.links_of.resize(count, 0);
+        self.joints.resize(count, JointInterval::default());
+        let root = kinematics.link(kinematics.root, 0);
+        self.poses[root] = Pose::identity();
+        self.links[root] = Moving { R: Matrix3::identity(), ..Moving::default() };
+        self.links_of[root] = self.epoch;
+    }
+
+    /// Returns the number of the interval among all that were [`set`](Self::set).
+    pub(super) fn epoch(&self) -> u32 {
+        self.epoch
+    }
+
+    /// Returns the number of links and of deviations computed since it was asked for, as a measure of work.
+    pub(super) fn take_computed(&mut self) -> usize {
+        std::mem::take(&mut self.computed)
+    }
+
+    /// Computes pose and velocity in the middle of the interval of a link, by its number in the kinematics, and of the
+    /// links on its way to the root.
+    #[inline]
+    pub(super) fn require(&mut self, kinematics: &Kinematics, link: usize) {
+        if self.links_of[link] != self.epoch {
+            self.compute(kinematics, link);
+        }
+    }
+
+    fn compute(&mut self, kinematics: &Kinematics, link: usize) {
+        let mut pending = std::mem::take(&mut self.pending);
+        let mut at = link;
+        while self.links_of[at] != self.epoch {
+            pending.push(at);
+            at = kinematics.step(at).expect("a link of the connected part").parent;
+        }
+        while let Some(link) = pending.pop() {
+            let step = kinematics.step(link).expect("it is not the root's body");
+            for &(joint, _) in step.terms() {
+                self.require_joint(joint);
+            }
+            self.poses[link] = step.child_pose(&self.poses[step.parent], &self.at);
+            self.links[link] = self.moving(step);
+            self.joints[link] = self.joint(step);
+            self.links_of[link] = self.epoch;
+            self.computed += 1;
+        }
+        self.pending = pending;
+    }
+
+    fn require_joint(&mut self, joint: usize) {
+        if self.motions_of[joint] != self.epoch {
+            let motion = self.bounds.over(joint, &self.interval);
+            (self.at[joint], self.rate[joint], self.motions[joint]) = (motion.at, motion.rate, motion);
+            self.motions_of[joint] = self.epoch;
+        }
     }
 
     fn moving(&self, step: &Step) -> Moving {
@@ -83,7 +167,7 @@ impl IntervalState {
         let pose = &self.poses[step.link];
         let R = *pose.rotation.to_rotation_matrix().matrix();
         let p = pose.translation.vector;
-        let rate = step.position(&self.interval.rate);
+        let rate = step.position(&self.rate);
         match (step.motion, step.motion.axis()) {
             (_, Some(axis)) => {
                 let to_origin = R * step.offset;
@@ -98,37 +182,71 @@ impl IntervalState {
         }
     }
 
-    /// Computes the bounds of all links at a level (an index in
-    /// [`ReferenceLinks::levels`](super::reference_links::ReferenceLinks::levels)), when first asked for since
-    /// [`set`](Self::set).
-    pub(super) fn deviations(&mut self, kinematics: &Kinematics, levels: &ReferenceLinks, level: usize) {
-        if self.known.len() != levels.levels.len() {
-            self.known.resize(levels.levels.len(), false);
-            self.deviations.resize(levels.levels.len(), Vec::new());
+    /// Computes the bounds of a link, by its number in the kinematics, at a level (an index in
+    /// [`ReferenceLinks::levels`]), and what they rest on: its pose and velocity, and those of its reference link.
+    #[inline]
+    pub(super) fn require_deviation(
+        &mut self,
+        kinematics: &Kinematics,
+        levels: &ReferenceLinks,
+        level: usize,
+        link: usize,
+    ) {
+        let known = self.deviations.get(level).and_then(|of| of.get(link));
+        if known.is_none_or(|(mark, _)| *mark != self.epoch) {
+            self.compute_deviation(kinematics, levels, level, link);
         }
-        if std::mem::replace(&mut self.known[level], true) {
-            return;
+    }
+
+    fn compute_deviation(
+        &mut self,
+        kinematics: &Kinematics,
+        levels: &ReferenceLinks,
+        level: usize,
+        link: usize,
+    ) {
+        if self.deviations.len() <= level {
+            self.deviations.resize(level + 1, Vec::new());
         }
         let mut deviations = std::mem::take(&mut self.deviations[level]);
-        deviations.resize(self.links.len(), Deviation::default());
+        deviations.resize(self.links.len(), (0, Deviation::default()));
         let plan = &levels.levels[level];
-        plan.origins.iter().for_each(|origin| deviations[*origin] = Deviation::default());
-        for hop in &plan.hops {
-            let step = &kinematics.steps[hop.step as usize];
-            let origin = &self.links[plan.origin_of[hop.to as usize] as usize];
-            let spin = |link: u32| (self.links[link as usize].spin - origin.spin).norm();
-            let (before, after) = (spin(hop.from), spin(hop.to));
-            let joint = &self.joints[hop.step as usize];
-            deviations[hop.to as usize] =
-                deviations[hop.from as usize].beyond(step, joint, (hop.out, hop.back), (before, after));
+        let mut pending = std::mem::take(&mut self.pending_deviations);
+        let origin = levels.origin(level, link);
+        self.require(kinematics, origin);
+        let mut at = link;
+        while deviations[at].0 != self.epoch {
+            self.require(kinematics, at);
+            let Some(hop) = plan.hop_to(at) else {
+                deviations[at] = (self.epoch, Deviation::default());
+                break;
+            };
+            pending.push(at);
+            at = hop.from as usize;
         }
+        let reference = self.links[origin].spin;
+        let spin = |link: usize| (self.links[link].spin - reference).norm();
+        while let Some(link) = pending.pop() {
+            let hop = plan.hop_to(link).expect("it is not the reference link");
+            let (from, child) = (hop.from as usize, hop.child as usize);
+            let step = kinematics.step(child).expect("a step leads to a child");
+            let (before, after) = (spin(from), spin(link));
+            let deviation =
+                deviations[from].1.beyond(step, &self.joints[child], (hop.out, hop.back), (before, after));
+            deviations[link] = (self.epoch, deviation);
+            self.computed += 1;
+        }
+        self.pending_deviations = pending;
         self.deviations[level] = deviations;
     }
 
-    /// Returns the bound of a link, by its number in the kinematics, at a level for which
-    /// [`deviations`](Self::deviations) was called.
+    /// Returns the bound of a link, by its number in the kinematics, at a level for which it was
+    /// [required](Self::require_deviation).
+    #[inline]
     pub(super) fn deviation(&self, level: usize, link: usize) -> &Deviation {
-        &self.deviations[level][link]
+        let (mark, deviation) = &self.deviations[level][link];
+        debug_assert_eq!(*mark, self.epoch, "it was required");
+        deviation
     }
 
     /// Returns `X_AB`, the pose of link b in link a, both by their numbers in the kinematics, in the middle of the
@@ -138,12 +256,12 @@ impl IntervalState {
     }
 
     fn joint(&self, step: &Step) -> JointInterval {
-        let sum = |of: &[f64]| step.terms().iter().map(|&(joint, factor)| factor.abs() * of[joint]).sum();
+        let terms = step.terms().iter();
         JointInterval {
-            rate: step.position(&self.interval.rate).abs(),
-            deviation: sum(&self.interval.deviation),
+            rate: step.position(&self.rate).abs(),
+            deviation: terms.map(|&(joint, factor)| factor.abs() * self.motions[joint].deviation).sum(),
             half: self.interval.half,
-            reach: step.position(&self.interval.at).abs(),
+            reach: step.position(&self.at).abs(),
         }
     }
 }

@@ -40,9 +40,11 @@ mod advancement;
 mod bodies;
 mod bonded;
 mod interval_state;
+mod module_clusters;
 mod motion_bounds;
 mod reference_links;
 mod separation;
+mod work_budget;
 
 pub mod collision;
 

@@ -12,6 +12,8 @@ pub(super) struct MotionBounds {
     pieces: Vec<Vec<Piece>>,
     /// The jumps of each joint's rate: (time, size).
     jumps: Vec<Vec<(f64, f64)>>,
+    /// The times of all jumps, in order, s.
+    jump_times: Vec<f64>,
 }
 
 #[derive(Clone, Debug)]
@@ -25,21 +27,30 @@ struct Piece {
     acceleration: f64,
 }
 
-/// All joints over one interval; lists are indexed by the number in a [`JointId`](crate::robot::JointId).
-#[derive(Clone, Debug, Default)]
+/// An interval of time.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Interval {
+    /// The beginning, s.
+    pub from: f64,
+    /// The end, s.
+    pub to: f64,
     /// The middle, s.
     pub middle: f64,
     /// Half the length, s.
     pub half: f64,
-    /// Positions in the middle, rad or m.
-    pub at: Vec<f64>,
-    /// Rates in the middle, rad/s or m/s.
-    pub rate: Vec<f64>,
-    /// Bounds on the difference of each rate from that in the middle, rad/s or m/s.
-    pub deviation: Vec<f64>,
     /// True if no rate jumps within: then it deviates in proportion to the time from the middle.
     pub smooth: bool,
+}
+
+/// A joint over an interval.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct JointMotion {
+    /// The position in the middle, rad or m.
+    pub at: f64,
+    /// The rate in the middle, rad/s or m/s.
+    pub rate: f64,
+    /// A bound on the difference of the rate from that in the middle, rad/s or m/s.
+    pub deviation: f64,
 }
 
 impl MotionBounds {
@@ -50,6 +61,7 @@ impl MotionBounds {
             start: tracks.start.joints.clone(),
             pieces: vec![Vec::new(); joints],
             jumps: vec![Vec::new(); joints],
+            jump_times: Vec::new(),
         };
         for track in &tracks.tracks {
             let joint = track.joint.0 as usize;
@@ -58,31 +70,34 @@ impl MotionBounds {
             bounds.jumps[joint] = jumps(&pieces);
             bounds.pieces[joint] = pieces;
         }
+        bounds.jump_times = bounds.jumps.iter().flatten().map(|(time, _)| *time).collect();
+        bounds.jump_times.sort_unstable_by(f64::total_cmp);
         bounds
     }
 
-    /// Writes the motion of all joints over `from..to` (s) to `out`.
-    pub(super) fn over(&self, from: f64, to: f64, out: &mut Interval) {
-        out.middle = (from + to) / 2.0;
-        out.half = (to - from) / 2.0;
-        out.smooth = true;
-        out.at.clear();
-        out.rate.clear();
-        out.deviation.clear();
-        for joint in 0..self.start.len() {
-            let pieces = &self.pieces[joint];
-            let (at, rate) = position_and_rate(pieces, self.start[joint], out.middle);
-            let first = pieces.partition_point(|p| p.end <= from);
-            let within = pieces[first..].iter().take_while(|p| p.start < to);
-            let acceleration = within.map(|p| p.acceleration).fold(0.0, f64::max);
-            let jumps = &self.jumps[joint];
-            let first = jumps.partition_point(|(t, _)| *t <= from);
-            let jump: f64 = jumps[first..].iter().take_while(|(t, _)| *t < to).map(|(_, by)| by).sum();
-            out.smooth &= jump == 0.0;
-            out.at.push(at);
-            out.rate.push(rate);
-            out.deviation.push(acceleration * out.half + jump);
-        }
+    /// Returns the number of joints.
+    pub(super) fn joint_count(&self) -> usize {
+        self.start.len()
+    }
+
+    /// Returns the interval `from..to` (s).
+    pub(super) fn interval(&self, from: f64, to: f64) -> Interval {
+        let first = self.jump_times.partition_point(|t| *t <= from);
+        let smooth = self.jump_times.get(first).is_none_or(|t| *t >= to);
+        Interval { from, to, middle: (from + to) / 2.0, half: (to - from) / 2.0, smooth }
+    }
+
+    /// Returns the motion of a joint, by the number in its [`JointId`](crate::robot::JointId), over an interval.
+    pub(super) fn over(&self, joint: usize, interval: &Interval) -> JointMotion {
+        let pieces = &self.pieces[joint];
+        let (at, rate) = position_and_rate(pieces, self.start[joint], interval.middle);
+        let first = pieces.partition_point(|p| p.end <= interval.from);
+        let within = pieces[first..].iter().take_while(|p| p.start < interval.to);
+        let acceleration = within.map(|p| p.acceleration).fold(0.0, f64::max);
+        let jumps = &self.jumps[joint];
+        let first = jumps.partition_point(|(t, _)| *t <= interval.from);
+        let jump: f64 = jumps[first..].iter().take_while(|(t, _)| *t < interval.to).map(|(_, by)| by).sum();
+        JointMotion { at, rate, deviation: acceleration * interval.half + jump }
     }
 }
 

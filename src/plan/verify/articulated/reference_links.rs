@@ -19,31 +19,32 @@ pub(super) struct ReferenceLinks {
     pub levels: Vec<ReferenceLevel>,
     /// The centroid whose body link is the reference of each module, for each level.
     centroids: Vec<Vec<u32>>,
+    /// For each module, by its index in the assembly, the centroids of the pieces into which its part falls without it.
+    pub pieces: Vec<Vec<u32>>,
 }
 
 /// All modules that are not yet centroids themselves, each seen from the centroid of its part.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ReferenceLevel {
-    /// The number in the kinematics of the body link of each centroid.
-    pub origins: Vec<usize>,
+    /// For each link, by its number in the kinematics, the step that leads to it from its reference link, by its index
+    /// in `hops`; meaningless for links that no step leads to.
+    hop_to: Vec<u32>,
     /// The steps from links already reached to their neighbours, in an order in which each begins at a link reached.
-    pub hops: Vec<LinkStep>,
+    hops: Vec<LinkStep>,
     /// The reference link of each link, both by their numbers in the kinematics.
     pub origin_of: Vec<u32>,
 }
 
-/// A step from a link to a neighbour over a step of the kinematics.
+/// A step to a link from a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkStep {
-    /// The number in the kinematics of the link already reached.
+    /// The number in the kinematics of the neighbour.
     pub from: u32,
-    /// The number in the kinematics of its neighbour.
-    pub to: u32,
-    /// The index in [`Kinematics::steps`] of the step between them.
-    pub step: u32,
+    /// The number in the kinematics of the one of the two that is the other's child: the step between them is its.
+    pub child: u32,
     /// The distance of the origin of `from` from the joint's axis, m.
     pub out: f64,
-    /// The distance of the origin of `to` from the joint's axis, m.
+    /// The distance of the origin of the link from the joint's axis, m.
     pub back: f64,
 }
 
@@ -53,23 +54,28 @@ impl ReferenceLinks {
         let modules = robot.modules.len();
         let neighbours = neighbours(robot, kinematics);
         let mut centroids: Vec<Vec<u32>> = Vec::new();
+        let mut pieces: Vec<Vec<u32>> = vec![Vec::new(); modules];
         let mut taken = vec![false; modules];
-        let mut parts = vec![kinematics.tree.order[0].0];
+        let mut parts = vec![(kinematics.tree.order[0].0, None)];
         while !parts.is_empty() {
             let mut seen_from = vec![NOWHERE; modules];
             let mut next = Vec::new();
-            for &start in &parts {
+            for &(start, above) in &parts {
                 let part = reach(&neighbours, &taken, start);
                 let centroid = centroid(&part);
+                above.into_iter().for_each(|above: usize| pieces[above].push(centroid as u32));
                 part.iter().for_each(|(module, _)| seen_from[*module] = centroid as u32);
                 taken[centroid] = true;
-                next.extend(neighbours[centroid].iter().filter(|m| !taken[**m]));
+                let around = neighbours[centroid].iter().filter(|m| !taken[**m]);
+                next.extend(around.map(|m| (*m, Some(centroid))));
             }
             centroids.push(seen_from);
             parts = next;
         }
-        let levels = centroids.iter().map(|seen_from| ReferenceLevel::new(kinematics, seen_from)).collect();
-        ReferenceLinks { levels, centroids }
+        let joined = joined(kinematics);
+        let level = |seen_from: &Vec<u32>| ReferenceLevel::new(kinematics, &joined, seen_from);
+        let levels = centroids.iter().map(level).collect();
+        ReferenceLinks { levels, centroids, pieces }
     }
 
     /// Returns the level (index in `levels`) at which a centroid lies between two modules, given by their indices in
@@ -104,20 +110,20 @@ fn neighbours(robot: &Assembly, kinematics: &Kinematics) -> Vec<Vec<usize>> {
 }
 
 impl ReferenceLevel {
-    fn new(kinematics: &Kinematics, seen_from: &[u32]) -> ReferenceLevel {
-        let mut joined = vec![Vec::new(); kinematics.link_count()];
-        for (index, step) in kinematics.steps.iter().enumerate() {
-            joined[step.parent].push((index, step.link));
-            joined[step.link].push((index, step.parent));
-        }
-        let mut level =
-            ReferenceLevel { origin_of: vec![NOWHERE; kinematics.link_count()], ..ReferenceLevel::default() };
+    /// Returns the step to a link, by its number in the kinematics, on the way from its reference link; `None` for a
+    /// reference link itself.
+    pub(super) fn hop_to(&self, link: usize) -> Option<&LinkStep> {
+        (self.origin_of[link] as usize != link).then(|| &self.hops[self.hop_to[link] as usize])
+    }
+
+    fn new(kinematics: &Kinematics, joined: &[Vec<(usize, usize)>], seen_from: &[u32]) -> ReferenceLevel {
+        let nowhere = || vec![NOWHERE; kinematics.link_count()];
+        let mut level = ReferenceLevel { origin_of: nowhere(), hop_to: nowhere(), hops: Vec::new() };
         let mut centroids: Vec<u32> = seen_from.iter().copied().filter(|c| *c != NOWHERE).collect();
         centroids.sort_unstable();
         centroids.dedup();
         for centroid in centroids {
             let origin = kinematics.link(centroid as usize, 0);
-            level.origins.push(origin);
             level.origin_of[origin] = origin as u32;
             let mut frontier = vec![origin];
             while let Some(from) = frontier.pop() {
@@ -131,18 +137,23 @@ impl ReferenceLevel {
                     let step = &kinematics.steps[index];
                     let (near, far) = (step.shift.norm(), step.offset.norm());
                     let (out, back) = if step.parent == from { (near, far) } else { (far, near) };
-                    level.hops.push(LinkStep {
-                        from: from as u32,
-                        to: to as u32,
-                        step: index as u32,
-                        out,
-                        back,
-                    });
+                    level.hop_to[to] = level.hops.len() as u32;
+                    level.hops.push(LinkStep { from: from as u32, child: step.link as u32, out, back });
                 }
             }
         }
         level
     }
+}
+
+/// Returns for each link, by its number in the kinematics, its neighbours with the index of the step between them.
+fn joined(kinematics: &Kinematics) -> Vec<Vec<(usize, usize)>> {
+    let mut joined = vec![Vec::new(); kinematics.link_count()];
+    for (index, step) in kinematics.steps.iter().enumerate() {
+        joined[step.parent].push((index, step.link));
+        joined[step.link].push((index, step.parent));
+    }
+    joined
 }
 
 /// Returns the modules connected with `start`, each with the index of its predecessor in the list.

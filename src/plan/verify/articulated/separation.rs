@@ -2,7 +2,7 @@
 //! [`collision`](super::collision)): lower bounds on their distance from bounding spheres and from separating slabs.
 
 use super::bodies::{Bodies, Body};
-use super::interval_state::IntervalState;
+use super::interval_state::{IntervalState, Moving};
 use super::reference_links::ReferenceLinks;
 use crate::geometry::Vec3;
 use crate::geometry::distance::signed_distance_within;
@@ -56,10 +56,13 @@ pub(super) struct View<'a> {
     pub kinematics: &'a Kinematics,
 }
 
-/// A point that moves, as seen from a level's origin: position relative to another, and velocity.
-struct Motion {
-    p: Vec3,
-    v: Vec3,
+/// A point that moves: its position in the middle of the interval, and its velocity as seen from a level's origin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Motion {
+    /// The position, m.
+    pub p: Vec3,
+    /// The velocity, m/s.
+    pub v: Vec3,
 }
 
 /// Returns the bound from a bounding sphere of each module.
@@ -93,34 +96,68 @@ pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound
     )
 }
 
-/// Returns the bound from the slab between two bodies along a direction of a's carrier that is held still in the state
-/// of the level's origin. Points of each body move with its velocity and spin; a linear function's least value over a
-/// convex body and over the interval is at one of the interval's ends.
-pub(super) fn slab_bound(view: &View, a: &Body, b: &Body, pair: &BodyPair) -> Bound {
-    let state = view.state;
-    let level = pair.level as usize;
-    let (x, y) = (&state.links[a.carrier], &state.links[b.carrier]);
-    let origin = &state.links[view.levels.origin(level, a.carrier)];
-    let (p, q) = (state.centre(a), state.centre(b));
-    let d = q.p - p.p;
-    let n = x.R * pair.normal;
-    let apart = n.dot(&d);
-    let parting = n.dot(&(q.v - p.v - origin.spin.cross(&d)));
-    let (turn_a, turn_b) = (n.cross(&(x.spin - origin.spin)), n.cross(&(y.spin - origin.spin)));
-    let gap = |t: f64| {
-        let toward_b = x.R.tr_mul(&(n + turn_a * t));
-        let toward_a = -y.R.tr_mul(&(n + turn_b * t));
-        apart + parting * t - a.part.reach(&toward_b) - b.part.reach(&toward_a)
-    };
-    let deviation = |body: &Body| {
-        let deviation = state.deviation(level, body.carrier);
-        deviation.velocity + deviation.gradient * body.reach
-    };
-    let half = state.interval.half;
-    let still = turn_a == Vec3::zeros() && turn_b == Vec3::zeros() && parting == 0.0;
-    let middle = gap(0.0);
-    let ends = if still { middle } else { gap(half).min(gap(-half)) };
-    Bound { least: ends - state.drift(deviation(a) + deviation(b)), middle }
+/// The slab between two bodies along a direction of the first one's carrier that is held still in the state of the
+/// level's origin. Points of each body move with its velocity and spin; a linear function's least value over a convex
+/// body and over the interval is at one of the interval's ends.
+pub(super) struct Slab<'a> {
+    bodies: (&'a Body, &'a Body),
+    carriers: (&'a Moving, &'a Moving),
+    n: Vec3,
+    /// The distance of the centres along `n`, m, and its rate, m/s.
+    apart: f64,
+    parting: f64,
+    turn_a: Vec3,
+    turn_b: Vec3,
+    half: f64,
+    drift: f64,
+}
+
+impl<'a> Slab<'a> {
+    /// Returns the slab along the direction of a pair of bodies.
+    pub(super) fn new(view: &View<'a>, a: &'a Body, b: &'a Body, pair: &BodyPair) -> Slab<'a> {
+        let state = view.state;
+        let level = pair.level as usize;
+        let (x, y) = (&state.links[a.carrier], &state.links[b.carrier]);
+        let origin = &state.links[view.levels.origin(level, a.carrier)];
+        let (p, q) = (state.centre(a), state.centre(b));
+        let d = q.p - p.p;
+        let n = x.R * pair.normal;
+        let deviation = |body: &Body| {
+            let deviation = state.deviation(level, body.carrier);
+            deviation.velocity + deviation.gradient * body.reach
+        };
+        Slab {
+            bodies: (a, b),
+            carriers: (x, y),
+            n,
+            apart: n.dot(&d),
+            parting: n.dot(&(q.v - p.v - origin.spin.cross(&d))),
+            turn_a: n.cross(&(x.spin - origin.spin)),
+            turn_b: n.cross(&(y.spin - origin.spin)),
+            half: state.interval.half,
+            drift: state.drift(deviation(a) + deviation(b)),
+        }
+    }
+
+    /// Returns its thickness in the middle of the interval, m.
+    pub(super) fn middle(&self) -> f64 {
+        self.gap(0.0)
+    }
+
+    /// Returns a lower bound on its thickness over the whole interval, m.
+    pub(super) fn least(&self) -> f64 {
+        let still = self.turn_a == Vec3::zeros() && self.turn_b == Vec3::zeros() && self.parting == 0.0;
+        let ends = if still { self.gap(0.0) } else { self.gap(self.half).min(self.gap(-self.half)) };
+        ends - self.drift
+    }
+
+    /// Returns its thickness in uniform motion at a time from the middle (s), m.
+    fn gap(&self, t: f64) -> f64 {
+        let toward_b = self.carriers.0.R.tr_mul(&(self.n + self.turn_a * t));
+        let toward_a = -self.carriers.1.R.tr_mul(&(self.n + self.turn_b * t));
+        let (a, b) = self.bodies;
+        self.apart + self.parting * t - a.part.reach(&toward_b) - b.part.reach(&toward_a)
+    }
 }
 
 /// Returns the signed distance of two bodies in the middle of the interval (m), or, once it is known to be at least
@@ -134,11 +171,21 @@ pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut Body
 }
 
 impl Motion {
-    fn bound(&self, half: f64, drift: f64, reach: f64) -> Bound {
+    /// Returns the motion of another point relative to this one.
+    pub(super) fn to(&self, other: &Motion) -> Motion {
+        Motion { p: other.p - self.p, v: other.v - self.v }
+    }
+
+    /// Returns the least distance from the origin in uniform motion, m, from `half` (s) before the middle until as long
+    /// after it.
+    pub(super) fn nearest(&self, half: f64) -> f64 {
         let speed2 = self.v.norm_squared();
         let nearest = if speed2 > 0.0 { (-self.p.dot(&self.v) / speed2).clamp(-half, half) } else { 0.0 };
-        let least = (self.p + self.v * nearest).norm() - drift - reach;
-        Bound { least, middle: self.p.norm() - reach }
+        (self.p + self.v * nearest).norm()
+    }
+
+    fn bound(&self, half: f64, drift: f64, reach: f64) -> Bound {
+        Bound { least: self.nearest(half) - drift - reach, middle: self.p.norm() - reach }
     }
 }
 
@@ -152,7 +199,7 @@ impl IntervalState {
 
     /// Returns the distance of a point from uniform motion at the ends of the interval (m) if its velocity deviates
     /// by so much: if nothing jumps, it deviates in proportion to time.
-    fn drift(&self, deviation: f64) -> f64 {
+    pub(super) fn drift(&self, deviation: f64) -> f64 {
         deviation * self.interval.half * if self.interval.smooth { 0.5 } else { 1.0 }
     }
 }

@@ -12,14 +12,11 @@ pub struct Precision {
     /// The greatest time from the begin of a first penetration (by more than `touch` and `tol_depth`) to that at
     /// which it is found, s. Default 1 µs: below a tick of any controller.
     pub tol_time: f64,
-    /// The greatest number of pairs of modules that are open at once as such, beyond which an interval is cut before
-    /// all of them are listed. Default 2,000,000: memory holds these for as many halvings as there are.
-    pub open_pairs_max: usize,
 }
 
 impl Default for Precision {
     fn default() -> Precision {
-        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6, open_pairs_max: 2_000_000 }
+        Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6 }
     }
 }
 
@@ -174,6 +171,9 @@ pub(super) struct Numerics {
     pub series_angle_squared: f64,
     /// Sine of the angle below which a rotation has no axis. 1e-12: rounding.
     pub no_rotation: f64,
+    /// Rounding of the bound from the bounding spheres of two clusters of modules, m, at a metre; it grows with the
+    /// distance. 1e-9: well above that of sums over chains, far below the tolerance of the clearance.
+    pub cluster_rounding: f64,
 }
 
 /// The thresholds with which every judgement computes.
@@ -195,4 +195,5 @@ pub(super) const NUMERICS: Numerics = Numerics {
     series_angle: 1e-6,
     series_angle_squared: 1e-6,
     no_rotation: 1e-12,
+    cluster_rounding: 1e-9,
 };
