@@ -45,7 +45,7 @@ pub(crate) use listing::listed;
 pub use motion_plan::Plan;
 pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};
 pub use operation_error::OperationError;
-pub use operations::{joined, reversed, sliced};
+pub use operations::{joined, retimed, reversed, sliced};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
 pub use provenance::{Change, ObjectiveValue, Provenance};
 pub use stages::{

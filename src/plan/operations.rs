@@ -8,6 +8,7 @@ use super::operation_error::OperationError;
 use super::program::{Node, Program};
 use super::provenance::Change;
 use super::time::{DURATION_MAX, tick_near};
+use super::tracks::Tracks;
 use super::world::{Exemption, Settings, Stability, WorldFrom};
 use std::sync::Arc;
 
@@ -107,6 +108,25 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     };
     new.body = body;
     Ok(new)
+}
+
+/// Returns the plan with `tracks`, which go along the same path in another time. `clock` gives the new time (s) of each
+/// time of the plan (s), never decreasing; `reserve` is the part of the limits of torque that was to be left.
+///
+/// Worlds and exemptions hold for the same parts of the path. The program is derived again from the tracks, by the
+/// clock and without sensors, or dropped with the reason in the history; verdict and bound are dropped.
+pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve: f64) -> Plan {
+    let exemption = |e: &Exemption| Exemption { from: clock(e.from), to: clock(e.to), ..e.clone() };
+    let mut new = Plan {
+        body: tracks.into(),
+        exemptions: plan.exemptions.iter().map(exemption).collect(),
+        worlds: plan.worlds.iter().map(|w| WorldFrom { from: clock(w.from), world: w.world }).collect(),
+        nominal: false,
+        ..plan.clone()
+    };
+    record(&mut new, Change::Retimed { before: plan.body.duration(), reserve });
+    derive_program(&mut new);
+    new
 }
 
 /// Writes a change into the history; what was proved or judged of the plan before holds no more.

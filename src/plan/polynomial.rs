@@ -69,6 +69,93 @@ pub fn hull(control: &[f64]) -> (f64, f64) {
     control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
 }
 
+/// Returns the Bernstein control points of the same polynomial at the degree `degree` (degree elevation); unchanged if
+/// its degree is no lower. Panics without control points.
+pub fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
+    let mut points = control.to_vec();
+    while points.len() <= degree {
+        let n = points.len() as f64;
+        let inner = points.windows(2).enumerate().map(|(i, w)| {
+            let part = (i + 1) as f64 / n;
+            part * w[0] + (1.0 - part) * w[1]
+        });
+        let ends = (points[0], points[points.len() - 1]);
+        points = std::iter::once(ends.0).chain(inner).chain([ends.1]).collect();
+    }
+    points
+}
+
+/// Returns the composition `p(r(w))` of the polynomial with these control points and `r`, which is quadratic with the
+/// control points `[0, middle, 1]` (`middle` from 0 to 1), as control points over 0..1 of twice the degree. The method is
+/// de Casteljau's rule with products of polynomials in Bernstein form (DeRose 1988): each step is a convex combination, so
+/// that the hull of the control points does not grow, and both ends are exact. Panics without control points.
+pub fn composed(control: &[f64], middle: f64) -> Vec<f64> {
+    let law = [0.0, middle, 1.0];
+    let mut points: Vec<Vec<f64>> = control.iter().map(|c| vec![*c]).collect();
+    while points.len() > 1 {
+        points = points.windows(2).map(|w| mixed(&w[0], &w[1], &law)).collect();
+    }
+    points.pop().expect("a polynomial has a control point")
+}
+
+/// Returns `(1 - r) a + r b` for polynomials `a` and `b` of one degree and a quadratic `r`, in Bernstein form.
+fn mixed(a: &[f64], b: &[f64], r: &[f64; 3]) -> Vec<f64> {
+    let degree = a.len() - 1;
+    let (inner, outer) = (binomials(degree), binomials(degree + 2));
+    let weight = |k: usize, j: usize| inner[k - j] * [1.0, 2.0, 1.0][j] / outer[k];
+    let point = |k: usize| {
+        let terms = (0..3).filter(|&j| j <= k && k - j <= degree);
+        terms.map(|j| weight(k, j) * ((1.0 - r[j]) * a[k - j] + r[j] * b[k - j])).sum()
+    };
+    (0..=degree + 2).map(point).collect()
+}
+
+/// Returns the binomial coefficients of a degree.
+fn binomials(degree: usize) -> Vec<f64> {
+    let mut row = vec![1.0];
+    for k in 0..degree {
+        row.push(row[k] * (degree - k) as f64 / (k + 1) as f64);
+    }
+    row
+}
+
+/// The greatest number of pieces that are examined before the bound is taken instead of the value.
+const PIECES_MAX: usize = 4096;
+
+/// Returns the greatest value over 0..1 of a polynomial, given by its Bernstein control points (at least one), and the
+/// argument where it is reached, by subdivision (the convex hull property). The value is below the true one by no more
+/// than the fraction `tolerance` of the largest control point, and above it by no more than rounding, unless a
+/// polynomial is so oscillatory that the pieces run out.
+pub fn greatest(control: &[f64], tolerance: f64) -> (f64, f64) {
+    let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
+    let (first, last) = (control[0], control[control.len() - 1]);
+    let mut best = if last > first { (last, 1.0) } else { (first, 0.0) };
+    let mut open = vec![(control.to_vec(), 0.0, 1.0)];
+    for _ in 0..PIECES_MAX {
+        let Some((points, from, to)) = open.pop() else { return best };
+        if hull(&points).1 <= best.0 + tolerance * size {
+            continue;
+        }
+        let middle = (from + to) / 2.0;
+        let (left, right) = split(&points, 0.5);
+        if right[0] > best.0 {
+            best = (right[0], middle);
+        }
+        open.push((right, middle, to));
+        open.push((left, from, middle));
+    }
+    let bound = open.iter().map(|(points, from, _)| (hull(points).1, *from));
+    bound.fold(best, |best, piece| if piece.0 > best.0 { piece } else { best })
+}
+
+/// Returns the greatest absolute value over 0..1 of a polynomial and its argument, as [`greatest`] finds it.
+pub fn greatest_size(control: &[f64], tolerance: f64) -> (f64, f64) {
+    let up = greatest(control, tolerance);
+    let negated: Vec<f64> = control.iter().map(|c| -c).collect();
+    let down = greatest(&negated, tolerance);
+    if down.0 > up.0 { down } else { up }
+}
+
 /// The greatest number of bisections of an interval for a root: to the last bit of the argument.
 const HALVINGS_MAX: usize = 60;
 

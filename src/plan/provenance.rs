@@ -73,6 +73,13 @@ pub enum Change {
         /// The end, s.
         to: f64,
     },
+    /// The motion goes along the same path in another time.
+    Retimed {
+        /// The duration before, s.
+        before: f64,
+        /// The part of the limits of torque that was to be left.
+        reserve: f64,
+    },
     /// Another plan was appended at a time (s).
     Joined {
         /// The time, s.

@@ -1,9 +1,8 @@
 //! Range, speed and acceleration of joints and motors, by the convex hull property of Bernstein polynomials:
 //! proved at every instant.
 
-use super::extremum::{elevated, greatest};
-use super::tolerances::Tolerances;
-use crate::plan::polynomial::derivative;
+use super::tolerances::{NUMERICS, Tolerances};
+use crate::plan::polynomial::{derivative, elevated, greatest, greatest_size};
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
@@ -142,9 +141,9 @@ fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Toleranc
     let start = Piece { start: 0.0, end: 0.0, control: vec![at_start], cause: None };
     let mut worst: Option<(f64, f64, f64, &Piece)> = None;
     for piece in std::iter::once(&start).chain(pieces) {
-        let (above, u) = greatest(&piece.control);
+        let (above, u) = greatest(&piece.control, NUMERICS.extremum);
         let negated: Vec<f64> = piece.control.iter().map(|c| -c).collect();
-        let (below, v) = greatest(&negated);
+        let (below, v) = greatest(&negated, NUMERICS.extremum);
         for (position, limit, excess, u) in [(above, high, above - high, u), (-below, low, low + below, v)] {
             let t = piece.start + u * (piece.end - piece.start);
             if excess > slack && worst.is_none_or(|(p, l, ..)| excess > (p - l).abs()) {
@@ -171,7 +170,7 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
     let Some(limit) = drive.limits.speed else { return };
     let mut worst: Option<(f64, f64, &Piece)> = None;
     for piece in pieces {
-        let (value, u) = greatest_size(&derivative(&piece.control));
+        let (value, u) = greatest_size(&derivative(&piece.control), NUMERICS.extremum);
         let length = piece.end - piece.start;
         if worst.is_none_or(|(w, ..)| value / length > w) {
             worst = Some((value / length, piece.start + u * length, piece));
@@ -204,7 +203,7 @@ fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger
     for piece in pieces {
         let length = piece.end - piece.start;
         let rates = derivative(&piece.control);
-        let (value, u) = greatest_size(&derivative(&rates));
+        let (value, u) = greatest_size(&derivative(&rates), NUMERICS.extremum);
         take(value / (length * length), piece.start + u * length, piece);
         let (first, last) = (rates[0] / length, rates[rates.len() - 1] / length);
         let was = if before.0 == piece.start { before.1 } else { 0.0 };
@@ -231,14 +230,6 @@ fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger
     let message = format!("{} {found}; it can do {}", drive.name, quantity(limit, dimension));
     let value = if value.is_finite() { value } else { f64::MAX };
     ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
-}
-
-/// Returns the greatest absolute value of a polynomial over 0..1, and its argument.
-fn greatest_size(control: &[f64]) -> (f64, f64) {
-    let up = greatest(control);
-    let negated: Vec<f64> = control.iter().map(|c| -c).collect();
-    let down = greatest(&negated);
-    if down.0 > up.0 { down } else { up }
 }
 
 fn failure(

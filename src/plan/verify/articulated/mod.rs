@@ -8,7 +8,6 @@
 
 mod tolerances;
 
-mod extremum;
 mod limits;
 mod rest;
 
