@@ -8,8 +8,8 @@ install_rust_tools() {
 }
 
 # pinocchio and coal, a second opinion on kinematics (tests/robots/urdf.rs, benches/kinematics.rs) and on collisions
-# (tests/judge/oracle.rs), and MuJoCo, on models and simulations (tests/dynamics). Where they can't be installed, what
-# asks for them says so and is skipped.
+# (tests/judge/oracle.rs), MuJoCo, on models and simulations (tests/dynamics), and toppra, on least times
+# (tests/planners/fastest.rs). Where they can't be installed, what asks for them says so and is skipped.
 install_python() {
   local venv="$PWD/target/python"
   if [ ! -x "$venv/bin/python" ]; then
@@ -22,6 +22,9 @@ install_python() {
     "$venv/bin/python" -c 'import mujoco' 2>/dev/null \
       || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check mujoco \
       || echo "no MuJoCo: the tests against it will be skipped"
+    "$venv/bin/python" -c 'import toppra' 2>/dev/null \
+      || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check toppra \
+      || echo "no toppra: the test against it will be skipped"
     export MODL_PYTHON="$venv/bin/python"
   fi
 }

@@ -1751,6 +1751,27 @@ extern fn load_plan(file: Text, robot: Config) -> Plan
 /// ```
 extern fn reverse(plan: Plan) -> Plan
 
+/// The plan along the same path in least time: time-optimal path parameterisation (TOPP-RA, Pham and Pham 2018).
+///
+/// All joints go the same way together, as fast as the limits of speed and acceleration of each joint and motor allow;
+/// every joint that moves needs a `max_accel`. Robots that are moved under `dynamics: full` leave `reserve` of the limits
+/// of torque, too, inertia included; the judge asks for 0.15. Where nothing moves, the time stays as it is: pauses are
+/// meant. Where a joint would change its speed at once, and where something docks or undocks, the robot comes to rest.
+///
+/// Example:
+/// ```modl
+/// module Hinge {
+///   link stand = box(40mm, 40mm, 40mm, mass: 1kg)
+///   link arm = box(10mm, 10mm, 100mm, mass: 100g) at [0mm, 0mm, 80mm]
+///   joint turn : stand -> arm = revolute(axis: Z, max_speed: 2rad/s, max_accel: 4rad/s^2)
+/// }
+/// config Turner { part hinge: Hinge }
+/// let t = Turner()
+/// let slow = plan(move(t.hinge.turn, to: 3rad, in: 10s), world: world(ground: held))
+/// print(slow.duration, "{fastest(slow).duration:.3}")
+/// ```
+extern fn fastest(plan: Plan, reserve: Number = 0.15) -> Plan
+
 /// Judges a plan, or the start pose of a robot, and reports.
 ///
 /// A behaviour is planned first. `sample` is the longest time between two states that are looked at;

@@ -23,6 +23,7 @@
 
 mod action;
 mod family;
+mod fastest;
 mod fold;
 mod fold_design;
 mod fold_refusal;
@@ -78,6 +79,7 @@ const SUBJECTS: &[Subject] = &[
     natives(robot::TABLE),
     natives(action::TABLE),
     natives(plan::TABLE),
+    natives(fastest::TABLE),
     natives(show::TABLE),
     natives(save::TABLE),
     Subject { natives: series::TABLE, records: series::records },

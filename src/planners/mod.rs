@@ -8,6 +8,7 @@
 
 pub mod random;
 
+pub mod fastest;
 pub mod fold;
 pub mod locomote;
 pub mod morph;

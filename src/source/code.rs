@@ -110,6 +110,7 @@ codes! {
     NO_WAY = "E0801", "shapes that no plan leads between";
     NOT_COVERED = "E0802", "a problem that the planner does not cover";
     UNFOLDABLE = "E0803", "a shape that panels do not fold into";
+    TOO_HEAVY = "E0804", "a load that no slowness makes lighter";
     // W0xxx: lints and notes.
     NAME_STYLE = "W0001", "a name in another style";
     UNIT_SHADOWED = "W0002", "a unit that has the name of a variable";

@@ -1,0 +1,116 @@
+//! The limits of a stretch on a grid, as inequalities in squared velocities of the path.
+//!
+//! With `x = ṡ²` at the beginning of an interval of the grid, `y` at its end and constant acceleration `s̈ = (y - x) /
+//! 2Δ` between them, each limit is linear in x and y at each point of the interval.
+
+use super::drives::Drive;
+use super::path::Stretch;
+use super::tolerances::TOLERANCES;
+use super::torque::{Excess, PathPoint, Torques};
+use crate::plan::polynomial::{derivative, value};
+
+/// The points of an interval at which its limits are put up, as parts of it.
+const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
+
+/// The inequality `a x + b y <= c`, with `a² + b² = 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct HalfPlane {
+    /// The factor of the squared velocity at the beginning.
+    pub(super) a: f64,
+    /// The factor of that at the end.
+    pub(super) b: f64,
+    /// The bound.
+    pub(super) c: f64,
+}
+
+impl HalfPlane {
+    /// Returns the inequality, scaled; `None` if it says nothing about x and y.
+    pub(super) fn new(a: f64, b: f64, c: f64) -> Option<HalfPlane> {
+        let size = libm::hypot(a, b);
+        (size > 0.0).then(|| HalfPlane { a: a / size, b: b / size, c: c / size })
+    }
+}
+
+/// The limits in one interval.
+pub(super) struct Interval {
+    /// The inequalities.
+    pub(super) planes: Vec<HalfPlane>,
+    /// The torque at rest that is farthest over its limit, with its ratio; `None` if none is.
+    pub(super) excess: Option<(f64, Excess)>,
+}
+
+/// Returns the path at a point of an interval of its grid: `part` of the way from `from` to `to`.
+pub(super) fn point(stretch: &Stretch, from: f64, to: f64, part: f64) -> PathPoint {
+    let joints = stretch.start.len();
+    let mut point = PathPoint { q: stretch.start.clone(), d: vec![0.0; joints], dd: vec![0.0; joints] };
+    let length = to - from;
+    for track in &stretch.path {
+        let joint = track.joint.0 as usize;
+        point.q[joint] = track.position(point.q[joint], from);
+        let next = track.segments.partition_point(|s| s.end <= from);
+        if let Some(piece) = track.segments.get(next).and_then(|s| s.between(from, to)) {
+            let rates = derivative(&piece.control);
+            point.q[joint] = value(&piece.control, part);
+            point.d[joint] = value(&rates, part) / length;
+            point.dd[joint] = value(&derivative(&rates), part) / (length * length);
+        }
+    }
+    point
+}
+
+/// Returns the limits in the interval of a grid between two parameters; `usable` is the part of each that may be used.
+pub(super) fn interval(
+    stretch: &Stretch,
+    drives: &[Drive],
+    torques: Option<&Torques>,
+    (from, to): (f64, f64),
+    usable: f64,
+) -> Interval {
+    let mut planes = Vec::new();
+    let mut worst: Option<(f64, Excess)> = None;
+    for part in POINTS {
+        let point = point(stretch, from, to, part);
+        let mut add = |a: f64, b: f64, bound: f64| planes.extend(plane(a, b, bound, part, to - from));
+        for drive in drives {
+            let sum = |of: &[f64]| drive.terms.iter().map(|&(j, f)| f * of[j]).sum::<f64>();
+            let (d, dd) = (small(sum(&point.d)), small(sum(&point.dd)));
+            if let Some(limit) = drive.speed {
+                add(0.0, d * d, limit * limit * usable);
+            }
+            if let Some(limit) = drive.acceleration {
+                add(d, dd, limit * usable);
+                add(-d, -dd, limit * usable);
+            }
+        }
+        if let Some(torques) = torques {
+            let rows = torques.rows(&point);
+            for row in &rows {
+                add(row.a, row.b, left(row.limit, row.c));
+                add(-row.a, -row.b, left(row.limit, -row.c));
+            }
+            if let Some(excess) = torques.excess(&rows)
+                && worst.as_ref().is_none_or(|w| excess.0 > w.0)
+            {
+                worst = Some(excess);
+            }
+        }
+    }
+    Interval { planes, excess: worst }
+}
+
+/// Returns what a torque at rest leaves of its limit: 0 where it is over it by no more than rounding.
+fn left(limit: f64, at_rest: f64) -> f64 {
+    let left = limit - at_rest;
+    if left < 0.0 && left >= -TOLERANCES.torque * limit { 0.0 } else { left }
+}
+
+/// Returns a derivative, or 0 if it is rounding.
+fn small(derivative: f64) -> f64 {
+    if derivative.abs() < TOLERANCES.derivative { 0.0 } else { derivative }
+}
+
+/// Returns `a s̈ + b ṡ² <= bound` at a part of an interval of a length.
+fn plane(a: f64, b: f64, bound: f64, part: f64, length: f64) -> Option<HalfPlane> {
+    let per = a / (2.0 * length);
+    HalfPlane::new(b * (1.0 - part) - per, b * part + per, bound)
+}

@@ -1,0 +1,200 @@
+//! Slowing down where the judge finds loads that are too great: for robots that stand on the ground, whose contact
+//! forces no time law is linear in, for closed loops, and for the loads of bonds.
+
+use super::motion::{Clock, Timed, tracks};
+use super::tolerances::TOLERANCES;
+use super::{Refusal, Settings};
+use crate::plan::verify::verify;
+use crate::plan::{CheckKind, DynamicsModel, ExemptionKind, Failure, Plan, Tracks, Verdict, retimed};
+use crate::planners::Progress;
+
+/// The times by which a stretch is slowed down before it counts as one that no slowness helps: to 9 times its duration.
+const SLOWINGS_MAX: u32 = 15;
+
+/// The times by which the factors of slowed stretches are halved again.
+const HALVINGS: usize = 3;
+
+/// The result of slowing down.
+pub(super) struct Slowed {
+    /// The tracks.
+    pub(super) tracks: Tracks,
+    /// The clock.
+    pub(super) clock: Clock,
+    /// The greatest factor by which a stretch was slowed down.
+    pub(super) factor: f64,
+    /// The number of verdicts that it took.
+    pub(super) verdicts: usize,
+}
+
+/// The factors of a stretch: the greatest that was found too small, and the least that was found great enough.
+#[derive(Clone, Copy)]
+struct Bracket {
+    times: u32,
+    low: f64,
+    high: f64,
+}
+
+/// Returns the motion of a plan whose stretches are slowed down until the judge finds no load too great under full
+/// dynamics; as they are under other worlds.
+///
+/// # Errors
+/// [`Refusal::Unholdable`] where a load is too great at any speed, [`Refusal::Stopped`].
+pub(super) fn slowed(
+    plan: &Plan,
+    old: &Tracks,
+    parts: &mut [Timed],
+    settings: &Settings,
+    progress: &mut dyn Progress,
+) -> Result<Slowed, Refusal> {
+    let mut brackets = vec![Bracket { times: 0, low: 1.0, high: 1.0 }; parts.len()];
+    let mut trials = Trials { plan, old, reserve: settings.reserve, verdicts: 0, progress };
+    if plan.worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full) {
+        trials.lengthen(parts, &mut brackets)?;
+        trials.shorten(parts, &mut brackets)?;
+    }
+    let factor = brackets.iter().map(|bracket| bracket.high).fold(1.0, f64::max);
+    let verdicts = trials.verdicts;
+    let (tracks, clock) = tracks(old, parts);
+    Ok(Slowed { tracks, clock, factor, verdicts })
+}
+
+/// Verdicts on slower and slower motions.
+struct Trials<'a> {
+    plan: &'a Plan,
+    old: &'a Tracks,
+    reserve: f64,
+    verdicts: usize,
+    progress: &'a mut dyn Progress,
+}
+
+impl Trials<'_> {
+    /// Returns the loads that the judge finds too great.
+    ///
+    /// # Errors
+    /// [`Refusal::Stopped`].
+    fn judge(&mut self, parts: &[Timed]) -> Result<Over, Refusal> {
+        self.verdicts += 1;
+        let verdicts = self.verdicts;
+        self.progress.report(&|| format!("verdict {verdicts} on slower motions"));
+        if !self.progress.should_continue() {
+            return Err(Refusal::Stopped);
+        }
+        let (tracks, clock) = tracks(self.old, parts);
+        let verdict = verify(&retimed(self.plan, tracks, &|time| clock.at(time), self.reserve));
+        Ok(overloaded(self.plan, &verdict, &clock, parts, self.reserve))
+    }
+
+    /// Slows stretches down by steps that double, until no load is too great.
+    ///
+    /// # Errors
+    /// [`Refusal::Unholdable`], [`Refusal::Stopped`].
+    fn lengthen(&mut self, parts: &mut [Timed], brackets: &mut [Bracket]) -> Result<(), Refusal> {
+        loop {
+            let over = self.judge(parts)?;
+            let Some(first) = over.first else { return Ok(()) };
+            let mut slower = false;
+            for (index, bracket) in brackets.iter_mut().enumerate() {
+                if over.parts[index] && bracket.times < SLOWINGS_MAX {
+                    bracket.low = bracket.high;
+                    bracket.high += TOLERANCES.slower * f64::from(1u32 << bracket.times);
+                    bracket.times += 1;
+                    set(&mut parts[index], bracket.high);
+                    slower = true;
+                }
+            }
+            if !slower {
+                return Err(Refusal::Unholdable { failure: Box::new(first) });
+            }
+        }
+    }
+
+    /// Goes back towards the greatest factors that were too small, by halves.
+    ///
+    /// # Errors
+    /// [`Refusal::Stopped`].
+    fn shorten(&mut self, parts: &mut [Timed], brackets: &mut [Bracket]) -> Result<(), Refusal> {
+        let middle = |bracket: &Bracket| (bracket.low + bracket.high) / 2.0;
+        for _ in 0..HALVINGS {
+            if brackets.iter().all(|bracket| bracket.times < 2) {
+                break;
+            }
+            for (part, bracket) in parts.iter_mut().zip(brackets.iter()).filter(|(_, b)| b.times > 1) {
+                set(part, middle(bracket));
+            }
+            let over = self.judge(parts)?;
+            for (index, bracket) in brackets.iter_mut().enumerate().filter(|(_, b)| b.times > 1) {
+                let middle = middle(bracket);
+                if over.parts[index] {
+                    bracket.low = middle;
+                } else if over.first.is_none() {
+                    bracket.high = middle;
+                }
+            }
+        }
+        for (part, bracket) in parts.iter_mut().zip(brackets.iter()) {
+            set(part, bracket.high);
+        }
+        Ok(())
+    }
+}
+
+/// Slows a stretch down to a factor beside its own law.
+fn set(part: &mut Timed, factor: f64) {
+    if let Timed::Stretch(_, _, own) = part {
+        *own = factor;
+    }
+}
+
+/// The loads of a motion that are too great.
+struct Over {
+    /// The first of them; `None` if there is none.
+    first: Option<Failure>,
+    /// True for each stretch in which one is.
+    parts: Vec<bool>,
+}
+
+/// Returns the loads that are too great by a verdict, and the stretches nearest to them.
+fn overloaded(plan: &Plan, verdict: &Verdict, clock: &Clock, parts: &[Timed], reserve: f64) -> Over {
+    let mut over = Over { first: None, parts: vec![false; parts.len()] };
+    let loads = [CheckKind::Torque, CheckKind::BondLoad, CheckKind::Balance];
+    let failures = verdict.failures.iter().filter(|failure| loads.contains(&failure.kind));
+    for failure in failures {
+        over.mark(clock, parts, failure.time, failure.until.unwrap_or(failure.time));
+        over.first.get_or_insert_with(|| failure.clone());
+    }
+    // A reserve above that of the judge.
+    let excused = plan.exemptions.iter().any(|e| matches!(e.kind, ExemptionKind::Overload(_)));
+    let margins = [(&verdict.torque_margin, CheckKind::Torque), (&verdict.bond_margin, CheckKind::BondLoad)];
+    for (margin, kind) in margins {
+        let Some(worst) = margin.as_ref().filter(|worst| !excused && worst.value < reserve) else { continue };
+        over.mark(clock, parts, worst.time, worst.time);
+        over.first.get_or_insert_with(|| Failure {
+            kind,
+            time: worst.time,
+            until: None,
+            at: worst.at.clone(),
+            message: format!("{} leaves less than the reserve", worst.at.join(", ")),
+            value: 1.0 - worst.value,
+            limit: 1.0 - reserve,
+            blame: vec![],
+            blames_start: false,
+        });
+    }
+    over
+}
+
+impl Over {
+    /// Marks the stretches between two new times (s), or the nearest one.
+    fn mark(&mut self, clock: &Clock, parts: &[Timed], from: f64, to: f64) {
+        let stretches: Vec<(usize, f64)> = clock
+            .spans()
+            .enumerate()
+            .filter(|(index, _)| matches!(parts[*index], Timed::Stretch(..)))
+            .map(|(index, (start, end))| (index, (start - to).max(from - end).max(0.0)))
+            .collect();
+        let nearest = stretches.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
+        for (index, _) in stretches.iter().filter(|(_, distance)| *distance <= nearest) {
+            self.parts[*index] = true;
+        }
+    }
+}
