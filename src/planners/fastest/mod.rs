@@ -173,8 +173,12 @@ pub enum Refusal {
         name: String,
         /// The torque at rest, N·m or N.
         torque: f64,
+        /// The part of the stated limit that the reserve leaves, N·m or N.
+        allowed: f64,
         /// The stated limit, N·m or N.
         limit: f64,
+        /// True for a torque, false for a force.
+        turns: bool,
         /// The beginning of the stretch, s.
         from: f64,
         /// The end of the stretch, s.
@@ -207,14 +211,13 @@ impl fmt::Display for Refusal {
                  would be of a degree above that of plans",
                 seconds(*time)
             ),
-            Refusal::Overloaded { name, torque, limit, from, to } => write!(
-                f,
-                "{name} holds {:.3} of at most {:.3} at rest between {} and {}",
-                torque,
-                limit,
-                seconds(*from),
-                seconds(*to)
-            ),
+            Refusal::Overloaded { name, torque, allowed, limit, turns, from, to } => {
+                let dimension = if *turns { Dimension::TORQUE } else { Dimension::FORCE };
+                let [torque, allowed, limit] = [torque, allowed, limit].map(|v| quantity(*v, dimension));
+                let (from, to) = (seconds(*from), seconds(*to));
+                write!(f, "{name} holds {torque} at rest between {from} and {to}; ")?;
+                write!(f, "it can hold {limit}, {allowed} of it with the reserve")
+            }
             Refusal::Unholdable { failure } => {
                 write!(f, "slower motion does not help: {}", failure.message)
             }

@@ -173,8 +173,9 @@ fn unlimited(stretch: &Stretch, robot: &Assembly) -> Refusal {
 fn overloaded(stretch: &Stretch, intervals: &[Interval]) -> Refusal {
     let all = intervals.iter().filter_map(|i| i.excess.as_ref());
     let worst = all.reduce(|a, b| if b.0 > a.0 { b } else { a });
-    let Excess { name, torque, limit } = worst.map_or_else(Excess::default, |(_, excess)| excess.clone());
-    Refusal::Overloaded { name, torque, limit, from: stretch.from, to: stretch.to }
+    let Excess { name, torque, allowed, limit, turns } =
+        worst.map_or_else(Excess::default, |(_, excess)| excess.clone());
+    Refusal::Overloaded { name, torque, allowed, limit, turns, from: stretch.from, to: stretch.to }
 }
 
 /// Returns the time law of a straight path under limits of speed and acceleration alone, in closed form: constant

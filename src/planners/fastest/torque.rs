@@ -20,6 +20,8 @@ pub(super) struct Torques<'a> {
 /// A joint or motor that states a greatest effort.
 struct Load {
     name: String,
+    /// True for a torque, false for a force.
+    turns: bool,
     /// N·m or N, as stated.
     limit: f64,
     /// The part of the limit that may be used, N·m or N.
@@ -48,8 +50,12 @@ pub(super) struct Excess {
     pub(super) name: String,
     /// The torque, N·m or N.
     pub(super) torque: f64,
+    /// The part of the stated limit that may be used, N·m or N.
+    pub(super) allowed: f64,
     /// The stated limit, N·m or N.
     pub(super) limit: f64,
+    /// True for a torque, false for a force.
+    pub(super) turns: bool,
 }
 
 /// The motion of a path at a point: positions, their first and second derivatives by the parameter, of all joints by
@@ -104,6 +110,7 @@ fn joints(robot: &Assembly) -> Vec<Load> {
         };
         limit.map(|limit| Load {
             name: robot.joint_name(owner),
+            turns: !robot.slides(owner),
             limit,
             allowed: limit,
             terms: vec![(id, 1.0)],
@@ -137,6 +144,7 @@ fn motors(robot: &Assembly, kinematics: &Kinematics) -> Vec<Load> {
                 |(column, joint): (usize, &usize)| (kinematics.joint(module, *joint), inverse[(row, column)]);
             loads.push(Load {
                 name: format!("{}.{}", robot.modules[module].name, motor.name),
+                turns: true,
                 limit,
                 allowed: limit,
                 terms: joints.iter().enumerate().map(term).collect(),
@@ -180,7 +188,8 @@ impl Torques<'_> {
     pub(super) fn excess(&self, rows: &[Row]) -> Option<(f64, Excess)> {
         let over = |(row, load): (&Row, &Load)| {
             let ratio = row.c.abs() / row.limit;
-            let excess = Excess { name: load.name.clone(), torque: row.c.abs(), limit: load.limit };
+            let Load { ref name, turns, limit, allowed, .. } = *load;
+            let excess = Excess { name: name.clone(), torque: row.c.abs(), allowed, limit, turns };
             (ratio > 1.0 + TOLERANCES.torque).then_some((ratio, excess))
         };
         let all = rows.iter().zip(&self.loads).filter_map(over);
