@@ -21,6 +21,10 @@ connector MagnetFace { mates MagnetFace, turns 4, capture 4mm 5deg }
 module Smores {
   let rate = 2.4086rad/s  // 23 rpm
 
+  // An assumption, for nothing is published: full speed after 0.2 s. A tilt that carries two more modules
+  // straight out needs a sixth of its torque for that.
+  let surge = 12rad/s^2
+
   mass 557.2924g  // the sum of the links
 
   // The wheels are the lowest parts; the holder's edges stay 1.3 mm, the top disc 3.3 mm above the ground.
@@ -69,10 +73,16 @@ module Smores {
     friction: 1.0
   ) at [0mm, -46.1mm, 0mm]
 
-  joint tilt : holder -> block = revolute(axis: -Y, range: -90deg..90deg, max_speed: rate, max_torque: 2.3N*m)
-  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_torque: 2.3N*m)
-  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
-  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
+  joint tilt : holder -> block = revolute(
+    axis: -Y,
+    range: -90deg..90deg,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 2.3N*m
+  )
+  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_accel: surge, max_torque: 2.3N*m)
+  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
+  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
   alias pan = front
   motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)
@@ -103,6 +113,7 @@ connector EPFace {
 /// The split of the mass is an estimate.
 module SmoresEP {
   let rate = 2.4086rad/s  // 23 rpm at no load
+  let surge = 12rad/s^2   // an assumption, as that of `Smores`
 
   mass 454g
   contact 4mm
@@ -121,10 +132,16 @@ module SmoresEP {
   link right_disc = cylinder(radius: 31.25mm, length: 4.4mm, axis: Y, mass: 35g, friction: 1.0) at [0mm, -36.8mm, 0mm]
 
   // The driver refuses tilts beyond 80 degrees.
-  joint tilt : holder -> block = revolute(axis: -Y, range: -80deg..80deg, max_speed: rate, max_torque: 2.3N*m)
-  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_torque: 1.4N*m)
-  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
-  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_torque: 1.2N*m)
+  joint tilt : holder -> block = revolute(
+    axis: -Y,
+    range: -80deg..80deg,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 2.3N*m
+  )
+  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_accel: surge, max_torque: 1.4N*m)
+  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
+  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
   alias pan = front
   motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)

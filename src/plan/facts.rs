@@ -90,11 +90,13 @@ fn of_joint(joint: &Joint) -> String {
     if joint.mimic.is_some() {
         return format!("{} follows", joint.name);
     }
-    let Limits { range, speed, effort, .. } = joint.limits;
-    let (position, rate, load) = match joint.kind {
-        JointKind::Prismatic => (Dimension::LENGTH, Dimension::SPEED, Dimension::FORCE),
+    let Limits { range, speed, acceleration, effort } = joint.limits;
+    let (position, rate, change, load) = match joint.kind {
+        JointKind::Prismatic => {
+            (Dimension::LENGTH, Dimension::SPEED, Dimension::ACCELERATION, Dimension::FORCE)
+        }
         JointKind::Revolute | JointKind::Fixed => {
-            (Dimension::ANGLE, Dimension::ANGULAR_SPEED, Dimension::TORQUE)
+            (Dimension::ANGLE, Dimension::ANGULAR_SPEED, Dimension::ANGULAR_ACCELERATION, Dimension::TORQUE)
         }
     };
     let range = range.map(|(low, high)| format!("{}..{}", quantity(low, position), quantity(high, position)));
@@ -103,7 +105,10 @@ fn of_joint(joint: &Joint) -> String {
     };
     let range = range.unwrap_or_else(|| "no range".to_owned());
     let (speed, effort) = (stated(speed, rate, "speed"), stated(effort, load, "load"));
-    format!("{} [{range}, {speed}, {effort}]", joint.name)
+    // Few modules state it: it is left out where there is none.
+    let acceleration =
+        acceleration.map_or_else(String::new, |limit| format!("{}, ", quantity(limit, change)));
+    format!("{} [{range}, {speed}, {acceleration}{effort}]", joint.name)
 }
 
 fn of_cell(cell: &Cell) -> String {

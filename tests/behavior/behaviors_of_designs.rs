@@ -7,7 +7,7 @@ use modl::interpret::Mode;
 
 /// A robot and what it does; how far it gets at least, in millimetres, straight ahead.
 pub const BEHAVIORS: &[(&str, &str, f64)] = &[
-    ("Driver1", "x.drive()", 452.0),
+    ("Driver1", "x.drive()", 437.0),
     ("Driver1", "x.turn()", 0.0),
     ("Chain3", "x.half_wave(75deg, 3s)", 0.0),
     ("Chain3", "x.sine()", 0.0),
@@ -20,23 +20,23 @@ pub const BEHAVIORS: &[(&str, &str, f64)] = &[
     ("Walker14", "Sc(x.stand(), x.tread())", 0.0),
     ("Walkbot17", "x.walk()", 340.0),
     ("Snake18", "x.slither(cycles: 1)", 0.0),
-    ("Car", "x.drive()", 452.0),
+    ("Car", "x.drive()", 437.0),
     ("Car", "Sc(x.stand(), x.turn())", 0.0),
-    ("Driver5", "x.drive()", 452.0),
+    ("Driver5", "x.drive()", 437.0),
     ("Driver5", "x.turn()", 0.0),
-    ("Tank7", "x.drive()", 419.0),
+    ("Tank7", "x.drive()", 405.0),
     ("Tank7", "x.turn()", 0.0),
-    ("RcCar8", "x.drive()", 419.0),
+    ("RcCar8", "x.drive()", 405.0),
     ("Proboscis7", "x.raise()", 0.0),
     ("Proboscis7", "x.climb()", 0.0),
     ("Scorpion6", "x.rise()", 0.0),
     ("Cross9", "x.squat()", 0.0),
     ("MobManip8", "Sc(x.raise(), x.forward())", 0.0),
     ("Backhoe", "Sc(x.dig(), x.swing())", 0.0),
-    ("Backhoe", "x.drive()", 452.0),
+    ("Backhoe", "x.drive()", 437.0),
     ("Driver5Puma4", "x.reach_out()", 0.0),
     ("Driver5Puma4", "x.reach_out(90deg)", 0.0),
-    ("TwoCars", "x.drive()", 452.0),
+    ("TwoCars", "x.drive()", 437.0),
     ("TwoCars", "x.open()", 0.0),
 ];
 

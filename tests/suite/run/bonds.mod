@@ -117,11 +117,15 @@ print(verify(Row(5mm, aside: 20mm)).failures[0])
 //> at 0ms: c[0] and c[1] meet, 5mm deep (body and body), as c[0].right -- c[1].left docks them; the connector explains 2mm of that (`capture`): leave a pin that reaches in out of `collides`, or state `touch` as deep as it is
 
 --- a joint that stops at once is not at rest
-use std.smores.Smores
+module Wheel {
+  link frame = box(100mm, 80mm, 100mm, mass: 1kg)
+  link rim = cylinder(radius: 50mm, length: 10mm, axis: Y, mass: 100g) at [0mm, 60mm, 0mm]
+  joint left : frame -> rim = revolute(axis: Y)
+}
 config One {
-  part m: Smores
+  part m: Wheel
   behavior dead = spin(m.left, 2.3rad/s, for: 2s)
-  behavior soft = move(m.left, by: 2rad)
+  behavior soft = move(m.left, by: 2rad, in: 2s)
 }
 fn rest(b: Behavior) -> Text = [c for c in verify(b).checks if split(c, on: ": ")[0] == "rest"][0]
 print(rest(One().soft()))
