@@ -446,6 +446,7 @@ extern fn emit(
   sample: Time = 10ms,
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
+  reserve: Number = 0.15,
 )
 
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; or a plot.
@@ -473,6 +474,7 @@ extern fn show(
   stability: footprint | centres = footprint,
   at: Time = 0s,
   side: corner | front | back | left | right | top = corner,
+  reserve: Number = 0.15,
 )
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
@@ -1580,8 +1582,8 @@ extern type World {
 ///
 /// `dynamics` is the assumption under which forces and travel are judged. Under `statics` every instant is judged at rest:
 /// there is no inertia, and the ground's forces are the best that friction allows. Under `full`, servos and contacts yield,
-/// links have inertia, what slides is dragged, and torque keeps a reserve of 15 %: it says more of what will happen,
-/// and refuses more.
+/// links have inertia, what slides is dragged, torque keeps a reserve, and no joint may change its speed at once: it says
+/// more of what will happen, and refuses more.
 ///
 /// Example:
 /// ```modl
@@ -1778,7 +1780,11 @@ extern fn fastest(plan: Plan, reserve: Number = 0.15) -> Plan
 /// what happens between them is bounded, and looked at more closely where the bound does not
 /// suffice. `unstable_for` is how long support may be missing at a stretch. `stability` is the rule:
 /// the `footprint` of the ground contacts, or the paper's, the `centres` of the lowest modules.
+/// `reserve` is the part of each limit of torque, force and bond load that must be left under `dynamics: full`, from 0 to 1.
 /// `world` judges under other surroundings than the plan's own.
+///
+/// The first line of the report says under which dynamics the plan was judged: `statics`, unless the world says `full` (see
+/// `world`).
 ///
 /// Example:
 /// ```modl
@@ -1792,6 +1798,7 @@ extern fn verify(
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
   world: World?,
+  reserve: Number = 0.15,
 ) -> Report
 
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0

@@ -168,11 +168,14 @@ impl<'a> Checker<'a> {
 
     /// Checks an exemption of an `allows` clause; `None` (and a diagnostic) for an unknown one.
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
-        let known = ["unstable", "slip", "collision", "overload"];
+        let known = ["unstable", "slip", "collision", "overload", "acceleration", "balance", "traction"];
         let part = Type::AnyOf(Family::Config);
         let kind = match (e.name.text.as_str(), e.args.as_slice()) {
             ("unstable", []) => ExemptionKind::Unstable,
             ("slip", []) => ExemptionKind::Slip,
+            ("acceleration", []) => ExemptionKind::Acceleration,
+            ("balance", []) => ExemptionKind::Balance,
+            ("traction", []) => ExemptionKind::Traction,
             ("collision", []) => ExemptionKind::Collision(None),
             ("collision", [a, b]) => {
                 let role = Role::Place("`collision`");
@@ -193,7 +196,7 @@ impl<'a> Checker<'a> {
                     )
                 } else {
                     Diagnostic::error(code::UNKNOWN_CHOICE, format!("`{name}` can't be allowed"))
-                        .label(e.name.span, "one of unstable, slip, collision, overload is wanted")
+                        .label(e.name.span, format!("one of {} is wanted", known.join(", ")))
                 };
                 if let Some(near) = suggest(name, known) {
                     d = d.hint(format!("`{near}`?"));

@@ -365,6 +365,12 @@ pub enum ExemptionKind {
     Collision(Option<(Expr, Expr)>),
     /// The joint may be overloaded; `None`: any joint.
     Overload(Option<Expr>),
+    /// Joints may exceed their limits of acceleration, and change their speed at once.
+    Acceleration,
+    /// The ground's forces need not balance the robot.
+    Balance,
+    /// Friction need not determine the travel.
+    Traction,
 }
 
 /// A clause of a configuration that is elaborated for each instance, in the order of the text.

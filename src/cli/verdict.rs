@@ -3,8 +3,7 @@
 use super::report::Declaration;
 use crate::plan::facts::Facts;
 use crate::plan::{
-    self, Cause, DynamicsModel, Exemption, ExemptionKind, Failure, Ground, Measure, Plan, Stability, Status,
-    Verdict,
+    self, Cause, DynamicsModel, Exemption, Failure, Ground, Measure, Plan, Stability, Status, Verdict,
 };
 use crate::units::Dimension;
 use crate::units::{number, quantity};
@@ -159,12 +158,7 @@ fn worst_lines(out: &mut String, verdict: &Verdict) {
 
 /// Returns an exemption in words.
 fn exemption_line(exemption: &Exemption, plan: &Plan) -> String {
-    let kind = match exemption.kind {
-        ExemptionKind::Unstable => "unstable",
-        ExemptionKind::Slip => "slip",
-        ExemptionKind::Collision(_) => "collision",
-        ExemptionKind::Overload(_) => "overload",
-    };
+    let kind = exemption.kind.name();
     let time = |v| quantity(v, Dimension::TIME);
     let (from, to) = (time(exemption.from), time(exemption.to));
     let cause = plan

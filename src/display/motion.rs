@@ -8,7 +8,7 @@ use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{self, Action, Command, ExemptionKind, Node, Profile, Target, Track, Tracks};
+use crate::plan::{self, Action, Command, Node, Profile, Target, Track, Tracks};
 use crate::robot::{Assembly, JointId};
 use crate::units::{Dimension, quantity};
 use std::collections::BTreeMap;
@@ -216,7 +216,7 @@ impl Drawer<'_> {
             Node::Phase { shift, .. } => format!("phase, from {shift} of its cycle"),
             Node::Approach { shift, .. } => format!("approach {shift} of the cycle"),
             Node::Stretch { duration, .. } => format!("in {}", quantity(*duration, Dimension::TIME)),
-            Node::Exempt { kind, .. } => format!("allows {}", exempt(kind)),
+            Node::Exempt { kind, .. } => format!("allows {}", kind.name()),
         };
         let below = match node {
             Node::Action(_) | Node::Approach { .. } => Vec::new(),
@@ -299,14 +299,5 @@ impl Drawer<'_> {
             end = segment.end;
         }
         Some(end)
-    }
-}
-
-fn exempt(kind: &ExemptionKind) -> &'static str {
-    match kind {
-        ExemptionKind::Unstable => "unstable",
-        ExemptionKind::Slip => "slip",
-        ExemptionKind::Collision(_) => "collision",
-        ExemptionKind::Overload(_) => "overload",
     }
 }

@@ -114,6 +114,9 @@ impl Interpreter<'_> {
         Ok(Some(match kind {
             ExemptionKind::Unstable => plan::ExemptionKind::Unstable,
             ExemptionKind::Slip => plan::ExemptionKind::Slip,
+            ExemptionKind::Acceleration => plan::ExemptionKind::Acceleration,
+            ExemptionKind::Balance => plan::ExemptionKind::Balance,
+            ExemptionKind::Traction => plan::ExemptionKind::Traction,
             ExemptionKind::Collision(None) => plan::ExemptionKind::Collision(None),
             ExemptionKind::Overload(None) => plan::ExemptionKind::Overload(None),
             ExemptionKind::Collision(Some((a, b))) => {

@@ -6,9 +6,7 @@ use super::interpreter::Interpreter;
 use super::plan_value::PlanValue;
 use super::stop::Stop;
 use crate::behavior::{Reason, Refusal};
-use crate::plan::{
-    CauseId, Check, CheckKind, ExemptionKind, Failure, Measure, Settings, Verdict, Worst, WorstKind,
-};
+use crate::plan::{CauseId, Check, CheckKind, Failure, Measure, Settings, Verdict, Worst, WorstKind};
 use crate::source::{Code, Diagnostic, Label, Span, code};
 use crate::units::{Dimension, number, quantity};
 use std::collections::BTreeSet;
@@ -191,26 +189,20 @@ impl Interpreter<'_> {
         if settings.sample > strict.sample {
             lines.push(format!("sample: {}", seconds(settings.sample)));
         }
+        if settings.reserve < strict.reserve {
+            lines.push(format!("reserve: {}", number(settings.reserve)));
+        }
         if settings.stability != strict.stability {
             lines.push("stability: centres".to_string());
         }
         for exemption in &planned.plan.exemptions {
             let cause = &planned.plan.causes[exemption.cause.0 as usize];
-            let name = exemption_name(&exemption.kind);
+            let name = &exemption.kind.name();
             lines.push(format!("allows {name} ({}:{})", cause.file, cause.line));
         }
         let mut said = BTreeSet::new();
         lines.retain(|line| said.insert(line.clone()));
         lines
-    }
-}
-
-fn exemption_name(kind: &ExemptionKind) -> &'static str {
-    match kind {
-        ExemptionKind::Unstable => "unstable",
-        ExemptionKind::Slip => "slip",
-        ExemptionKind::Collision(_) => "collision",
-        ExemptionKind::Overload(_) => "overload",
     }
 }
 

@@ -37,7 +37,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
         unstable_for: f64,
         stability: Stability,
         at: f64,
-        side: Side
+        side: Side,
+        reserve: f64
     ],
     show,
 )];

@@ -155,7 +155,7 @@ fn world(call: &Call, gravity: WordOr<Gravity, f64>) -> Eval<World> {
     if gravity < 0.0 {
         return Err(call.refuse("gravity", "gravity acts downwards, so it can't be negative"));
     }
-    Ok(World { gravity, ground: Ground::Held, ..World::default() })
+    Ok(World { gravity, ground: Ground::Held, ..World::FREE })
 }
 
 /// Shows progress to the user, and ends a search at the timeout or when the user cancels the run.

@@ -4,23 +4,30 @@ use super::cause::Cause;
 use super::listing::listed;
 use super::motion_plan::Plan;
 use super::verdict::{CheckKind, Verdict};
-use super::world::{DynamicsModel, ExemptionKind};
+use super::world::{DynamicsModel, ExemptionKind, World};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The beginning of the name of a file of the standard library.
 const LIBRARY: &str = "std/";
 
-/// Returns the headline of a verdict on a plan: `verified`, `not verified`, or with the excused checks and the lines
-/// of the source that excuse them, `verified, except torque (allowed at line 40)`. `verdict` must be one on this
+/// Returns the headline of a verdict on a plan: `not verified`, or `verified under full dynamics` or under those that it
+/// is judged by, with the excused checks and the lines of the source that excuse them: `verified under full dynamics,
+/// except torque (allowed at line 40)`. `verdict` must be one on this
 /// plan, whose exemptions it refers to.
 pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
     if !verdict.ok() {
         return "not verified".to_owned();
     }
     let excused = excused(plan, verdict);
-    let full = plan.worlds.iter().any(|from| plan.body.dynamics(&from.world) == DynamicsModel::Full);
-    let verified = if full { "verified under full dynamics" } else { "verified" };
-    if excused.is_empty() { verified.to_owned() } else { format!("{verified}, except {}", listed(&excused)) }
+    let verified = format!("verified under {}", dynamics(plan).words());
+    if excused.is_empty() { verified } else { format!("{verified}, except {}", listed(&excused)) }
+}
+
+/// Returns the dynamics that a plan is judged under: full dynamics if one of its worlds asks for them.
+fn dynamics(plan: &Plan) -> DynamicsModel {
+    let mut models = plan.worlds.iter().map(|from| plan.body.dynamics(&from.world));
+    let first = models.next().unwrap_or(plan.body.dynamics(&World::FREE));
+    models.fold(first, |all, model| if model == DynamicsModel::Full { model } else { all })
 }
 
 /// Returns each check of which a verdict needed an exemption, with the lines that allow it.
@@ -51,6 +58,9 @@ fn check(kind: &ExemptionKind) -> CheckKind {
         ExemptionKind::Slip => CheckKind::Slip,
         ExemptionKind::Collision(_) => CheckKind::Collision,
         ExemptionKind::Overload(_) => CheckKind::Torque,
+        ExemptionKind::Acceleration => CheckKind::Acceleration,
+        ExemptionKind::Balance => CheckKind::Balance,
+        ExemptionKind::Traction => CheckKind::Traction,
     }
 }
 

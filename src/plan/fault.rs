@@ -70,6 +70,11 @@ pub enum PlanFault {
     },
     /// A negative longest time without support, or one that is no number.
     UnstableFor,
+    /// The reserve is not between 0 and 1.
+    Reserve {
+        /// The stated reserve.
+        reserve: f64,
+    },
     /// Settings by which the judge may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
@@ -399,6 +404,7 @@ impl fmt::Display for PlanFault {
             PlanFault::NoBaseToHold => write!(f, "only a robot of modules has a base to hold"),
             PlanFault::SampleInterval { interval } => write!(f, "a sample every {interval} s is none"),
             PlanFault::UnstableFor => write!(f, "`unstable_for` is negative"),
+            PlanFault::Reserve { reserve } => write!(f, "`reserve` is {reserve}, and not from 0 to 1"),
             PlanFault::NoSamples => write!(f, "no samples are allowed"),
             PlanFault::ProgramChild { node, child } => write!(
                 f,

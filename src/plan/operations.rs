@@ -188,6 +188,7 @@ fn stricter(a: &Settings, b: &Settings) -> Settings {
         sample: a.sample.min(b.sample),
         unstable_for: a.unstable_for.min(b.unstable_for),
         stability,
+        reserve: a.reserve.max(b.reserve),
         samples_max: a.samples_max.max(b.samples_max),
     }
 }

@@ -4,7 +4,7 @@
 use super::colour::{PALETTE, groups};
 use super::drawing::{Drawing, INK, LETTER, PAPER, SOFT};
 use super::input::RenderInput;
-use crate::plan::{Action, Command, ExemptionKind, Node, Target, Tracks};
+use crate::plan::{Action, Command, Node, Target, Tracks};
 use crate::robot::{Assembly, JointId, JointOwner};
 use crate::units::{Dimension, quantity};
 
@@ -108,13 +108,7 @@ impl Drawer<'_> {
                 framed(format!("in {}", quantity(*duration, Dimension::TIME)), self.piece(body, depth + 1))
             }
             Node::Exempt { body, kind, .. } => {
-                let kind = match kind {
-                    ExemptionKind::Unstable => "unstable",
-                    ExemptionKind::Slip => "slip",
-                    ExemptionKind::Collision(_) => "collision",
-                    ExemptionKind::Overload(_) => "overload",
-                };
-                framed(format!("allows {kind}"), self.piece(body, depth + 1))
+                framed(format!("allows {}", kind.name()), self.piece(body, depth + 1))
             }
         }
     }

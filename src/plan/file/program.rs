@@ -247,6 +247,9 @@ pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<Stri
         ExemptionKind::Overload(Some(joint)) => vec![names.joint(JointId(*joint))],
         ExemptionKind::Unstable
         | ExemptionKind::Slip
+        | ExemptionKind::Acceleration
+        | ExemptionKind::Balance
+        | ExemptionKind::Traction
         | ExemptionKind::Collision(None)
         | ExemptionKind::Overload(None) => vec![],
     }

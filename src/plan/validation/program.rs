@@ -33,6 +33,9 @@ impl Names<'_> {
             ExemptionKind::Overload(Some(joint)) => self.joint(JointId(*joint)),
             ExemptionKind::Unstable
             | ExemptionKind::Slip
+            | ExemptionKind::Acceleration
+            | ExemptionKind::Balance
+            | ExemptionKind::Traction
             | ExemptionKind::Collision(None)
             | ExemptionKind::Overload(None) => Ok(()),
         }

@@ -117,7 +117,7 @@ impl<'p> Task<'p> {
         if self.problem.gravity == 0.0 {
             return World::FREE;
         }
-        World { gravity: self.problem.gravity, ground: Ground::Fixed, ..World::default() }
+        World { gravity: self.problem.gravity, ground: Ground::Fixed, ..World::FREE }
     }
 
     /// Returns the pose of the root's panel in the world: with its outside down on the ground, if there is one.

@@ -4,7 +4,7 @@
 use super::tolerances::{NUMERICS, Tolerances};
 use crate::plan::polynomial::{derivative, elevated, greatest, greatest_size};
 use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CauseId, CheckKind, Failure, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, ExemptionKind, Failure, Status, Tracks};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
 use crate::units::{Dimension, quantity};
 
@@ -16,6 +16,9 @@ struct Drive {
     terms: Vec<(usize, f64)>,
     /// True for positions in rad, false for m.
     turns: bool,
+    /// True for a joint that has a motor of its own; false for motors of several joints, and for joints that follow
+    /// others or have none.
+    driven: bool,
 }
 
 /// A piece of motion of one drive over the time of one piece of each of its joints.
@@ -26,14 +29,15 @@ struct Piece {
     cause: Option<CauseId>,
 }
 
-/// Judges range, speed and acceleration of every joint and motor that states a limit.
-pub(super) fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
+/// Judges range, speed and acceleration of every joint and motor that states a limit. Under full dynamics (`full`) a
+/// joint that states no greatest acceleration must not change its speed at once: its torque would have no bound.
+pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
     let drives = drives(&tracks.robot);
     for drive in &drives {
         let pieces = pieces(tracks, drive);
         range(tracks, drive, &pieces, tolerances, ledger);
         speed(drive, &pieces, tolerances, ledger);
-        acceleration(drive, &pieces, tolerances, ledger);
+        acceleration(drive, &pieces, full, tolerances, ledger);
     }
     let status = |stated: bool| if stated { Status::Proved } else { Status::NoLimit };
     ledger.check(CheckKind::JointRange, status(drives.iter().any(|d| d.limits.range.is_some())));
@@ -57,11 +61,18 @@ fn drives(robot: &Assembly) -> Vec<Drive> {
                 let kind = declared.kind;
                 let terms = crate::robot::driven(robot.module_type(module), joint, firsts[module]);
                 let turns = kind == JointKind::Revolute;
-                (kind != JointKind::Fixed).then_some(Drive { name, limits: declared.limits, terms, turns })
+                let driven = !declared.passive && declared.mimic.is_none();
+                (kind != JointKind::Fixed).then_some(Drive {
+                    name,
+                    limits: declared.limits,
+                    terms,
+                    turns,
+                    driven,
+                })
             }
             JointOwner::Bond(bond) => {
                 let limits = robot.hinge(bond)?.limits;
-                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true })
+                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true, driven: true })
             }
         }
     });
@@ -72,6 +83,7 @@ fn drives(robot: &Assembly) -> Vec<Drive> {
             limits: motor.limits,
             terms: motor.joints.iter().map(|&(joint, factor)| (firsts[module] + joint, factor)).collect(),
             turns: true,
+            driven: false,
         })
     });
     joints.chain(motors).collect()
@@ -191,36 +203,35 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
 }
 
 /// Checks the greatest acceleration of a drive; a jump of the speed counts as an infinite one.
-fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
-    let Some(limit) = drive.limits.acceleration else { return };
-    let mut worst: Option<(f64, f64, &Piece)> = None;
-    let mut take = |value: f64, time: f64, piece| {
-        if worst.is_none_or(|(w, ..): (f64, f64, &Piece)| value > w) {
-            worst = Some((value, time, piece));
-        }
+fn acceleration(drive: &Drive, pieces: &[Piece], full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
+    let is_excused = |time: f64, ledger: &mut Ledger| {
+        ledger.excuses(CheckKind::Acceleration, time, |kind| *kind == ExemptionKind::Acceleration)
     };
-    let mut before = (f64::NEG_INFINITY, 0.0);
+    let jumps = jumps(pieces, tolerances);
+    let Some(limit) = drive.limits.acceleration else {
+        if full && drive.driven {
+            let first = jumps.into_iter().find(|jump| !is_excused(jump.0, ledger));
+            if let Some((time, change, piece)) = first {
+                ledger.fail(unlimited(drive, time, change, piece));
+            }
+        }
+        return;
+    };
+    let mut accelerations: Vec<(f64, f64, &Piece)> = Vec::new();
     for piece in pieces {
         let length = piece.end - piece.start;
-        let rates = derivative(&piece.control);
-        let (value, u) = greatest_size(&derivative(&rates), NUMERICS.extremum);
-        take(value / (length * length), piece.start + u * length, piece);
-        let (first, last) = (rates[0] / length, rates[rates.len() - 1] / length);
-        let was = if before.0 == piece.start { before.1 } else { 0.0 };
-        if (first - was).abs() > tolerances.speed_jump {
-            take(f64::INFINITY, piece.start, piece);
-        }
-        before = (piece.end, last);
+        let (value, u) = greatest_size(&derivative(&derivative(&piece.control)), NUMERICS.extremum);
+        accelerations.push((value / (length * length), piece.start + u * length, piece));
     }
-    // After the last piece, and before a pause, the joint stands still at once.
-    for (piece, next) in pieces.iter().zip(pieces.iter().skip(1).map(Some).chain([None])) {
-        let rates = derivative(&piece.control);
-        let last = rates[rates.len() - 1] / (piece.end - piece.start);
-        if next.is_none_or(|n| n.start > piece.end) && last.abs() > tolerances.speed_jump {
-            take(f64::INFINITY, piece.end, piece);
+    accelerations.extend(jumps.into_iter().map(|(time, _, piece)| (f64::INFINITY, time, piece)));
+    let mut worst: Option<(f64, f64, &Piece)> = None;
+    for (value, time, piece) in accelerations {
+        let over = value > limit * (1.0 + tolerances.limit) && worst.is_none_or(|(w, ..)| value > w);
+        if over && !is_excused(time, ledger) {
+            worst = Some((value, time, piece));
         }
     }
-    let Some((value, time, piece)) = worst.filter(|w| w.0 > limit * (1.0 + tolerances.limit)) else { return };
+    let Some((value, time, piece)) = worst else { return };
     let dimension = if drive.turns { Dimension::ANGULAR_ACCELERATION } else { Dimension::ACCELERATION };
     let found = if value.is_finite() {
         format!("accelerates by {}", quantity(value, dimension))
@@ -230,6 +241,39 @@ fn acceleration(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger
     let message = format!("{} {found}; it can do {}", drive.name, quantity(limit, dimension));
     let value = if value.is_finite() { value } else { f64::MAX };
     ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
+}
+
+/// Returns the failure of a drive that changes its speed at once, by `change` (rad/s or m/s), and states no greatest
+/// acceleration.
+fn unlimited(drive: &Drive, time: f64, change: f64, piece: &Piece) -> Failure {
+    let dimension = if drive.turns { Dimension::ANGULAR_SPEED } else { Dimension::SPEED };
+    let message = format!(
+        "{} changes its speed at once, by {}, and states no acceleration limit: no torque would do",
+        drive.name,
+        quantity(change, dimension)
+    );
+    failure(CheckKind::Acceleration, drive, time, message, (change, 0.0), piece)
+}
+
+/// Returns the jumps of the speed of a drive, before, between and after its pieces, in order of time: the time (s), the
+/// change (rad/s or m/s, not negative) and the piece that begins or ends there.
+fn jumps<'p>(pieces: &'p [Piece], tolerances: &Tolerances) -> Vec<(f64, f64, &'p Piece)> {
+    let mut found = Vec::new();
+    let mut before = (f64::NEG_INFINITY, 0.0);
+    for (index, piece) in pieces.iter().enumerate() {
+        let length = piece.end - piece.start;
+        let rates = derivative(&piece.control);
+        let (first, last) = (rates[0] / length, rates[rates.len() - 1] / length);
+        let was = if before.0 == piece.start { before.1 } else { 0.0 };
+        found.push((piece.start, (first - was).abs(), piece));
+        // After the last piece, and before a pause, the joint stands still at once.
+        if pieces.get(index + 1).is_none_or(|next| next.start > piece.end) {
+            found.push((piece.end, last.abs(), piece));
+        }
+        before = (piece.end, last);
+    }
+    found.retain(|(_, change, _)| *change > tolerances.speed_jump);
+    found
 }
 
 fn failure(

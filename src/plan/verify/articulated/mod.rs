@@ -78,9 +78,9 @@ use decimated::Decimated;
 pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);
-    limits::judge(tracks, &tolerances, &mut ledger);
-    rest::judge(tracks, &tolerances, &mut ledger);
     let rollout = Rollout::of(plan, tracks, &tolerances);
+    limits::judge(tracks, rollout.is_full(), &tolerances, &mut ledger);
+    rest::judge(tracks, &tolerances, &mut ledger);
     let missed = docking::judge(&rollout, &mut ledger);
     let samples = sampling::count(tracks, &plan.worlds, &plan.exemptions, &plan.settings, &tolerances);
     let features = ground_features_of(plan, tracks, samples);

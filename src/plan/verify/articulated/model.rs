@@ -3,7 +3,7 @@
 
 use super::ground_features::{self, Feature, Mat3};
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{Assembly, Kinematics};
+use crate::robot::{Assembly, JointOwner, Kinematics, Step};
 use std::ops::Range;
 
 /// A robot with the bonds that hold, compiled for statics and ground contact.
@@ -23,6 +23,21 @@ pub struct Model<'a> {
     pub link_of: Vec<usize>,
     /// The mass of the attached links, kg.
     pub mass: f64,
+    /// The joints that move one step of the tree each and whose range has ends.
+    pub ranged: Vec<RangedJoint>,
+}
+
+/// A joint whose range has ends.
+#[derive(Clone, Copy, Debug)]
+pub struct RangedJoint {
+    /// The joint, by [`crate::robot::JointId`].
+    pub joint: usize,
+    /// The index of its step in [`Kinematics::steps`].
+    pub step: usize,
+    /// The factor of the joint in the motion of the step: 1 or -1.
+    pub factor: f64,
+    /// The ends of its range, rad or m.
+    pub range: (f64, f64),
 }
 
 /// A link with its mass, friction and ground features.
@@ -66,7 +81,9 @@ impl<'a> Model<'a> {
             features: Vec::new(),
             link_of: Vec::new(),
             mass: 0.0,
+            ranged: Vec::new(),
         };
+        model.ranged = ranged(robot, &model.kinematics);
         let mut shapes: Vec<Option<Vec<Vec<Feature>>>> = vec![None; robot.library.modules.len()];
         for module in 0..robot.modules.len() {
             let declared = robot.module_type(module);
@@ -133,4 +150,20 @@ impl<'a> Model<'a> {
     pub fn module_name(&self, link: usize) -> &str {
         &self.robot.modules[self.bodies[link].module].name
     }
+}
+
+/// Returns the joints of a robot that move one step each and whose range has ends, in the order of the steps.
+fn ranged(robot: &Assembly, kinematics: &Kinematics) -> Vec<RangedJoint> {
+    let of = |owner| match owner {
+        JointOwner::Module { module, joint } => robot.module_type(module).joints[joint].limits.range,
+        JointOwner::Bond(bond) => robot.hinge(bond).and_then(|hinge| hinge.limits.range),
+    };
+    let ranges: Vec<Option<(f64, f64)>> = robot.joints().map(of).collect();
+    let ranged = |(step, moved): (usize, &Step)| match *moved.terms() {
+        [(joint, factor)] if factor.abs() == 1.0 => {
+            Some(RangedJoint { joint, step, factor, range: ranges[joint]? })
+        }
+        _ => None,
+    };
+    kinematics.steps.iter().enumerate().filter_map(ranged).collect()
 }

@@ -4,7 +4,7 @@
 //! follows from the sample before.
 
 use super::contact;
-use super::dynamics::{GroundStep, Traction};
+use super::dynamics::{GroundStep, Traction, Ways};
 use super::model::{Model, Posture};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
@@ -87,7 +87,7 @@ pub struct Sample<'a> {
     pub settling: Option<f64>,
     /// The length of the way so far, and the distance from its end at which it would end with other friction, m; both 0
     /// under statics.
-    pub ways: (f64, f64),
+    pub ways: Ways,
 }
 
 /// A loss of support: the robot tips over an edge of its support polygon.
@@ -455,7 +455,7 @@ impl<'a> Stepper<'a> {
             tip: step.tip.as_ref(),
             slips: &step.slips,
             settling: step.settling,
-            ways: self.traction.as_ref().map_or((0.0, 0.0), |(traction, _)| traction.ways()),
+            ways: self.traction.as_ref().map_or_else(Ways::default, |(traction, _)| traction.ways()),
         };
         let checkpoint = || Checkpoint {
             time: self.now,

@@ -9,12 +9,13 @@ use super::super::statics::{Structure, Wrench as LinkWrench};
 use super::bursts::Bursts;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::overload::MeanOverload;
-use super::posed::{Posed, Situation};
+use super::posed::{Posed, Situation, Support};
 use super::tolerances::PARAMETERS;
+use super::traction::{Way, Ways};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, Failure, Ground, Status, World};
-use crate::robot::dynamics::{Dynamics, Twist};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
+use crate::robot::dynamics::{Dynamics, Twist, Wrench};
 use crate::units::{Dimension, number, quantity};
 use std::collections::VecDeque;
 
@@ -36,7 +37,7 @@ struct Recorded {
 pub(in super::super) struct Recorder {
     recorded: Vec<Recorded>,
     bonds: Vec<Vec<bool>>,
-    ways: (f64, f64),
+    ways: Ways,
 }
 
 impl Recorder {
@@ -92,7 +93,7 @@ struct Compiled<'a> {
 pub(in super::super) struct Course<'a> {
     rollout: &'a Rollout<'a>,
     instants: Vec<Recorded>,
-    ways: (f64, f64),
+    ways: Ways,
     bursts: Bursts,
     /// The window of each instant, s.
     windows: Vec<f64>,
@@ -151,15 +152,17 @@ impl<'a> Course<'a> {
             if index > 0 && recorded[index - 1].bonds != instant.bonds {
                 warm = Warm::default();
             }
-            if instant.world.ground != Ground::Settle || instant.world.gravity == 0.0 {
-                velocities.push(Twist::default());
-                continue;
-            }
             let posed = self.posed(index);
-            let situation = Situation::at_rest(&posed, &instant.world);
-            let found = equilibrium::solve(&situation, None, &mut warm);
-            let twist = found.map_or(Twist::default(), |found| posed.of_base(&found.twist));
-            velocities.push(turned(&twist, instant.yaw));
+            let twist = match Support::of(&instant.world) {
+                Support::Stays | Support::Held => None,
+                Support::Floats => posed.drifting(),
+                Support::Settles => {
+                    let situation = Situation::at_rest(&posed, &instant.world);
+                    let found = equilibrium::solve(&situation, None, &mut warm);
+                    found.map(|found| posed.of_base(&found.twist))
+                }
+            };
+            velocities.push(turned(&twist.unwrap_or_default(), instant.yaw));
         }
         let motion = |(index, instant): (usize, &Recorded)| {
             let window = self.windows[index];
@@ -215,6 +218,12 @@ impl<'a> Course<'a> {
         });
         let ground: Vec<LinkWrench> = pushed.collect();
         wrenches.extend_from_slice(&ground);
+        for (stop, effort) in situation.stops.iter().zip(&loads.stops) {
+            let Wrench { force, moment } = stop.wrench(*effort);
+            let [carries, carried] = stop.sides;
+            wrenches.push(LinkWrench { link: carried, p: zero, f: force, m: moment });
+            wrenches.push(LinkWrench { link: carries, p: zero, f: -force, m: -moment });
+        }
         for (closing, w) in situation.loops.iter().zip(&loads.bonds) {
             let (f, m) = (Vec3::new(w[0], w[1], w[2]), Vec3::new(w[3], w[4], w[5]));
             let [a, b] = closing.sides;
@@ -227,15 +236,12 @@ impl<'a> Course<'a> {
 
     /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it,
     /// and the forces of the ground (N) at the nearer one, from the centre of mass in level axes. `None` if they can't
-    /// be found, if the robot floats at one of these instants, or if no attitude was recorded.
+    /// be found, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
         let last = recorded.len().checked_sub(1)?;
         let (a, b) = (next - 1, next.min(last));
-        if [a, b].iter().any(|&index| recorded[index].world.ground == Ground::Off) {
-            return None;
-        }
         let span = recorded[b].time - recorded[a].time;
         let part = if span > 0.0 { ((time - recorded[a].time) / span).clamp(0.0, 1.0) } else { 0.0 };
         let of = |index: usize| self.loads(index, true, 1.0, &mut Warm::default());
@@ -251,9 +257,6 @@ impl<'a> Course<'a> {
         let mut warm = Warm::default();
         for (index, recorded) in self.instants.iter().enumerate() {
             crate::interrupt::checkpoint();
-            if recorded.world.ground == Ground::Off {
-                continue;
-            }
             if index > 0 && self.instants[index - 1].bonds != recorded.bonds {
                 warm = Warm::default();
                 window.clear();
@@ -295,7 +298,7 @@ impl<'a> Course<'a> {
             let value = structure.size(load, &mean);
             let ratio = value / load.limit;
             keep_margin(load, ratio, *time, ledger);
-            if ratio <= 1.0 - PARAMETERS.reserve || is_excused(load, *time, ledger) {
+            if ratio <= 1.0 - self.rollout.settings.reserve || is_excused(load, *time, ledger) {
                 continue;
             }
             match found.overloads.iter_mut().find(|over| over.overload.is_of(load)) {
@@ -304,9 +307,11 @@ impl<'a> Course<'a> {
             }
         }
         let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
-        if imbalance > PARAMETERS.imbalance_max && self.bursts.near_step(*time) {
+        let unbalanced = imbalance > PARAMETERS.imbalance_max;
+        let allowed = |kind: &ExemptionKind| *kind == ExemptionKind::Balance;
+        if unbalanced && self.bursts.near_step(*time) {
             found.stepped = true;
-        } else if imbalance > PARAMETERS.imbalance_max {
+        } else if unbalanced && !ledger.excuses(CheckKind::Balance, *time, allowed) {
             let since = found.unbalanced.map_or(*time, |u| u.0);
             let worst = found.unbalanced.map_or(0.0, |u| u.2);
             found.unbalanced = Some((since, *time, imbalance.max(worst)));
@@ -323,7 +328,42 @@ impl<'a> Course<'a> {
         };
         // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
         let shares = size(false, 0.0).zip(size(false, 1.0));
-        overload.failure(shares)
+        overload.failure(shares, self.rollout.settings.reserve)
+    }
+
+    /// Judges if friction determines the travel.
+    fn travel(&self, ledger: &mut Ledger) {
+        let differs =
+            |way: &Way, part: f64| way.away > part * way.length && way.away > PARAMETERS.way_uncertain_min;
+        let Ways { judged, allowed } = &self.ways;
+        if let Some((time, _)) = allowed.filter(|(_, way)| differs(way, PARAMETERS.way_undetermined)) {
+            ledger.excuses(CheckKind::Traction, time, |kind| *kind == ExemptionKind::Traction);
+        }
+        let length = |v| quantity(v, Dimension::LENGTH);
+        let words = [length(judged.length), length(judged.away)];
+        if differs(judged, PARAMETERS.way_undetermined) {
+            ledger.fail(Failure {
+                kind: CheckKind::Traction,
+                time: 0.0,
+                until: Some(self.rollout.tracks.duration),
+                at: vec![],
+                message: format!(
+                    "the travel is not determined: {}, but {} elsewhere if contacts that slide had 1.25 times the \
+                     friction and the others 0.8 times",
+                    words[0], words[1]
+                ),
+                value: judged.away,
+                limit: PARAMETERS.way_undetermined * judged.length,
+                blame: vec![],
+                blames_start: false,
+            });
+        } else if differs(judged, PARAMETERS.way_uncertain) {
+            ledger.note(format!(
+                "the travel of {} ends {} elsewhere if contacts that slide have 1.25 times the friction and the others \
+                 0.8 times",
+                words[0], words[1]
+            ));
+        }
     }
 
     fn finish(&self, found: &Findings, ledger: &mut Ledger) {
@@ -344,32 +384,7 @@ impl<'a> Course<'a> {
                 blames_start: false,
             });
         }
-        let (way, away) = self.ways;
-        if away > PARAMETERS.way_undetermined * way && away > PARAMETERS.way_uncertain_min {
-            ledger.fail(Failure {
-                kind: CheckKind::Traction,
-                time: 0.0,
-                until: Some(self.rollout.tracks.duration),
-                at: vec![],
-                message: format!(
-                    "the travel is not determined: {}, but {} elsewhere if contacts that slide had 1.25 times the \
-                     friction and the others 0.8 times",
-                    quantity(way, Dimension::LENGTH),
-                    quantity(away, Dimension::LENGTH)
-                ),
-                value: away,
-                limit: PARAMETERS.way_undetermined * way,
-                blame: vec![],
-                blames_start: false,
-            });
-        } else if away > PARAMETERS.way_uncertain * way && away > PARAMETERS.way_uncertain_min {
-            ledger.note(format!(
-                "the travel of {} ends {} elsewhere if contacts that slide have 1.25 times the friction and the others 0.8 \
-                 times",
-                quantity(way, Dimension::LENGTH),
-                quantity(away, Dimension::LENGTH)
-            ));
-        }
+        self.travel(ledger);
         if let Some(step) = self.bursts.steps().first() {
             let robot = &self.rollout.tracks.robot;
             let owner = robot.joints().nth(step.joint);
@@ -394,7 +409,6 @@ impl<'a> Course<'a> {
             ));
         }
         let sampled = |stated: bool| match found.instants {
-            0 => Status::NotChecked("a robot that floats is not judged under full dynamics".to_owned()),
             _ if found.unknown > 0 => Status::NotChecked(format!(
                 "at {} of {} instants no loads were found",
                 found.unknown, found.instants
@@ -402,21 +416,24 @@ impl<'a> Course<'a> {
             _ if !stated => Status::NoLimit,
             instants => Status::Sampled(instants),
         };
-        let judged = self.instants.iter().filter(|instant| instant.world.ground != Ground::Off);
-        let structures = judged.map(|instant| &self.compiled[instant.bonds].structure);
+        let structures = self.compiled.iter().map(|compiled| &compiled.structure);
         for check in [CheckKind::Torque, CheckKind::BondLoad] {
             let stated = structures.clone().any(|structure| structure.has_limits(check));
             ledger.check(check, sampled(stated));
         }
-        ledger.check(
-            CheckKind::Balance,
-            match found.stepped {
-                true => Status::NotChecked("a step of velocity may lift the robot".to_owned()),
-                false => sampled(true),
-            },
-        );
-        ledger.check(CheckKind::Traction, sampled(true));
-        note_open_motors(self.compiled.iter().map(|compiled| &compiled.structure), ledger);
+        let settles = self.instants.iter().any(|instant| instant.world.ground == Ground::Settle);
+        let balance = match (settles, found.stepped) {
+            (false, _) => Status::NotChecked("nothing stands on the ground by itself".to_owned()),
+            (true, true) => Status::NotChecked("a step of velocity may lift the robot".to_owned()),
+            (true, false) => sampled(true),
+        };
+        ledger.check(CheckKind::Balance, balance);
+        let traction = match settles {
+            true => sampled(true),
+            false => Status::NotChecked("the base is not carried by the ground".to_owned()),
+        };
+        ledger.check(CheckKind::Traction, traction);
+        note_open_motors(structures, ledger);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The equilibrium of an instant: loads and friction that belong together, as the fixed point of the two.
 
 use super::loads::{self, Loads};
-use super::posed::{Candidate, Situation};
+use super::posed::{Candidate, Situation, Support};
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum, TwistProblem};
 use crate::geometry::Vec3;
@@ -11,11 +11,11 @@ use nalgebra::Vector3;
 /// The forces and the twist of an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Equilibrium {
-    /// The twist of the body at the centre of mass, m/s and rad/s, in level axes; zero if a fixture holds the base.
+    /// The twist of the body at the centre of mass, m/s and rad/s, in level axes; zero unless friction moves the base.
     pub twist: Twist,
     /// The loads of contacts, joints and closing bonds.
     pub loads: Loads,
-    /// The slip at each candidate, m/s, and the friction on it, N, in level axes; empty if a fixture holds the base.
+    /// The slip at each candidate, m/s, and the friction on it, N, in level axes; empty if it does not rest on the ground.
     pub friction: Vec<(Vec3, Vec3)>,
     /// True if the rounds ended before the loads of two rounds agreed.
     pub open: bool,
@@ -43,12 +43,12 @@ pub(super) fn solve(
     let known = |c: &Candidate| warm.loads.iter().find(|(f, _)| *f == c.feature).map(|(_, load)| *load);
     let mut loads: Vec<f64> = candidates.iter().map(|c| known(c).unwrap_or(0.0)).collect();
     let mut passive: Vec<bool> = loads.iter().map(|load| *load > 0.0).collect();
-    passive.resize(candidates.len() + 6 * situation.loops.len(), true);
+    passive.resize(candidates.len() + situation.stops.len() + 6 * situation.loops.len(), true);
     let none = vec![Vec3::zeros(); candidates.len()];
     if loads.iter().sum::<f64>() < PARAMETERS.load_guess_min * situation.weight {
         loads = loads::solve(situation, &none, &mut passive)?.normal;
     }
-    if !situation.free {
+    if !situation.support.rests() {
         let loads = loads::solve(situation, &none, &mut passive)?;
         let twist = Twist::default();
         return Some(Equilibrium { twist, loads, friction: vec![], open: false, slides: false });
@@ -62,7 +62,10 @@ pub(super) fn solve(
             None => carried(situation, capacity),
         };
         let problem = problem(situation, &loads, needed, momentum);
-        let twist = twist::solve(&problem, &warm.twist);
+        let twist = match situation.support {
+            Support::Settles => twist::solve(&problem, &warm.twist),
+            Support::Stays | Support::Held | Support::Floats => Twist::default(),
+        };
         warm.twist = twist;
         let friction = twist::friction(&problem, &twist);
         let forces: Vec<Vec3> = friction.iter().map(|(_, force)| *force).collect();

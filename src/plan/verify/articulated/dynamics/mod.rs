@@ -20,4 +20,5 @@ mod traction;
 mod twist;
 
 pub(super) use course::{Course, Recorder};
+pub(super) use traction::Ways;
 pub(super) use traction::{GroundStep, Traction};

@@ -2,7 +2,6 @@
 
 use super::super::load_limits::Overload;
 use super::super::statics::Load;
-use super::tolerances::PARAMETERS;
 use crate::plan::Failure;
 use crate::units::{number, quantity};
 
@@ -30,14 +29,16 @@ impl MeanOverload {
     }
 
     /// Returns the failure. `shares`: the load at rest without friction and with it, N or N·m; `None` where they are
-    /// not known.
-    pub(super) fn failure(&self, shares: Option<(f64, f64)>) -> Failure {
+    /// not known. `reserve`: the part of the limit that must be left.
+    pub(super) fn failure(&self, shares: Option<(f64, f64)>, reserve: f64) -> Failure {
         let Overload { kind, value, limit, .. } = self.overload;
         let words = |v: f64| quantity(v, kind.dimension());
-        let allowed = (1.0 - PARAMETERS.reserve) * limit;
+        let allowed = (1.0 - reserve) * limit;
         let mut failure = self.overload.failure();
-        let reserve = number(100.0 * PARAMETERS.reserve);
-        failure.message += &format!(", {} with a reserve of {reserve} %", words(allowed));
+        if reserve > 0.0 {
+            let percent = number(100.0 * reserve);
+            failure.message += &format!(", {} with a reserve of {percent} %", words(allowed));
+        }
         if let Some((weight, standing)) = shares {
             failure.message +=
                 &format!("; {} at rest, {} of it without friction", words(standing), words(weight));

@@ -4,13 +4,13 @@
 use super::super::ground_features::{Feature, Form, Mat3};
 use super::super::model::Model;
 use super::super::rollout::Rollout;
-use super::loads::{self, Loop};
+use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, World};
 use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench, along};
 use crate::robot::{Joint, JointOwner};
-use nalgebra::{Rotation3, UnitQuaternion};
+use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector6};
 
 /// A point of the robot that the ground may bear.
 #[derive(Clone, Debug)]
@@ -51,6 +51,8 @@ pub(super) struct Posed<'a> {
     pub dynamics: &'a Dynamics,
     /// The poses of all links, in level axes about the centre of mass, m.
     pub poses: Vec<Pose>,
+    /// The positions of the joints, rad or m.
+    pub joints: Vec<f64>,
     /// The mean velocities of the joints over the window, rad/s or m/s.
     pub velocities: Vec<f64>,
     /// The mean accelerations of the joints over the window, rad/s² or m/s².
@@ -88,7 +90,7 @@ impl<'a> Posed<'a> {
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*R));
         let base = Pose::from_parts((-(R * posture.centre)).into(), turn);
         poses.iter_mut().for_each(|pose| *pose = base * *pose);
-        Posed { model, dynamics, poses, velocities, accelerations }
+        Posed { model, dynamics, poses, joints, velocities, accelerations }
     }
 
     /// Returns the velocity of each joint that moves a point fixed to a link: [`Candidate::columns`].
@@ -206,6 +208,46 @@ impl<'a> Posed<'a> {
         )
     }
 
+    /// Returns the velocity of the base's frame at which the whole robot has no momentum: that of a robot that floats
+    /// and has started from rest. `None` for a robot without mass.
+    pub(super) fn drifting(&self) -> Option<Twist> {
+        self.compensating(&self.momentum())
+    }
+
+    /// Returns the wrenches of [`link_wrenches`](Self::link_wrenches) for a robot that floats: the base, whose velocity
+    /// is given, accelerates such that no force from outside is needed.
+    fn floating_wrenches(&self, base: &Twist) -> Vec<Wrench> {
+        let still = (*base, Twist::default());
+        let mut sum = Wrench::default();
+        for wrench in self.link_wrenches(Some(&still), 0.0) {
+            sum.force += wrench.force;
+            sum.moment += wrench.moment;
+        }
+        let acceleration = self.compensating(&sum).unwrap_or_default();
+        self.link_wrenches(Some(&(*base, acceleration)), 0.0)
+    }
+
+    /// Returns the twist of the base's frame whose momentum, or the acceleration whose wrench, cancels this one about
+    /// the centre of mass. `None` for a robot without mass.
+    fn compensating(&self, wrench: &Wrench) -> Option<Twist> {
+        let still = vec![0.0; self.velocities.len()];
+        let mut inertia = Matrix6::zeros();
+        for axis in 0..6 {
+            let unit = Vec3::ith(axis % 3, 1.0);
+            let (linear, angular) = if axis < 3 { (unit, Vec3::zeros()) } else { (Vec3::zeros(), unit) };
+            let twist = Twist { linear, angular };
+            let momentum =
+                self.dynamics.momentum(&self.model.kinematics, &self.poses, &twist, &still, &Vec3::zeros());
+            inertia.fixed_view_mut::<3, 1>(0, axis).copy_from(&momentum.force);
+            inertia.fixed_view_mut::<3, 1>(3, axis).copy_from(&momentum.moment);
+        }
+        let mut right = Vector6::zeros();
+        right.fixed_rows_mut::<3>(0).copy_from(&-wrench.force);
+        right.fixed_rows_mut::<3>(3).copy_from(&-wrench.moment);
+        let twist = inertia.lu().solve(&right)?;
+        Some(Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() })
+    }
+
     /// Returns the inertia of the whole robot about the vertical through the centre of mass, kg·m².
     pub(super) fn yaw_inertia(&self) -> f64 {
         let unit = Twist { linear: self.spun(), angular: Vec3::z() };
@@ -234,12 +276,44 @@ impl<'a> Posed<'a> {
     }
 }
 
+/// The support of the robot by its surroundings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Support {
+    /// It rests on the ground, over which friction moves it.
+    Settles,
+    /// It rests on the ground, and its base keeps its place.
+    Stays,
+    /// A fixture holds the base, and bears any force and moment.
+    Held,
+    /// Nothing supports it, and nothing pulls it.
+    Floats,
+}
+
+impl Support {
+    /// Returns the support in a world.
+    pub(super) fn of(world: &World) -> Support {
+        match world.ground {
+            Ground::Settle => Support::Settles,
+            Ground::Fixed if world.gravity > 0.0 => Support::Stays,
+            Ground::Fixed | Ground::Held => Support::Held,
+            Ground::Off => Support::Floats,
+        }
+    }
+
+    /// Returns true if the robot rests on the ground.
+    pub(super) fn rests(self) -> bool {
+        matches!(self, Support::Settles | Support::Stays)
+    }
+}
+
 /// The situation of an instant, before the forces of its contacts are known.
 pub(super) struct Situation<'a> {
     /// The robot.
     pub posed: &'a Posed<'a>,
     /// The contacts.
     pub candidates: Vec<Candidate>,
+    /// The stops of the joints at the ends of their ranges.
+    pub stops: Vec<Stop>,
     /// The bonds that close loops.
     pub loops: Vec<Loop>,
     /// The wrench that each link needs, by its number, about the centre of mass in level axes, N and N·m; zero for
@@ -252,8 +326,8 @@ pub(super) struct Situation<'a> {
     pub efforts: Vec<f64>,
     /// The stiffness of each joint, by [`crate::robot::JointId`], N·m/rad or N/m.
     pub stiffness: Vec<f64>,
-    /// True if the robot settles on the ground; otherwise a fixture holds the base.
-    pub free: bool,
+    /// The support of the robot.
+    pub support: Support,
     /// The weight, N.
     pub weight: f64,
     /// The greatest horizontal distance of a candidate from the centre of mass, m; at least 5 cm.
@@ -272,11 +346,15 @@ impl<'a> Situation<'a> {
     }
 
     fn new(posed: &'a Posed<'a>, world: &World, motion: Option<&(Twist, Twist)>) -> Situation<'a> {
-        let free = world.ground == Ground::Settle;
-        let candidates = if free { posed.candidates(world.friction) } else { vec![] };
+        let support = Support::of(world);
+        let candidates = if support.rests() { posed.candidates(world.friction) } else { vec![] };
         let reach = candidates.iter().map(|c| libm::hypot(c.p.x, c.p.y));
         let size = reach.fold(PARAMETERS.size_min, f64::max);
-        let needed = posed.link_wrenches(motion, world.gravity);
+        let gravity = if support == Support::Floats { 0.0 } else { world.gravity };
+        let needed = match motion {
+            Some(motion) if support == Support::Floats => posed.floating_wrenches(&motion.0),
+            _ => posed.link_wrenches(motion, gravity),
+        };
         // Each link's own, then the sums over all that it carries.
         let mut carried = needed.clone();
         let kinematics = &posed.model.kinematics;
@@ -284,13 +362,14 @@ impl<'a> Situation<'a> {
         Situation {
             base: carried[kinematics.link(kinematics.root, 0)],
             efforts,
+            stops: loads::stops(posed),
             loops: loads::loops(posed),
             stiffness: stiffness(posed.model),
-            weight: posed.model.mass * world.gravity,
+            weight: posed.model.mass * gravity,
             posed,
             candidates,
             needed,
-            free,
+            support,
             size,
         }
     }

@@ -41,6 +41,11 @@ pub(super) struct Parameters {
     pub bond_stiffness: f64,
     /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
     pub bond_turn_stiffness: f64,
+    /// The stiffness of the stop at an end of a joint's range, N·m/rad or N/m: that of a bond against turns.
+    pub stop_stiffness: f64,
+    /// The distance from an end of its range at which a joint may come to rest on its stop, rad or m. 0.05: more than
+    /// servos yield.
+    pub stop_gap_max: f64,
     /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit. 1e6: stiffer than
     /// any servo at any lever of a robot, so that balance is not given up for less effort.
     pub balance_weight: f64,
@@ -75,9 +80,6 @@ pub(super) struct Parameters {
     pub way_uncertain: f64,
     /// The difference of the ends up to which it is neither noted nor a failure, m.
     pub way_uncertain_min: f64,
-    /// The part of a limit that must be left. 0.15 separates what happens from what does not in 26 of 27 plans tried in
-    /// MuJoCo; 0.2 would refuse four that work.
-    pub reserve: f64,
     /// The imbalance in parts of the weight above which no loads hold the robot: 2 %.
     pub imbalance_max: f64,
 }
@@ -100,6 +102,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     contact_stiffness: 1e5,
     bond_stiffness: 1e5,
     bond_turn_stiffness: 1e3,
+    stop_stiffness: 1e3,
+    stop_gap_max: 0.05,
     balance_weight: 1e6,
     twist_change: 1e-6,
     twist_rounds_max: 80,
@@ -116,6 +120,5 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     way_undetermined: 0.5,
     way_uncertain: 0.1,
     way_uncertain_min: 0.01,
-    reserve: 0.15,
     imbalance_max: 0.02,
 };

@@ -10,7 +10,7 @@ use super::posed::{Posed, Situation};
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Vec3;
-use crate::plan::World;
+use crate::plan::{Exemption, ExemptionKind, World};
 use crate::robot::dynamics::{Dynamics, Twist};
 use nalgebra::Vector3;
 
@@ -19,10 +19,45 @@ use nalgebra::Vector3;
 pub(in super::super) struct Traction {
     warm: Warm,
     last: Option<Last>,
-    /// The way by friction that is 1.25 times as great where contacts slide and 0.8 times elsewhere.
-    other: PlanarPose,
-    /// The way that is judged, from the same start.
+    /// The way outside of the intervals in which `allows traction` leaves it open.
+    judged: Fork,
+    /// The way within them.
+    allowed: Fork,
+    /// The last time in such an interval at which the robot travelled, s.
+    allowed_at: Option<f64>,
+}
+
+/// A way, and the one that other friction gives.
+#[derive(Clone, Copy, Debug, Default)]
+struct Fork {
     own: PlanarPose,
+    /// The way by friction that is 1.25 times as great where contacts slide and 0.8 times elsewhere, from the same start.
+    other: PlanarPose,
+}
+
+impl Fork {
+    fn way(&self) -> Way {
+        let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
+        Way { length: libm::hypot(self.own.x, self.own.y), away }
+    }
+}
+
+/// The travel over the ground, as far as friction determines it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Way {
+    /// The distance of its end from its start, m.
+    pub length: f64,
+    /// The distance of its end from the one that it has with other friction, m.
+    pub away: f64,
+}
+
+/// The travel of a rollout.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ways {
+    /// Outside of the intervals in which `allows traction` leaves it open.
+    pub judged: Way,
+    /// Within them, with the last time (s) at which the robot travelled there; `None` without such intervals.
+    pub allowed: Option<(f64, Way)>,
 }
 
 /// The twist of the last instant at which forces were determined.
@@ -81,16 +116,22 @@ impl Traction {
         let drift = yaw_between(step.R_before, step.R);
         let shift = |rate: &Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
-        (self.own, self.other) =
-            (self.own.moved(&shift(&last.rates[0])), self.other.moved(&shift(&last.rates[1])));
+        let traction = |e: &Exemption| e.kind == ExemptionKind::Traction;
+        let allowed =
+            step.rollout.exemptions.iter().any(|e| traction(e) && e.from <= step.time && step.time <= e.to);
+        let fork = if allowed { &mut self.allowed } else { &mut self.judged };
+        (fork.own, fork.other) =
+            (fork.own.moved(&shift(&last.rates[0])), fork.other.moved(&shift(&last.rates[1])));
+        if allowed {
+            self.allowed_at = Some(step.time);
+        }
         (pose.moved(&shift(&last.rates[0])), slips)
     }
 
-    /// Returns the distance of the end of the travel from its start, m, and from the end that it has with other
-    /// friction, m.
-    pub(in super::super) fn ways(&self) -> (f64, f64) {
-        let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
-        (libm::hypot(self.own.x, self.own.y), away)
+    /// Returns the travel so far.
+    pub(in super::super) fn ways(&self) -> Ways {
+        let allowed = self.allowed_at.map(|time| (time, self.allowed.way()));
+        Ways { judged: self.judged.way(), allowed }
     }
 
     fn determine(&mut self, step: &GroundStep) {
