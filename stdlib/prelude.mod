@@ -1757,7 +1757,7 @@ extern fn reverse(plan: Plan) -> Plan
 ///
 /// All joints go the same way together, as fast as the limits of speed and acceleration of each joint and motor allow;
 /// every joint that moves needs a `max_accel`. Robots that are moved under `dynamics: full` leave `reserve` of the limits
-/// of torque, too, inertia included; the judge asks for 0.15. Where nothing moves, the time stays as it is: pauses are
+/// of torque, too, inertia included, as `verify` asks for. Where nothing moves, the time stays as it is: pauses are
 /// meant. Where a joint would change its speed at once, and where something docks or undocks, the robot comes to rest.
 ///
 /// Example:

@@ -5,7 +5,7 @@ use super::motion::{Clock, Timed, tracks};
 use super::tolerances::TOLERANCES;
 use super::{Refusal, Settings};
 use crate::plan::verify::verify;
-use crate::plan::{CheckKind, DynamicsModel, ExemptionKind, Failure, Plan, Tracks, Verdict, retimed};
+use crate::plan::{CheckKind, DynamicsModel, Failure, Plan, Tracks, Verdict, retimed};
 use crate::planners::Progress;
 
 /// The times by which a stretch is slowed down before it counts as one that no slowness helps: to 9 times its duration.
@@ -80,8 +80,9 @@ impl Trials<'_> {
             return Err(Refusal::Stopped);
         }
         let (tracks, clock) = tracks(self.old, parts);
-        let verdict = verify(&retimed(self.plan, tracks, &|time| clock.at(time), self.reserve));
-        Ok(overloaded(self.plan, &verdict, &clock, parts, self.reserve))
+        let mut slower = retimed(self.plan, tracks, &|time| clock.at(time), self.reserve);
+        slower.settings.reserve = self.reserve;
+        Ok(overloaded(&verify(&slower), &clock, parts))
     }
 
     /// Slows stretches down by steps that double, until no load is too great.
@@ -154,31 +155,13 @@ struct Over {
 }
 
 /// Returns the loads that are too great by a verdict, and the stretches nearest to them.
-fn overloaded(plan: &Plan, verdict: &Verdict, clock: &Clock, parts: &[Timed], reserve: f64) -> Over {
+fn overloaded(verdict: &Verdict, clock: &Clock, parts: &[Timed]) -> Over {
     let mut over = Over { first: None, parts: vec![false; parts.len()] };
     let loads = [CheckKind::Torque, CheckKind::BondLoad, CheckKind::Balance];
     let failures = verdict.failures.iter().filter(|failure| loads.contains(&failure.kind));
     for failure in failures {
         over.mark(clock, parts, failure.time, failure.until.unwrap_or(failure.time));
         over.first.get_or_insert_with(|| failure.clone());
-    }
-    // A reserve above that of the judge.
-    let excused = plan.exemptions.iter().any(|e| matches!(e.kind, ExemptionKind::Overload(_)));
-    let margins = [(&verdict.torque_margin, CheckKind::Torque), (&verdict.bond_margin, CheckKind::BondLoad)];
-    for (margin, kind) in margins {
-        let Some(worst) = margin.as_ref().filter(|worst| !excused && worst.value < reserve) else { continue };
-        over.mark(clock, parts, worst.time, worst.time);
-        over.first.get_or_insert_with(|| Failure {
-            kind,
-            time: worst.time,
-            until: None,
-            at: worst.at.clone(),
-            message: format!("{} leaves less than the reserve", worst.at.join(", ")),
-            value: 1.0 - worst.value,
-            limit: 1.0 - reserve,
-            blame: vec![],
-            blames_start: false,
-        });
     }
     over
 }
