@@ -29,7 +29,7 @@ const MOMENTS: usize = 20;
 /// The share of the limits up to which torque must suffice for a plan to happen as the judge says.
 const RESERVE: f64 = 0.9;
 
-/// Random robots in the gate, and in `.ci/full oracles`.
+/// Random robots in the gate, and in `.ci/full dynamics`.
 const FEW: u64 = 12;
 const MANY: u64 = 300;
 
