@@ -21,8 +21,9 @@ pub(super) const TABLE: &[Native] =
 /// Runs `fastest`: the plan of the same path in least time.
 ///
 /// # Errors
-/// A fault where the plan is not of a robot with joints, a joint states no greatest acceleration, or a load is too great
-/// at any speed.
+/// A fault where the plan is not of a robot with joints or is not sound, the reserve is not from 0 to below 1, a joint
+/// states no greatest acceleration or moves along a curve of too high a degree, a load is too great at any speed, or the
+/// new plan would last too long.
 fn fastest(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = interpreter.plan_of(call.arg("plan"), call.at("plan"))? else {
         return Ok(Value::Unknown);
@@ -45,6 +46,9 @@ fn held(refusal: &Refusal) -> &'static str {
         Refusal::Unholdable { failure } if failure.kind == CheckKind::Balance => {
             "the robot tips at rest, too: keep its centre of mass over what it stands on"
         }
+        Refusal::Unholdable { failure } if failure.kind == CheckKind::BondLoad => {
+            "the bond bears too much at rest, too: hold less, or hold it nearer to the bond"
+        }
         _ => "the share at rest is too great: hold less, hold it nearer, or state a stronger motor",
     }
 }
@@ -60,8 +64,8 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .hint("state `max_accel` where the joint, or a motor that drives it, is declared: `max_accel: 20rad/s^2`")
             .into(),
         Refusal::Degree { .. } => Diagnostic::error(code::BAD_VALUE, message)
-            .label(at, "this was retimed before")
-            .hint("retime the plan that it was made of: `fastest(a ++ b)` instead of `fastest(fastest(a) ++ b)`")
+            .label(at, "this has polynomials of too high a degree, as retimed plans have")
+            .hint("if so, retime the plan that it was made of: `fastest(a ++ b)` instead of `fastest(fastest(a) ++ b)`")
             .into(),
         Refusal::Overloaded { .. } | Refusal::Unholdable { .. } => {
             Diagnostic::error(code::TOO_HEAVY, message)

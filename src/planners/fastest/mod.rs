@@ -97,8 +97,8 @@ use std::fmt;
 use time_law::{Grid, Limits, TimeLaw, equidistributed, grid, solve};
 use tolerances::TOLERANCES;
 
-/// The greatest number of times that a stretch is slowed down by what its limits are exceeded; but for the first,
-/// rounding.
+/// The greatest number of times that a time law is slowed down by its greatest ratio to a limit. After the first, only
+/// rounding of durations and control points is left.
 const SCALINGS_MAX: u32 = 12;
 
 /// A plan to go through in less time.
@@ -281,11 +281,15 @@ pub fn plan(
 }
 
 fn too_long(clock: &Clock) -> Result<(), Refusal> {
-    if clock.duration() > DURATION_MAX { Err(Refusal::TooLong) } else { Ok(()) }
+    if clock.duration() <= DURATION_MAX { Ok(()) } else { Err(Refusal::TooLong) }
 }
 
-/// Returns the time law of a stretch that keeps its limits of speed and acceleration at every instant: on a grid that
-/// is refined where they are exceeded between its points, and then slowed down by the rest.
+/// Returns the time law of a stretch that keeps its limits of speed and acceleration at every instant: on a grid that is
+/// refined where they are exceeded between its points, and then slowed down by the greatest ratio to a limit, at most
+/// [`SCALINGS_MAX`] times; what rounding leaves above a limit after that is left to the judge.
+///
+/// # Errors
+/// Those of [`solve`].
 fn law(
     stretch: &Stretch,
     limits: &Limits,

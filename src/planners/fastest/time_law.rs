@@ -158,7 +158,8 @@ pub(super) fn solve(stretch: &Stretch, grid: Grid, limits: &Limits) -> Result<Ti
         Failing::Unlimited(_) => unlimited(stretch, limits.robot),
         Failing::Empty(_) => overloaded(stretch, &intervals),
     })?;
-    let speeds: Vec<f64> = found.into_iter().map(libm::sqrt).collect();
+    // Bounds may be below zero by rounding.
+    let speeds: Vec<f64> = found.into_iter().map(|square| libm::sqrt(square.max(0.0))).collect();
     if speeds.windows(2).any(|pair| pair[0] + pair[1] <= 0.0) {
         return Err(overloaded(stretch, &intervals));
     }
@@ -199,6 +200,8 @@ fn trapezoid(stretch: &Stretch, limits: &Limits) -> Result<TimeLaw, Refusal> {
     if !acceleration.is_finite() {
         return Err(unlimited(stretch, limits.robot));
     }
+    // A ramp as short as rounding would leave no point at which the path moves.
+    acceleration = acceleration.min(square / (8.0 * TOLERANCES.derivative * length));
     let ramp = (square / (2.0 * acceleration)).min(length / 2.0);
     let mut nodes = stretch.breaks();
     nodes.extend([ramp, length - ramp]);

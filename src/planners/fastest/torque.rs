@@ -69,13 +69,20 @@ pub(super) struct PathPoint {
     pub(super) dd: Vec<f64>,
 }
 
-/// Returns true if the world has inertia in its loads, and holds the base.
+/// Returns true if the world has inertia in its loads, and a fixture alone bears the robot: on ground that is
+/// [`Ground::Fixed`] contacts bear it where it has weight.
 fn holds(world: &World) -> bool {
-    world.dynamics == DynamicsModel::Full && matches!(world.ground, Ground::Held | Ground::Fixed)
+    let fixture = match world.ground {
+        Ground::Held => true,
+        Ground::Fixed => world.gravity <= 0.0,
+        Ground::Settle | Ground::Off => false,
+    };
+    world.dynamics == DynamicsModel::Full && fixture
 }
 
-/// Returns the torques in a stretch; `None` where the base is not held, where loops leave them open, or where loads of
-/// motion are not judged.
+/// Returns the torques in a stretch under the world at its beginning; one that begins within it counts in
+/// [`slowed`](super::slowdown::slowed) alone. `None` where no fixture alone holds the base, where loops leave torques
+/// open, or where loads of motion are not judged.
 pub(super) fn torques<'a>(
     plan: &Plan,
     tracks: &Tracks,

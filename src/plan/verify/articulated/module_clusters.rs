@@ -42,7 +42,7 @@ pub(super) struct ClusterPair {
 pub(super) enum Proximity {
     /// All are separated.
     Separated,
-    /// None is separated, and none is nearly as near as to touch in the middle.
+    /// None is separated, and no two bounding spheres touch, or nearly touch, in the middle of the interval.
     Open,
     /// It differs, or the spheres do not tell; split the first cluster, if true, or else the second.
     Undecided(bool),

@@ -4,8 +4,9 @@
 /// intervals of most robots take less.
 const WORK_PER_SAMPLE: usize = 2_000;
 
-/// The greatest number of modules of a robot that may take all of this work. An interval takes the more work the larger
-/// a robot is: with as many times more modules it may take as many times less in all, so that it ends about as soon.
+/// The number of modules by which the work of large robots is divided: a robot of `n` times as many, `n` rounded down, may
+/// take an n-th of it, since an interval takes the more work the larger a robot is. Below twice this number a robot may
+/// take all of it.
 pub(super) const MODULES_SMALL: usize = 500;
 
 /// The work of placing a link in the middle of an interval, in comparisons of two bounding spheres, as measured.

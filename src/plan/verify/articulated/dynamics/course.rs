@@ -391,9 +391,10 @@ impl<'a> Course<'a> {
             let more = self.bursts.steps().len() - 1;
             let name = owner.map_or_else(String::new, |owner| robot.joint_name(owner));
             ledger.note(format!(
-                "{name} changes its speed at once at {}{}: its torque is judged as if over 50 ms",
+                "{name} changes its speed at once at {}{}: its torque is judged as if over {}",
                 quantity(step.time, Dimension::TIME),
-                if more > 0 { format!(" (and {more} more)") } else { String::new() }
+                if more > 0 { format!(" (and {more} more)") } else { String::new() },
+                quantity(self.bursts.window(step.time), Dimension::TIME)
             ));
         }
         if let Some(time) = found.slides {

@@ -107,8 +107,9 @@ pub(super) struct Loads {
     pub imbalance: f64,
 }
 
-/// Returns the loads under these forces of friction at the candidates (N, in level axes), with `passive` as the guess
-/// of the contacts that bear; `None` where the method gives up.
+/// Returns the loads under these forces of friction at the candidates (N, in level axes); `None` where the method gives
+/// up. `passive`: a flag for each candidate, each stop and six for each loop, true for what is guessed to bear; replaced by
+/// the flags of what does.
 pub(super) fn solve(problem: &Situation, friction: &[Vec3], passive: &mut Vec<bool>) -> Option<Loads> {
     let (contacts, stops) = (problem.candidates.len(), problem.stops.len());
     let one_sided = contacts + stops;
