@@ -48,7 +48,10 @@ fn plans(program: &str, behavior: &str, world: &str, call: &str) -> (Plan, Plan)
         "{program}\nlet p = plan({behavior}, world: {world})\nlet f = {call}\nemit(p, \"p.json\")\nemit(f, \"f.json\")\n"
     ));
     let read = |name: &str| file::read(written.text(name)).expect("a plan that was written is read");
-    (read("p.json"), read("f.json"))
+    let fast = read("f.json");
+    // What robots execute is the program.
+    assert_eq!(modl::behavior::unfaithful(&fast), None);
+    (read("p.json"), fast)
 }
 
 /// The plan in least time under limits of speed and acceleration.
