@@ -197,7 +197,7 @@ impl Interpreter<'_> {
         }
         for exemption in &planned.plan.exemptions {
             let cause = &planned.plan.causes[exemption.cause.0 as usize];
-            let name = &exemption.kind.name();
+            let name = exemption.kind.name();
             lines.push(format!("allows {name} ({}:{})", cause.file, cause.line));
         }
         let mut said = BTreeSet::new();

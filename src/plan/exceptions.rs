@@ -25,9 +25,9 @@ pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
 
 /// Returns the dynamics that a plan is judged under: full dynamics if one of its worlds asks for them.
 fn dynamics(plan: &Plan) -> DynamicsModel {
-    let mut models = plan.worlds.iter().map(|from| plan.body.dynamics(&from.world));
-    let first = models.next().unwrap_or(plan.body.dynamics(&World::FREE));
-    models.fold(first, |all, model| if model == DynamicsModel::Full { model } else { all })
+    let full = plan.worlds.iter().find(|from| from.world.dynamics == DynamicsModel::Full);
+    let world = full.or(plan.worlds.first()).map_or(World::FREE, |from| from.world);
+    plan.body.dynamics(&world)
 }
 
 /// Returns each check of which a verdict needed an exemption, with the lines that allow it.

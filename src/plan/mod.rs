@@ -57,4 +57,6 @@ pub use validation::Unwritable;
 pub use verdict::{
     Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,
 };
-pub use world::{DynamicsModel, Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom};
+pub use world::{
+    DynamicsModel, Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom, is_full,
+};

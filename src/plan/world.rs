@@ -77,6 +77,11 @@ impl World {
     pub fn has_floor(&self) -> bool {
         matches!(self.ground, Ground::Settle | Ground::Fixed)
     }
+
+    /// Returns true if the ground under the robot carries its weight: if there are both.
+    pub fn floor_bears(&self) -> bool {
+        self.gravity > 0.0 && self.has_floor()
+    }
 }
 
 impl Default for World {
@@ -93,6 +98,12 @@ pub struct WorldFrom {
     pub from: f64,
     /// The world from then on.
     pub world: World,
+}
+
+/// Returns true if articulated robots are judged under full dynamics: if one of the worlds of a plan asks for them, then
+/// in all.
+pub fn is_full(worlds: &[WorldFrom]) -> bool {
+    worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full)
 }
 
 /// The support polygon that the centre of mass must be over, for static stability: Definition IV.7 of the
@@ -191,4 +202,11 @@ pub struct Exemption {
     pub to: f64,
     /// The command of the source that this comes from.
     pub cause: CauseId,
+}
+
+impl Exemption {
+    /// Returns true if it excuses at a time, s.
+    pub fn covers(&self, time: f64) -> bool {
+        self.from <= time && time <= self.to
+    }
 }

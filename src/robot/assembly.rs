@@ -142,6 +142,11 @@ impl Assembly {
         }
     }
 
+    /// Returns the path name of a joint by its id, as [`joint_name`](Self::joint_name) does; empty if there is none.
+    pub fn name_of(&self, joint: JointId) -> String {
+        self.joints().nth(joint.0 as usize).map_or_else(String::new, |owner| self.joint_name(owner))
+    }
+
     /// Returns the name of a bond, given by its index: those of its two ports, such as `a.front -- b.back`. Panics if
     /// there is no such bond.
     pub fn bond_name(&self, bond: usize) -> String {

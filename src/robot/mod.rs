@@ -7,6 +7,7 @@
 #![allow(non_snake_case)]
 
 mod assembly;
+mod drive;
 mod fault;
 mod library;
 pub mod mass;
@@ -32,6 +33,7 @@ pub mod rofi_assembly;
 pub mod rofi_json;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
+pub use drive::{Drive, drives, motor_efforts};
 pub use fault::{LibraryFault, ModulePart};
 pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{

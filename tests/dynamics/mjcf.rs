@@ -456,18 +456,23 @@ fn happens(verdict: &Verdict, simulated: &Value) -> bool {
         && simulated["fell"] == false
 }
 
-/// What full dynamics pass happens with servos that are softer and stiffer, too.
-#[test]
-fn what_is_verified_happens_with_other_servos() {
-    let all = std::env::var_os("MODL_WHOLE").is_some();
-    let some = &BEHAVIORS[..if all { BEHAVIORS.len() } else { 1 }];
+/// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
+fn of_the_library(few: usize) -> (&'static [(&'static str, &'static str, f64)], Vec<Case>, Vec<Value>) {
+    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some
         .iter()
         .map(|(robot, behavior, _)| {
             Case::of(&format!("use std.smores.{robot}\nlet x = {robot}()\nlet p = plan({behavior})"))
         })
         .collect();
-    let tasks: Vec<Value> = cases.iter().map(Case::task).collect();
+    let tasks = cases.iter().map(Case::task).collect();
+    (some, cases, tasks)
+}
+
+#[test]
+fn what_is_verified_happens_with_other_servos() {
+    let (some, cases, tasks) = of_the_library(1);
     let (Some(softer), Some(stiffer)) = (played(&tasks, GAINS[0]), played(&tasks, GAINS[1])) else { return };
     let mut wrong = vec![];
     for (index, (case, (robot, behavior, _))) in cases.iter().zip(some).enumerate() {
@@ -495,15 +500,7 @@ fn what_is_verified_happens_with_other_servos() {
 
 #[test]
 fn what_is_verified_happens_in_a_simulation() {
-    let all = std::env::var_os("MODL_WHOLE").is_some();
-    let some = &BEHAVIORS[..if all { BEHAVIORS.len() } else { 3 }];
-    let cases: Vec<Case> = some
-        .iter()
-        .map(|(robot, behavior, _)| {
-            Case::of(&format!("use std.smores.{robot}\nlet x = {robot}()\nlet p = plan({behavior})"))
-        })
-        .collect();
-    let tasks: Vec<Value> = cases.iter().map(Case::task).collect();
+    let (some, cases, tasks) = of_the_library(3);
     let Some(simulated) = played(&tasks, 150.0) else { return };
     let mut wrong = vec![];
     for ((case, simulated), (robot, behavior, _)) in cases.iter().zip(&simulated).zip(some) {

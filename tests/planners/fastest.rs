@@ -49,7 +49,7 @@ fn plans(program: &str, behavior: &str, world: &str, call: &str) -> (Plan, Plan)
     ));
     let read = |name: &str| file::read(written.text(name)).expect("a plan that was written is read");
     let fast = read("f.json");
-    // What robots execute is the program.
+    // The curves must be those of the plan's own program, which robots execute.
     assert_eq!(modl::behavior::unfaithful(&fast), None);
     (read("p.json"), fast)
 }

@@ -40,7 +40,7 @@ impl<'a> Ledger<'a> {
     pub(super) fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
         let mut excused = false;
         for (i, exemption) in self.exemptions.iter().enumerate() {
-            if t < self.end && exemption.from <= t && t <= exemption.to && of(&exemption.kind) {
+            if t < self.end && exemption.covers(t) && of(&exemption.kind) {
                 (self.used[i], excused) = (true, true);
             }
         }

@@ -3,11 +3,11 @@
 //! With `x = ṡ²` at the beginning of an interval of the grid, `y` at its end and constant acceleration `s̈ = (y - x) /
 //! 2Δ` between them, each limit is linear in x and y at each point of the interval.
 
-use super::drives::Drive;
 use super::path::Stretch;
 use super::tolerances::TOLERANCES;
-use super::torque::{Excess, PathPoint, Torques};
+use super::torque::{AtRest, PathPoint, Torques};
 use crate::plan::polynomial::{derivative, value};
+use crate::robot::Drive;
 
 /// The points of an interval at which its limits are put up, as parts of it.
 const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -35,8 +35,8 @@ impl HalfPlane {
 pub(super) struct Interval {
     /// The inequalities.
     pub(super) planes: Vec<HalfPlane>,
-    /// The torque at rest that is farthest over its limit, with its ratio; `None` if none is.
-    pub(super) excess: Option<(f64, Excess)>,
+    /// The torque at rest that is the greatest part of what may be used of its limit; `None` where torques do not count.
+    pub(super) at_rest: Option<AtRest>,
 }
 
 /// Returns the path at a point of an interval of its grid: `part` of the way from `from` to `to`.
@@ -67,17 +67,17 @@ pub(super) fn interval(
     usable: f64,
 ) -> Interval {
     let mut planes = Vec::new();
-    let mut worst: Option<(f64, Excess)> = None;
+    let mut at_rest: Option<AtRest> = None;
     for part in POINTS {
         let point = point(stretch, from, to, part);
         let mut add = |a: f64, b: f64, bound: f64| planes.extend(plane(a, b, bound, part, to - from));
         for drive in drives {
             let sum = |of: &[f64]| drive.terms.iter().map(|&(j, f)| f * of[j]).sum::<f64>();
             let (d, dd) = (small(sum(&point.d)), small(sum(&point.dd)));
-            if let Some(limit) = drive.speed {
+            if let Some(limit) = drive.limits.speed {
                 add(0.0, d * d, limit * limit * usable);
             }
-            if let Some(limit) = drive.acceleration {
+            if let Some(limit) = drive.limits.acceleration {
                 add(d, dd, limit * usable);
                 add(-d, -dd, limit * usable);
             }
@@ -88,14 +88,10 @@ pub(super) fn interval(
                 add(row.a, row.b, left(row.limit, row.c));
                 add(-row.a, -row.b, left(row.limit, -row.c));
             }
-            if let Some(excess) = torques.excess(&rows)
-                && worst.as_ref().is_none_or(|w| excess.0 > w.0)
-            {
-                worst = Some(excess);
-            }
+            at_rest = at_rest.into_iter().chain(AtRest::of(&rows)).reduce(AtRest::greater);
         }
     }
-    Interval { planes, excess: worst }
+    Interval { planes, at_rest }
 }
 
 /// Returns what a torque at rest leaves of its limit: 0 where it is over it by no more than rounding.

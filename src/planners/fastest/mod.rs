@@ -90,7 +90,6 @@ use crate::plan::validation::check;
 use crate::plan::{Body, Failure, Plan, PlanFault};
 use crate::robot::dynamics::Dynamics;
 use crate::units::{Dimension, quantity};
-use drives::Drive;
 use motion::{Timed, ratios};
 use path::{Part, Stretch};
 use std::fmt;
@@ -111,8 +110,8 @@ pub struct Problem<'a> {
 /// The settings of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The part of the limits of torque and of the loads of bonds that is left, without unit, from 0 to below 1. The
-    /// judge asks for 0.15 of them.
+    /// The part of the limits of torque and of the loads of bonds that is left, without unit, from 0 to below 1. Unless it
+    /// is stated, it is what the judge asks for.
     pub reserve: f64,
     /// The number of intervals of the first grid of a stretch, at least; finer ones are added beside instants of rest.
     pub intervals: usize,
@@ -123,7 +122,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Settings {
-        Settings { reserve: 0.15, intervals: 250, refinements: 6 }
+        Settings { reserve: crate::plan::Settings::reserve_default(), intervals: 250, refinements: 6 }
     }
 }
 
@@ -247,7 +246,7 @@ pub fn plan(
     let plan = problem.plan;
     let old = plan.body.tracks().ok_or(Refusal::Family)?;
     check(plan).map_err(Refusal::Unsound)?;
-    let drives = drives::drives(&old.robot);
+    let drives = drives::limited(&old.robot);
     let dynamics = Dynamics::new(&old.robot);
     let parts = path::parts(old)?;
     let count = parts.len();
@@ -264,7 +263,7 @@ pub fn plan(
                 drives::check(stretch, &old.robot, &drives)?;
                 let torques = torque::torques(plan, old, stretch, &dynamics, settings.reserve);
                 let limits = Limits { robot: &old.robot, drives: &drives, torques };
-                let law = law(stretch, &limits, &drives, settings)?;
+                let law = law(stretch, &limits, settings)?;
                 (stretches, intervals) = (stretches + 1, intervals + law.grid.nodes.len() - 1);
                 Some(law)
             }
@@ -290,18 +289,13 @@ fn too_long(clock: &Clock) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// Those of [`solve`].
-fn law(
-    stretch: &Stretch,
-    limits: &Limits,
-    drives: &[Drive],
-    settings: &Settings,
-) -> Result<TimeLaw, Refusal> {
+fn law(stretch: &Stretch, limits: &Limits, settings: &Settings) -> Result<TimeLaw, Refusal> {
     let mut law = solve(stretch, Grid::new(grid(stretch, settings)), limits)?;
     if !stretch.straight || limits.torques.is_some() {
         law = solve(stretch, equidistributed(stretch, &law, settings), limits)?;
     }
     for _ in 0..settings.refinements {
-        let ratios = ratios(stretch, &law, drives);
+        let ratios = ratios(stretch, &law, limits.drives);
         if ratios.iter().all(|ratio| *ratio <= 1.0 + TOLERANCES.excess) {
             break;
         }
@@ -309,7 +303,7 @@ fn law(
     }
     // The rest, and rounding.
     for round in 0..SCALINGS_MAX {
-        let worst = ratios(stretch, &law, drives).into_iter().fold(0.0, f64::max);
+        let worst = ratios(stretch, &law, limits.drives).into_iter().fold(0.0, f64::max);
         if worst <= 1.0 {
             break;
         }

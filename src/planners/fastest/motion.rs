@@ -1,12 +1,12 @@
 //! Tracks from paths and time laws: each piece of a path is composed with its time law, exactly.
 
-use super::drives::Drive;
 use super::path::{Part, Stretch};
 use super::time_law::TimeLaw;
 use super::tolerances::TOLERANCES;
 use crate::plan::polynomial::{composed, derivative, elevated, greatest_size, hull};
 use crate::plan::time::{tick_after, tick_near};
 use crate::plan::{DockingEvent, Segment, Track, Tracks};
+use crate::robot::Drive;
 
 /// A part of a plan with its law.
 pub(super) enum Timed {
@@ -155,11 +155,11 @@ fn ratio(drive: &Drive, pieces: &[(usize, Vec<f64>)], time: f64) -> f64 {
             if bound <= limit { bound } else { greatest_size(control, TOLERANCES.extremum).0 }
         }
     };
-    let speed = drive.speed.map_or(0.0, |v| size(&rates)(v * time, &rates) / (v * time));
+    let speed = drive.limits.speed.map_or(0.0, |v| size(&rates)(v * time, &rates) / (v * time));
     let seconds = derivative(&rates);
     let square = time * time;
     let acceleration =
-        drive.acceleration.map_or(0.0, |a| size(&seconds)(a * square, &seconds) / (a * square));
+        drive.limits.acceleration.map_or(0.0, |a| size(&seconds)(a * square, &seconds) / (a * square));
     speed.max(libm::sqrt(acceleration))
 }
 

@@ -230,8 +230,7 @@ fn curve(
         for s in &mut track.segments {
             let degree = s.control.len() - 1;
             if 2 * degree > DEGREE_MAX {
-                let joint = tracks.robot.joints().nth(track.joint.0 as usize);
-                let joint = joint.map_or_else(String::new, |owner| tracks.robot.joint_name(owner));
+                let joint = tracks.robot.name_of(track.joint);
                 return Err(Refusal::Degree { joint, time: s.start, degree });
             }
             (s.start, s.end) = (s.start - from, s.end - from);

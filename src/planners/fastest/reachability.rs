@@ -10,10 +10,10 @@ pub(super) const SQUARE_MAX: f64 = 1e12;
 /// The reason why there is no velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Failing {
-    /// No velocity at the beginning of the interval of this index can be held.
-    Empty(usize),
-    /// The interval of this index has no limit.
-    Unlimited(usize),
+    /// No velocity at the beginning of an interval can be held.
+    Empty,
+    /// An interval has no limit.
+    Unlimited,
 }
 
 /// Returns the squared velocity at each point of a grid, from begin to end. `free`: true at begin and end if any
@@ -34,15 +34,15 @@ pub(super) fn squares(intervals: &[Interval], free: [bool; 2]) -> Result<Vec<f64
             true => chord(planes, (0.0, 0.0), (1.0, 1.0), sets[index + 1]),
             false => range(planes, sets[index + 1]),
         };
-        sets[index] = range.ok_or(Failing::Empty(index))?;
+        sets[index] = range.ok_or(Failing::Empty)?;
         if sets[index].1 > SQUARE_MAX / 2.0 {
-            return Err(Failing::Unlimited(index));
+            return Err(Failing::Unlimited);
         }
     }
     // Forward: the greatest velocity from point to point.
     let first = if free[0] { sets[0].1 } else { 0.0 };
     if first < sets[0].0 {
-        return Err(Failing::Empty(0));
+        return Err(Failing::Empty);
     }
     let mut found = vec![first];
     for (index, interval) in intervals.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::motion::{Clock, Timed, tracks};
 use super::tolerances::TOLERANCES;
 use super::{Refusal, Settings};
 use crate::plan::verify::verify;
-use crate::plan::{CheckKind, DynamicsModel, Failure, Plan, Tracks, Verdict, retimed};
+use crate::plan::{CheckKind, Failure, Plan, Tracks, Verdict, is_full, retimed};
 use crate::planners::Progress;
 
 /// The times by which a stretch is slowed down before it counts as one that no slowness helps: to 9 times its duration.
@@ -48,7 +48,7 @@ pub(super) fn slowed(
 ) -> Result<Slowed, Refusal> {
     let mut brackets = vec![Bracket { times: 0, low: 1.0, high: 1.0 }; parts.len()];
     let mut trials = Trials { plan, old, reserve: settings.reserve, verdicts: 0, progress };
-    if plan.worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full) {
+    if is_full(&plan.worlds) {
         trials.lengthen(parts, &mut brackets)?;
         trials.shorten(parts, &mut brackets)?;
     }

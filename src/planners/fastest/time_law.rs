@@ -1,13 +1,12 @@
 //! The time law of a stretch: squared velocities of its parameter on a grid, with constant acceleration between.
 
 use super::constraints::{Interval, interval};
-use super::drives::Drive;
 use super::path::Stretch;
 use super::reachability::{Failing, squares};
 use super::tolerances::TOLERANCES;
-use super::torque::{Excess, Torques};
-use super::{Refusal, Settings, drives};
-use crate::robot::Assembly;
+use super::torque::{AtRest, Torques};
+use super::{Refusal, Settings};
+use crate::robot::{Assembly, Drive, JointId};
 
 /// The least number of intervals of a piece of a path that is no line.
 const INTERVALS_MIN: usize = 12;
@@ -155,28 +154,30 @@ pub(super) fn solve(stretch: &Stretch, grid: Grid, limits: &Limits) -> Result<Ti
     };
     let intervals: Vec<Interval> = grid.nodes.windows(2).zip(&grid.usable).map(of).collect();
     let found = squares(&intervals, stretch.free).map_err(|failing| match failing {
-        Failing::Unlimited(_) => unlimited(stretch, limits.robot),
-        Failing::Empty(_) => overloaded(stretch, &intervals),
+        Failing::Unlimited => unlimited(stretch, limits.robot),
+        Failing::Empty => overloaded(stretch, limits, &intervals),
     })?;
     // Bounds may be below zero by rounding.
     let speeds: Vec<f64> = found.into_iter().map(|square| libm::sqrt(square.max(0.0))).collect();
     if speeds.windows(2).any(|pair| pair[0] + pair[1] <= 0.0) {
-        return Err(overloaded(stretch, &intervals));
+        return Err(overloaded(stretch, limits, &intervals));
     }
     Ok(TimeLaw { grid, speeds })
 }
 
 fn unlimited(stretch: &Stretch, robot: &Assembly) -> Refusal {
-    let joint = stretch.path.first().map_or(0, |track| track.joint.0 as usize);
-    Refusal::NoAcceleration { joint: drives::name(robot, joint), time: stretch.from }
+    let joint = stretch.path.first().map_or(JointId(0), |track| track.joint);
+    Refusal::NoAcceleration { joint: robot.name_of(joint), time: stretch.from }
 }
 
-fn overloaded(stretch: &Stretch, intervals: &[Interval]) -> Refusal {
-    let all = intervals.iter().filter_map(|i| i.excess.as_ref());
-    let worst = all.reduce(|a, b| if b.0 > a.0 { b } else { a });
-    let Excess { name, torque, allowed, limit, turns } =
-        worst.map_or_else(Excess::default, |(_, excess)| excess.clone());
-    Refusal::Overloaded { name, torque, allowed, limit, turns, from: stretch.from, to: stretch.to }
+/// Returns the refusal of a stretch that no velocity gets through: a torque at rest is too great, or, where torques do not
+/// count, it would take for ever.
+fn overloaded(stretch: &Stretch, limits: &Limits, intervals: &[Interval]) -> Refusal {
+    let at_rest = intervals.iter().filter_map(|interval| interval.at_rest).reduce(AtRest::greater);
+    match limits.torques.as_ref().zip(at_rest) {
+        Some((torques, at_rest)) => torques.refusal(&at_rest, stretch),
+        None => Refusal::TooLong,
+    }
 }
 
 /// Returns the time law of a straight path under limits of speed and acceleration alone, in closed form: constant
@@ -192,9 +193,9 @@ fn trapezoid(stretch: &Stretch, limits: &Limits) -> Result<TimeLaw, Refusal> {
         };
         let slope = drive.terms.iter().map(slope).sum::<f64>().abs();
         if slope > TOLERANCES.derivative {
-            let speed = drive.speed.map_or(f64::INFINITY, |v| v / slope);
+            let speed = drive.limits.speed.map_or(f64::INFINITY, |v| v / slope);
             square = square.min(speed * speed * able);
-            acceleration = acceleration.min(drive.acceleration.map_or(f64::INFINITY, |a| a / slope * able));
+            acceleration = acceleration.min(drive.limits.acceleration.map_or(f64::INFINITY, |a| a / slope * able));
         }
     }
     if !acceleration.is_finite() {

@@ -1,12 +1,11 @@
 //! Torques of joints and motors of a robot whose base is held: linear in acceleration and squared velocity of the path.
 
+use super::Refusal;
 use super::path::Stretch;
-use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{DynamicsModel, Ground, Plan, Tracks, World};
 use crate::robot::dynamics::{Dynamics, MotionState, Twist};
-use crate::robot::{Assembly, JointOwner, Kinematics};
-use nalgebra::DMatrix;
+use crate::robot::{Assembly, Drive, Kinematics, drives, motor_efforts};
 
 /// The torques of a robot whose base is held, with the bonds that hold in one stretch.
 pub(super) struct Torques<'a> {
@@ -43,19 +42,15 @@ pub(super) struct Row {
     pub(super) limit: f64,
 }
 
-/// A torque at rest that is over its limit.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Excess {
-    /// The path name of the joint or motor.
-    pub(super) name: String,
-    /// The torque, N·m or N.
-    pub(super) torque: f64,
-    /// The part of the stated limit that may be used, N·m or N.
-    pub(super) allowed: f64,
-    /// The stated limit, N·m or N.
-    pub(super) limit: f64,
-    /// True for a torque, false for a force.
-    pub(super) turns: bool,
+/// The torque at rest of one load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AtRest {
+    /// The index of the load.
+    load: usize,
+    /// Its size, N·m or N.
+    torque: f64,
+    /// Its size as a part of what may be used of its limit.
+    ratio: f64,
 }
 
 /// The motion of a path at a point: positions, their first and second derivatives by the parameter, of all joints by
@@ -97,68 +92,57 @@ pub(super) fn torques<'a>(
     if !kinematics.tree.closing.is_empty() {
         return None;
     }
-    let mut loads = joints(robot);
-    loads.extend(motors(robot, &kinematics));
-    for load in &mut loads {
-        load.allowed = (1.0 - reserve) * load.limit;
-    }
+    let mut loads = joints(robot, reserve);
+    loads.extend(motors(robot, &kinematics, reserve));
     let gravity = Vec3::new(0.0, 0.0, -world.gravity);
     Some(Torques { kinematics, dynamics, base: tracks.start.base, gravity, loads })
 }
 
-fn joints(robot: &Assembly) -> Vec<Load> {
-    let load = |(id, owner): (usize, JointOwner)| {
-        let limit = match owner {
-            JointOwner::Module { module, joint } => {
-                let declared = &robot.module_type(module).joints[joint];
-                declared.limits.effort.filter(|_| !declared.passive && declared.mimic.is_none())
-            }
-            JointOwner::Bond(bond) => robot.hinge(bond).and_then(|hinge| hinge.limits.effort),
-        };
-        limit.map(|limit| Load {
-            name: robot.joint_name(owner),
-            turns: !robot.slides(owner),
-            limit,
-            allowed: limit,
-            terms: vec![(id, 1.0)],
-        })
+/// Returns the loads of joints with a motor of their own that state a greatest effort.
+fn joints(robot: &Assembly, reserve: f64) -> Vec<Load> {
+    let load = |drive: Drive| {
+        let limit = drive.limits.effort.filter(|_| drive.driven)?;
+        let allowed = (1.0 - reserve) * limit;
+        Some(Load { name: drive.name, turns: drive.turns, limit, allowed, terms: drive.terms })
     };
-    robot.joints().enumerate().filter_map(load).collect()
+    drives(robot).into_iter().filter_map(load).collect()
 }
 
-/// Returns the efforts of motors. With `motor = Σ factor · joint` the efforts of the joints are `F` times those of the
-/// motors, so that F has to have an inverse.
-fn motors(robot: &Assembly, kinematics: &Kinematics) -> Vec<Load> {
+/// Returns the loads of motors of several joints that state a greatest effort and follow from those of the joints.
+fn motors(robot: &Assembly, kinematics: &Kinematics, reserve: f64) -> Vec<Load> {
     let mut loads = Vec::new();
     for module in 0..robot.modules.len() {
-        let motors = &robot.module_type(module).motors;
-        let mut joints: Vec<usize> = motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();
-        joints.sort_unstable();
-        joints.dedup();
-        if joints.len() != motors.len() {
-            continue;
-        }
-        let mut factors = DMatrix::<f64>::zeros(joints.len(), motors.len());
-        for (column, motor) in motors.iter().enumerate() {
-            for (joint, factor) in &motor.joints {
-                factors[(joints.partition_point(|j| j < joint), column)] += factor;
-            }
-        }
-        let Some(inverse) = factors.try_inverse() else { continue };
-        for (row, motor) in motors.iter().enumerate() {
+        let kind = robot.module_type(module);
+        for (motor, shares) in kind.motors.iter().zip(motor_efforts(kind).into_iter().flatten()) {
             let Some(limit) = motor.limits.effort else { continue };
-            let term =
-                |(column, joint): (usize, &usize)| (kinematics.joint(module, *joint), inverse[(row, column)]);
+            let term = |(joint, share)| (kinematics.joint(module, joint), share);
             loads.push(Load {
                 name: format!("{}.{}", robot.modules[module].name, motor.name),
                 turns: true,
                 limit,
-                allowed: limit,
-                terms: joints.iter().enumerate().map(term).collect(),
+                allowed: (1.0 - reserve) * limit,
+                terms: shares.into_iter().map(term).collect(),
             });
         }
     }
     loads
+}
+
+impl AtRest {
+    /// Returns the torque at rest that is the greatest part of what may be used of its limit; `None` without loads.
+    pub(super) fn of(rows: &[Row]) -> Option<AtRest> {
+        let at_rest = |(load, row): (usize, &Row)| AtRest {
+            load,
+            torque: row.c.abs(),
+            ratio: row.c.abs() / row.limit,
+        };
+        rows.iter().enumerate().map(at_rest).reduce(AtRest::greater)
+    }
+
+    /// Returns that of two which is the greater part; the first of two that are alike.
+    pub(super) fn greater(self, other: AtRest) -> AtRest {
+        if other.ratio > self.ratio { other } else { self }
+    }
 }
 
 impl Torques<'_> {
@@ -191,15 +175,10 @@ impl Torques<'_> {
         self.loads.iter().map(row).collect()
     }
 
-    /// Returns the torque at rest that is farthest over what may be used, as a part of it; `None` if none is.
-    pub(super) fn excess(&self, rows: &[Row]) -> Option<(f64, Excess)> {
-        let over = |(row, load): (&Row, &Load)| {
-            let ratio = row.c.abs() / row.limit;
-            let Load { ref name, turns, limit, allowed, .. } = *load;
-            let excess = Excess { name: name.clone(), torque: row.c.abs(), allowed, limit, turns };
-            (ratio > 1.0 + TOLERANCES.torque).then_some((ratio, excess))
-        };
-        let all = rows.iter().zip(&self.loads).filter_map(over);
-        all.reduce(|a, b| if b.0 > a.0 { b } else { a })
+    /// Returns the refusal of a stretch in which this torque at rest is too great.
+    pub(super) fn refusal(&self, at_rest: &AtRest, stretch: &Stretch) -> Refusal {
+        let Load { ref name, turns, limit, allowed, .. } = self.loads[at_rest.load];
+        let (torque, from, to) = (at_rest.torque, stretch.from, stretch.to);
+        Refusal::Overloaded { name: name.clone(), torque, allowed, limit, turns, from, to }
     }
 }

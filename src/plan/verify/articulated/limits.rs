@@ -5,21 +5,8 @@ use super::tolerances::{NUMERICS, Tolerances};
 use crate::plan::polynomial::{derivative, elevated, greatest, greatest_size};
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CauseId, CheckKind, ExemptionKind, Failure, Status, Tracks};
-use crate::robot::{Assembly, JointId, JointKind, JointOwner, Limits};
+use crate::robot::{Drive, JointId, drives};
 use crate::units::{Dimension, quantity};
-
-/// A joint, or a motor that drives several.
-struct Drive {
-    name: String,
-    limits: Limits,
-    /// The position as a sum of joints, by id, times factors.
-    terms: Vec<(usize, f64)>,
-    /// True for positions in rad, false for m.
-    turns: bool,
-    /// True for a joint that has a motor of its own; false for motors of several joints, and for joints that follow
-    /// others or have none.
-    driven: bool,
-}
 
 /// A piece of motion of one drive over the time of one piece of each of its joints.
 struct Piece {
@@ -43,50 +30,6 @@ pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger
     ledger.check(CheckKind::JointRange, status(drives.iter().any(|d| d.limits.range.is_some())));
     ledger.check(CheckKind::Speed, status(drives.iter().any(|d| d.limits.speed.is_some())));
     ledger.check(CheckKind::Acceleration, status(drives.iter().any(|d| d.limits.acceleration.is_some())));
-}
-
-/// Returns the joints that are not fixed, and the motors, of all modules and bonds.
-fn drives(robot: &Assembly) -> Vec<Drive> {
-    let mut first = 0;
-    let mut firsts = Vec::new();
-    for module in 0..robot.modules.len() {
-        firsts.push(first);
-        first += robot.module_type(module).joints.len();
-    }
-    let joints = robot.joints().enumerate().filter_map(|(id, owner)| {
-        let name = robot.joint_name(owner);
-        match owner {
-            JointOwner::Module { module, joint } => {
-                let declared = &robot.module_type(module).joints[joint];
-                let kind = declared.kind;
-                let terms = crate::robot::driven(robot.module_type(module), joint, firsts[module]);
-                let turns = kind == JointKind::Revolute;
-                let driven = !declared.passive && declared.mimic.is_none();
-                (kind != JointKind::Fixed).then_some(Drive {
-                    name,
-                    limits: declared.limits,
-                    terms,
-                    turns,
-                    driven,
-                })
-            }
-            JointOwner::Bond(bond) => {
-                let limits = robot.hinge(bond)?.limits;
-                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true, driven: true })
-            }
-        }
-    });
-    let motors = (0..robot.modules.len()).flat_map(|module| {
-        let firsts = &firsts;
-        robot.module_type(module).motors.iter().map(move |motor| Drive {
-            name: format!("{}.{}", robot.modules[module].name, motor.name),
-            limits: motor.limits,
-            terms: motor.joints.iter().map(|&(joint, factor)| (firsts[module] + joint, factor)).collect(),
-            turns: true,
-            driven: false,
-        })
-    });
-    joints.chain(motors).collect()
 }
 
 /// Returns the motion of a drive: the sum of its joints' pieces, cut where any of them begins or ends.

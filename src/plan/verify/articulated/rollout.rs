@@ -12,7 +12,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
 use crate::plan::{
-    DockingKind, DynamicsModel, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom,
+    DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom, is_full,
 };
 use crate::robot::dynamics::Dynamics;
 use crate::units::{Dimension, quantity};
@@ -50,7 +50,7 @@ impl<'a> Rollout<'a> {
 
     /// Returns true if the plan is judged under full dynamics: in one of its worlds, and then in all.
     pub(super) fn is_full(&self) -> bool {
-        self.worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full)
+        is_full(self.worlds)
     }
 }
 
@@ -85,8 +85,7 @@ pub struct Sample<'a> {
     /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
     /// samples.
     pub settling: Option<f64>,
-    /// The length of the way so far, and the distance from its end at which it would end with other friction, m; both 0
-    /// under statics.
+    /// The travel so far, as far as friction determines it; none under statics.
     pub ways: Ways,
 }
 
@@ -490,7 +489,7 @@ struct Step {
 
 /// Returns true if an exemption allows the robot to tip at `t` (s).
 pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
-    exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.from <= t && t <= e.to)
+    exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.covers(t))
 }
 
 /// Writes the joint positions (rad or m) at a time (s), by the number in their `JointId`, with the blamed joint held.

@@ -98,7 +98,7 @@ impl Stance {
             patches: vec![],
             held: false,
             floor: world.has_floor(),
-            weighed: world.gravity > 0.0 && world.has_floor(),
+            weighed: world.floor_bears(),
             anchors: vec![],
         };
         if placement != Placement::Settled {
@@ -175,7 +175,7 @@ impl Stance {
 
     /// Brings the robot as it stands into another world, whose floor its contact points may touch, or which has none.
     pub fn enter(&mut self, model: &Model, world: &World, tolerances: &Tolerances) {
-        let (floor, weighed) = (world.has_floor(), world.gravity > 0.0 && world.has_floor());
+        let (floor, weighed) = (world.has_floor(), world.floor_bears());
         if (floor, weighed) != (self.floor, self.weighed) {
             if floor && !self.floor {
                 self.features = model.placed(&self.posture, &self.R);

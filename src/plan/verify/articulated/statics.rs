@@ -9,9 +9,7 @@ use super::ground_features::Mat3;
 use super::model::Model;
 use super::stance::Stance;
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{JointId, JointKind, PortRef};
-use crate::robot::{Motion, Step};
-use nalgebra::DMatrix;
+use crate::robot::{JointId, JointKind, Motion, PortRef, Step, motor_efforts};
 
 /// The loads and cuts of a model; compiled once for its bonds.
 pub(super) struct Structure {
@@ -254,27 +252,15 @@ impl Structure {
             if motors.iter().all(|m| m.limits.effort.is_none()) {
                 continue;
             }
-            let mut joints: Vec<usize> = motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();
-            joints.sort_unstable();
-            joints.dedup();
-            let mut factors = DMatrix::<f64>::zeros(joints.len(), motors.len());
-            for (column, motor) in motors.iter().enumerate() {
-                for &(joint, factor) in &motor.joints {
-                    let row = joints.partition_point(|j| *j < joint);
-                    factors[(row, column)] += factor;
-                }
-            }
-            let inverse = if joints.len() == motors.len() { factors.try_inverse() } else { None };
-            let Some(inverse) = inverse else {
+            let Some(efforts) = motor_efforts(model.robot.module_type(module)) else {
                 self.motors_open = true;
                 continue;
             };
-            for (row, motor) in motors.iter().enumerate() {
+            for (motor, shares) in motors.iter().zip(efforts) {
                 let Some(limit) = motor.limits.effort else { continue };
                 let mut terms = Vec::new();
-                for (column, joint) in joints.iter().enumerate() {
-                    let share = inverse[(row, column)];
-                    let cuts = &effects[model.kinematics.joint(module, *joint)];
+                for (joint, share) in shares {
+                    let cuts = &effects[model.kinematics.joint(module, joint)];
                     terms.extend(cuts.iter().map(|&(cut, factor)| (cut, share * factor)));
                 }
                 let first = model.kinematics.joint(module, motor.joints.first().map_or(0, |j| j.0));

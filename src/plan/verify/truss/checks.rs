@@ -138,7 +138,7 @@ impl Judgement<'_> {
         for (time, words) in &standing.events {
             ledger.verdict.events.push((*time, words.clone()));
         }
-        let on_ground = plan.worlds.iter().any(|w| w.world.gravity > 0.0 && w.world.has_floor());
+        let on_ground = plan.worlds.iter().any(|w| w.world.floor_bears());
         let stands = |status: Status| {
             if on_ground { status } else { Status::NotChecked("nothing pulls it down".into()) }
         };

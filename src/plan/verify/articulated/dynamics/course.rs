@@ -15,6 +15,7 @@ use super::traction::{Way, Ways};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
+use crate::robot::JointId;
 use crate::robot::dynamics::{Dynamics, Twist, Wrench};
 use crate::units::{Dimension, number, quantity};
 use std::collections::VecDeque;
@@ -386,10 +387,8 @@ impl<'a> Course<'a> {
         }
         self.travel(ledger);
         if let Some(step) = self.bursts.steps().first() {
-            let robot = &self.rollout.tracks.robot;
-            let owner = robot.joints().nth(step.joint);
+            let name = self.rollout.tracks.robot.name_of(JointId(step.joint as u32));
             let more = self.bursts.steps().len() - 1;
-            let name = owner.map_or_else(String::new, |owner| robot.joint_name(owner));
             ledger.note(format!(
                 "{name} changes its speed at once at {}{}: its torque is judged as if over {}",
                 quantity(step.time, Dimension::TIME),

@@ -116,9 +116,8 @@ impl Traction {
         let drift = yaw_between(step.R_before, step.R);
         let shift = |rate: &Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
-        let traction = |e: &Exemption| e.kind == ExemptionKind::Traction;
-        let allowed =
-            step.rollout.exemptions.iter().any(|e| traction(e) && e.from <= step.time && step.time <= e.to);
+        let allows = |e: &Exemption| e.kind == ExemptionKind::Traction && e.covers(step.time);
+        let allowed = step.rollout.exemptions.iter().any(allows);
         let fork = if allowed { &mut self.allowed } else { &mut self.judged };
         (fork.own, fork.other) =
             (fork.own.moved(&shift(&last.rates[0])), fork.other.moved(&shift(&last.rates[1])));

@@ -1,0 +1,90 @@
+//! Joints and motors with their limits: each position a sum of joints.
+
+use super::library::{JointKind, Limits, ModuleType};
+use super::step::driven;
+use super::{Assembly, JointOwner};
+use nalgebra::DMatrix;
+
+/// A joint, or a motor that drives several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// The path name of the joint or motor.
+    pub name: String,
+    /// Its limits, in rad or m and N·m or N.
+    pub limits: Limits,
+    /// The joints, by the numbers in their [`JointId`](super::JointId), and factors whose sum is its position.
+    pub terms: Vec<(usize, f64)>,
+    /// True for positions in rad, false for m.
+    pub turns: bool,
+    /// True for a joint that has a motor of its own; false for motors of several joints, and for joints that follow
+    /// others or have none.
+    pub driven: bool,
+}
+
+/// Returns the joints that are not fixed, in the order of [`Assembly::joints`], and after them the motors, of all
+/// modules and bonds.
+pub fn drives(robot: &Assembly) -> Vec<Drive> {
+    let mut first = 0;
+    let mut firsts = Vec::with_capacity(robot.modules.len());
+    for module in 0..robot.modules.len() {
+        firsts.push(first);
+        first += robot.module_type(module).joints.len();
+    }
+    let joints = robot.joints().enumerate().filter_map(|(id, owner)| {
+        let name = robot.joint_name(owner);
+        match owner {
+            JointOwner::Module { module, joint } => {
+                let declared = &robot.module_type(module).joints[joint];
+                let kind = declared.kind;
+                let terms = driven(robot.module_type(module), joint, firsts[module]);
+                let turns = kind == JointKind::Revolute;
+                let driven = !declared.passive && declared.mimic.is_none();
+                (kind != JointKind::Fixed).then_some(Drive {
+                    name,
+                    limits: declared.limits,
+                    terms,
+                    turns,
+                    driven,
+                })
+            }
+            JointOwner::Bond(bond) => {
+                let limits = robot.hinge(bond)?.limits;
+                Some(Drive { name, limits, terms: vec![(id, 1.0)], turns: true, driven: true })
+            }
+        }
+    });
+    let motors = (0..robot.modules.len()).flat_map(|module| {
+        let firsts = &firsts;
+        robot.module_type(module).motors.iter().map(move |motor| Drive {
+            name: format!("{}.{}", robot.modules[module].name, motor.name),
+            limits: motor.limits,
+            terms: motor.joints.iter().map(|&(joint, factor)| (firsts[module] + joint, factor)).collect(),
+            turns: true,
+            driven: false,
+        })
+    });
+    joints.chain(motors).collect()
+}
+
+/// Returns how the efforts of the motors of a module type follow from those of its joints: for each motor, in order, the
+/// joints, by their indices in [`ModuleType::joints`], with factors whose sum is its effort. With `motor = Σ factor ·
+/// joint` the efforts of the joints are `Fᵀ` times those of the motors; `None` where F has no inverse, so that the
+/// motors' do not follow.
+pub fn motor_efforts(kind: &ModuleType) -> Option<Vec<Vec<(usize, f64)>>> {
+    let motors = &kind.motors;
+    let mut joints: Vec<usize> = motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();
+    joints.sort_unstable();
+    joints.dedup();
+    if joints.len() != motors.len() {
+        return None;
+    }
+    let mut factors = DMatrix::<f64>::zeros(joints.len(), motors.len());
+    for (column, motor) in motors.iter().enumerate() {
+        for &(joint, factor) in &motor.joints {
+            factors[(joints.partition_point(|j| *j < joint), column)] += factor;
+        }
+    }
+    let inverse = factors.try_inverse()?;
+    let of = |row| joints.iter().enumerate().map(|(column, joint)| (*joint, inverse[(row, column)])).collect();
+    Some((0..motors.len()).map(of).collect())
+}
