@@ -9,9 +9,7 @@ mod interior_point;
 mod linear;
 
 mod active_set;
-mod non_negative;
 mod quadratic;
 
 pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};
-pub use non_negative::solve_non_negative;
 pub use quadratic::QuadraticProgram;

@@ -85,6 +85,7 @@ pub fn motor_efforts(kind: &ModuleType) -> Option<Vec<Vec<(usize, f64)>>> {
         }
     }
     let inverse = factors.try_inverse()?;
-    let of = |row| joints.iter().enumerate().map(|(column, joint)| (*joint, inverse[(row, column)])).collect();
+    let of =
+        |row| joints.iter().enumerate().map(|(column, joint)| (*joint, inverse[(row, column)])).collect();
     Some((0..motors.len()).map(of).collect())
 }

@@ -31,6 +31,13 @@ pub struct Twist {
     pub angular: Vec3,
 }
 
+impl Twist {
+    /// Returns the velocity (m/s) of the point that is carried along at `p` (m) from the frame's origin.
+    pub fn at(&self, p: &Vec3) -> Vec3 {
+        self.linear + self.angular.cross(p)
+    }
+}
+
 /// A force with its moment about a point, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {

@@ -1,8 +1,7 @@
 //! Quadratic programmes against all sets of active rows: of the points at which some rows hold as
 //! equalities, the optimum is the best that keeps all.
 
-use crate::support::numbers::Numbers;
-use modl::optimize::{QuadraticProgram, Unsolved, solve_non_negative};
+use modl::optimize::{QuadraticProgram, Unsolved};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -142,32 +141,6 @@ proptest! {
             let along = &d - &row * (row.dot(&d) / row.norm_squared());
             let keeps = (&case.rows * (&x + &along * 1e-3))[1] <= case.right[1] + 1e-9;
             prop_assert!(!keeps || slope.dot(&along) > -1e-6 * along.norm());
-        }
-    }
-}
-
-/// The optimum of a strictly convex program over variables that may not be negative is known by its own conditions: no
-/// negative variable, no negative gradient where one is zero, none at all where one is positive or free.
-#[test]
-fn non_negative_optima_meet_their_conditions_from_any_guess() {
-    let mut numbers = Numbers(21);
-    for n in 1..=12 {
-        for _ in 0..20 {
-            let a = DMatrix::from_fn(n + 2, n, |_, _| numbers.next() - 0.5);
-            let hessian = a.tr_mul(&a) + DMatrix::identity(n, n) * 1e-3;
-            let linear = DVector::from_fn(n, |_, _| numbers.next() - 0.5);
-            let free: Vec<bool> = (0..n).map(|_| numbers.next() < 0.2).collect();
-            let mut guess: Vec<bool> = (0..n).map(|_| numbers.next() < 0.5).collect();
-            let x = solve_non_negative(&hessian, &linear, &free, &mut guess).expect("it is strictly convex");
-            let gradient = &hessian * &x + &linear;
-            for i in 0..n {
-                if free[i] || x[i] > 0.0 {
-                    assert!(gradient[i].abs() < 1e-9, "{n}: {i}: {}", gradient[i]);
-                } else {
-                    assert!(x[i] == 0.0 && gradient[i] > -1e-9, "{n}: {i}: {} {}", x[i], gradient[i]);
-                }
-                assert_eq!(guess[i], free[i] || x[i] > 0.0, "the set of the solution is the next guess");
-            }
         }
     }
 }

@@ -195,7 +195,8 @@ fn trapezoid(stretch: &Stretch, limits: &Limits) -> Result<TimeLaw, Refusal> {
         if slope > TOLERANCES.derivative {
             let speed = drive.limits.speed.map_or(f64::INFINITY, |v| v / slope);
             square = square.min(speed * speed * able);
-            acceleration = acceleration.min(drive.limits.acceleration.map_or(f64::INFINITY, |a| a / slope * able));
+            acceleration =
+                acceleration.min(drive.limits.acceleration.map_or(f64::INFINITY, |a| a / slope * able));
         }
     }
     if !acceleration.is_finite() {

@@ -131,11 +131,8 @@ fn motors(robot: &Assembly, kinematics: &Kinematics, reserve: f64) -> Vec<Load> 
 impl AtRest {
     /// Returns the torque at rest that is the greatest part of what may be used of its limit; `None` without loads.
     pub(super) fn of(rows: &[Row]) -> Option<AtRest> {
-        let at_rest = |(load, row): (usize, &Row)| AtRest {
-            load,
-            torque: row.c.abs(),
-            ratio: row.c.abs() / row.limit,
-        };
+        let at_rest =
+            |(load, row): (usize, &Row)| AtRest { load, torque: row.c.abs(), ratio: row.c.abs() / row.limit };
         rows.iter().enumerate().map(at_rest).reduce(AtRest::greater)
     }
 

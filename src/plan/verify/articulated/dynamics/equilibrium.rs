@@ -1,5 +1,6 @@
 //! The equilibrium of an instant: loads and friction that belong together, as the fixed point of the two.
 
+use super::elastic_tree::Pushing;
 use super::loads::{self, Loads};
 use super::posed::{Candidate, Situation, Support};
 use super::tolerances::PARAMETERS;
@@ -7,6 +8,7 @@ use super::twist::{self, Momentum, TwistProblem};
 use crate::geometry::Vec3;
 use crate::robot::dynamics::Twist;
 use nalgebra::Vector3;
+use std::collections::BTreeMap;
 
 /// The forces and the twist of an instant.
 #[derive(Clone, Debug)]
@@ -29,7 +31,7 @@ pub(super) struct Warm {
     /// The twist of the body at the centre of mass, m/s and rad/s.
     pub twist: Twist,
     /// The load of each point of a feature ([`Candidate::feature`]), N.
-    pub loads: Vec<((usize, u8), f64)>,
+    pub loads: BTreeMap<(usize, u8), f64>,
 }
 
 /// Returns the equilibrium; `None` where the loads can't be found. `momentum`: the planar momentum, with which friction
@@ -40,16 +42,15 @@ pub(super) fn solve(
     warm: &mut Warm,
 ) -> Option<Equilibrium> {
     let candidates = &situation.candidates;
-    let known = |c: &Candidate| warm.loads.iter().find(|(f, _)| *f == c.feature).map(|(_, load)| *load);
-    let mut loads: Vec<f64> = candidates.iter().map(|c| known(c).unwrap_or(0.0)).collect();
-    let mut passive: Vec<bool> = loads.iter().map(|load| *load > 0.0).collect();
-    passive.resize(candidates.len() + situation.stops.len() + 6 * situation.loops.len(), true);
+    let known = |c: &Candidate| warm.loads.get(&c.feature).copied().unwrap_or(0.0);
+    let mut loads: Vec<f64> = candidates.iter().map(known).collect();
+    let mut pushing = Pushing { contacts: loads.iter().map(|load| *load > 0.0).collect(), stops: vec![] };
     let none = vec![Vec3::zeros(); candidates.len()];
     if loads.iter().sum::<f64>() < PARAMETERS.load_guess_min * situation.weight {
-        loads = loads::solve(situation, &none, &mut passive)?.normal;
+        loads = loads::solve(situation, &none, &mut pushing)?.normal;
     }
     if !situation.support.rests() {
-        let loads = loads::solve(situation, &none, &mut passive)?;
+        let loads = loads::solve(situation, &none, &mut pushing)?;
         let twist = Twist::default();
         return Some(Equilibrium { twist, loads, friction: vec![], open: false, slides: false });
     }
@@ -69,7 +70,7 @@ pub(super) fn solve(
         warm.twist = twist;
         let friction = twist::friction(&problem, &twist);
         let forces: Vec<Vec3> = friction.iter().map(|(_, force)| *force).collect();
-        let next = loads::solve(situation, &forces, &mut passive)?;
+        let next = loads::solve(situation, &forces, &mut pushing)?;
         let change: f64 = next.normal.iter().zip(&loads).map(|(a, b)| (a - b).abs()).sum();
         let open = change > PARAMETERS.load_change * situation.weight;
         for (load, next) in loads.iter_mut().zip(&next.normal) {
@@ -101,15 +102,7 @@ fn problem<'a>(
     needed: Vector3<f64>,
     momentum: Option<Momentum>,
 ) -> TwistProblem<'a> {
-    let velocities = &situation.posed.velocities;
-    TwistProblem {
-        candidates: &situation.candidates,
-        by_joints: situation.candidates.iter().map(|c| c.by_joints(velocities)).collect(),
-        loads,
-        needed,
-        momentum,
-        weight: situation.weight,
-    }
+    TwistProblem { candidates: &situation.candidates, loads, needed, momentum, weight: situation.weight }
 }
 
 /// Returns what friction has to supply, cut back to what it can, and true if it was.

@@ -2,19 +2,15 @@
 //! equilibrium.
 
 use super::super::model::RangedJoint;
+use super::elastic_tree::{ElasticTree, Pushing, joined};
 use super::posed::{Posed, Situation, Support};
 use super::tolerances::PARAMETERS;
-use super::twist;
 use crate::geometry::Vec3;
-use crate::optimize::solve_non_negative;
 use crate::robot::dynamics::Wrench;
 use crate::robot::jacobian::JointAxis;
-use nalgebra::{DMatrix, DVector};
 
-/// A bond that closes a loop: the efforts of joints by a unit force or moment along each axis, between its two sides.
+/// A bond that closes a loop.
 pub(super) struct Loop {
-    /// The efforts by a unit of each of three forces (N) and three moments (N·m), along the level axes.
-    columns: [Vec<(usize, f64)>; 6],
     /// The links of its two ports, by their numbers among all links.
     pub sides: [usize; 2],
     /// The place of the bond from the centre of mass, m.
@@ -33,16 +29,7 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
             let declared = robot.bonds[bond];
             let sides = [declared.a, declared.b].map(|port| kinematics.port_link(robot, port));
             let p = kinematics.port_pose(robot, declared.a, &posed.poses).translation.vector;
-            let columns = std::array::from_fn(|axis| {
-                let unit = Vec3::ith(axis % 3, 1.0);
-                let (force, moment) = if axis < 3 { (unit, Vec3::zeros()) } else { (Vec3::zeros(), unit) };
-                let wrench = Wrench { force, moment };
-                let back = Wrench { force: -force, moment: -moment };
-                let mut efforts = posed.efforts_of(sides[0], &p, &wrench);
-                efforts.extend(posed.efforts_of(sides[1], &p, &back));
-                efforts
-            });
-            Loop { columns, sides, p }
+            Loop { sides, p }
         })
         .collect()
 }
@@ -108,75 +95,41 @@ pub(super) struct Loads {
 }
 
 /// Returns the loads under these forces of friction at the candidates (N, in level axes); `None` where the method gives
-/// up. `passive`: a flag for each candidate, each stop and six for each loop, true for what is guessed to bear; replaced by
-/// the flags of what does.
-pub(super) fn solve(problem: &Situation, friction: &[Vec3], passive: &mut Vec<bool>) -> Option<Loads> {
-    let (contacts, stops) = (problem.candidates.len(), problem.stops.len());
-    let one_sided = contacts + stops;
-    let n = one_sided + 6 * problem.loops.len();
-    let by_friction = twist::wrench(&problem.candidates, friction.iter().copied());
-    let force = problem.base.force - by_friction.force;
-    let moment = problem.base.moment - by_friction.moment;
-    let mut carried = problem.efforts.clone();
+/// up. `pushing`: a guess which candidates and stops bear, which becomes those that do.
+pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushing) -> Option<Loads> {
+    let mut wrenches = problem.needed.clone();
+    let carry = |wrenches: &mut Vec<Wrench>, link: usize, p: &Vec3, force: &Vec3| {
+        wrenches[link].force -= force;
+        wrenches[link].moment -= p.cross(force);
+    };
     for (candidate, force) in problem.candidates.iter().zip(friction) {
-        candidate.columns.iter().for_each(|(joint, column)| carried[*joint] -= column.dot(force));
+        carry(&mut wrenches, candidate.link, &candidate.p, force);
     }
-    let joints = carried.len();
-    // Efforts of the joints by a unit of each unknown, scaled by the softness of the servos.
-    let mut columns: Vec<Vec<(usize, f64)>> = Vec::with_capacity(n);
-    columns.extend(problem.candidates.iter().map(|c| c.columns.iter().map(|(j, v)| (*j, v.z)).collect()));
-    columns.extend(problem.stops.iter().map(|stop| vec![(stop.joint, stop.sign)]));
-    for closing in &problem.loops {
-        columns.extend(closing.columns.iter().cloned());
+    let tree = ElasticTree::new(problem, wrenches.iter().map(|w| joined(&w.force, &w.moment)).collect());
+    let displaced = tree.settle(pushing)?;
+    let (normal, stops) = tree.forces(&displaced);
+    let bonds = tree.bonds(&displaced);
+    for (candidate, normal) in problem.candidates.iter().zip(&normal) {
+        carry(&mut wrenches, candidate.link, &candidate.p, &(Vec3::z() * *normal));
     }
-    let mut dense = DMatrix::<f64>::zeros(joints, n);
-    for (column, entries) in columns.iter().enumerate() {
-        for &(joint, value) in entries {
-            dense[(joint, column)] += value;
+    for (closing, w) in problem.loops.iter().zip(&bonds) {
+        let (force, moment) = (Vec3::from_column_slice(&w[..3]), Vec3::from_column_slice(&w[3..]));
+        for (link, sign) in closing.sides.into_iter().zip([1.0, -1.0]) {
+            carry(&mut wrenches, link, &closing.p, &(force * sign));
+            wrenches[link].moment -= moment * sign;
         }
     }
-    let soft = DVector::from_iterator(joints, problem.stiffness.iter().map(|k| 1.0 / libm::sqrt(*k)));
-    let mut scaled = dense.clone();
-    for joint in 0..joints {
-        scaled.row_mut(joint).scale_mut(soft[joint]);
+    // Each link's own, then the sums over all that it carries.
+    let kinematics = &problem.posed.model.kinematics;
+    let poses = &problem.posed.poses;
+    let mut efforts = problem.posed.dynamics.efforts(kinematics, poses, &mut wrenches, &Vec3::zeros());
+    for (stop, effort) in problem.stops.iter().zip(&stops) {
+        efforts[stop.joint] -= stop.sign * effort;
     }
-    let target = DVector::from_iterator(joints, carried.iter().zip(soft.iter()).map(|(t, s)| t * s));
-    let mut hessian = scaled.tr_mul(&scaled);
-    let mut linear = -scaled.tr_mul(&target);
-    // The balance of the base, as a penalty.
-    let stiff = PARAMETERS.balance_weight / PARAMETERS.contact_stiffness;
-    let size = problem.size;
-    let rows = if problem.support.rests() { 3 } else { 0 };
-    let balance = DMatrix::from_fn(rows, n, |row, i| match problem.candidates.get(i) {
-        None => 0.0,
-        Some(c) => [1.0, c.p.y / size, -c.p.x / size][row],
-    });
-    let wanted = [force.z, moment.x / size, moment.y / size];
-    let wanted = DVector::from_column_slice(&wanted[..rows]);
-    hessian += balance.tr_mul(&balance) * stiff;
-    linear -= balance.tr_mul(&wanted) * stiff;
-    for (i, candidate) in problem.candidates.iter().enumerate() {
-        hessian[(i, i)] += 1.0 / PARAMETERS.contact_stiffness;
-        linear[i] += candidate.gap;
-    }
-    for (i, stop) in problem.stops.iter().enumerate() {
-        hessian[(contacts + i, contacts + i)] += 1.0 / PARAMETERS.stop_stiffness;
-        linear[contacts + i] += stop.gap;
-    }
-    for i in one_sided..n {
-        let shift = (i - one_sided) % 6 < 3;
-        hessian[(i, i)] +=
-            1.0 / if shift { PARAMETERS.bond_stiffness } else { PARAMETERS.bond_turn_stiffness };
-    }
-    let free: Vec<bool> = (0..n).map(|i| i >= one_sided).collect();
-    let x = solve_non_negative(&hessian, &linear, &free, passive)?;
-    let efforts = DVector::from_column_slice(&carried) - &dense * &x;
-    let residual = if problem.support == Support::Settles { (&balance * &x - wanted).amax() } else { 0.0 };
-    Some(Loads {
-        normal: x.as_slice()[..contacts].to_vec(),
-        efforts: efforts.as_slice().to_vec(),
-        stops: x.as_slice()[contacts..one_sided].to_vec(),
-        bonds: x.as_slice()[one_sided..].chunks(6).map(|w| std::array::from_fn(|i| w[i])).collect(),
-        imbalance: if problem.weight > 0.0 { residual / problem.weight } else { 0.0 },
-    })
+    let left = &wrenches[kinematics.link(kinematics.root, 0)];
+    let left = [left.force.z, left.moment.x / problem.size, left.moment.y / problem.size];
+    let settles = problem.support == Support::Settles && problem.weight > 0.0;
+    let imbalance =
+        if settles { left.into_iter().fold(0.0, |m, x| x.abs().max(m)) / problem.weight } else { 0.0 };
+    Some(Loads { normal, efforts, stops, bonds, imbalance })
 }

@@ -3,7 +3,7 @@
 //!
 //! The attitude of the robot from sample to sample is that of settling. Servos are the soft part of a robot and
 //! contacts the stiff one: the loads of its contacts are those at which yielding servos and contacts are in equilibrium
-//! with weight, inertia and friction ([`loads`], a quadratic program); friction follows from the slip of the contacts
+//! with weight, inertia and friction ([`loads`], by way of [`elastic_tree`]); friction follows from the slip of the contacts
 //! under the twist that friction balances ([`twist`]); loads and friction that belong together are the fixed point of
 //! the two ([`equilibrium`]). [`traction`] follows the base with its planar momentum, and decides the travel;
 //! [`course`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than 200
@@ -11,6 +11,7 @@
 
 mod bursts;
 mod course;
+mod elastic_tree;
 mod equilibrium;
 mod loads;
 mod overload;

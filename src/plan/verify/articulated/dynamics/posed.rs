@@ -8,9 +8,10 @@ use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, World};
-use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench, along};
+use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use crate::robot::{Joint, JointOwner};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector6};
+use std::collections::BTreeMap;
 
 /// A point of the robot that the ground may bear.
 #[derive(Clone, Debug)]
@@ -25,22 +26,8 @@ pub(super) struct Candidate {
     pub gap: f64,
     /// The coefficient of friction.
     pub friction: f64,
-    /// The velocity of the point (m/s, in level axes) for a velocity of 1 rad/s or 1 m/s of each joint that moves it,
-    /// by [`crate::robot::JointId`], with the base still.
-    pub columns: Vec<(usize, Vec3)>,
-}
-
-impl Candidate {
-    /// Returns the velocity of the point by the joints alone, m/s; `velocities` are those of all joints.
-    pub(super) fn by_joints(&self, velocities: &[f64]) -> Vec3 {
-        self.columns.iter().map(|(joint, column)| column * velocities[*joint]).sum()
-    }
-
-    /// Returns the velocity of the point by the base alone, m/s; `base` is the velocity of the body at the centre of
-    /// mass.
-    pub(super) fn by_base(&self, base: &Twist) -> Vec3 {
-        base.linear + base.angular.cross(&self.p)
-    }
+    /// The velocity of the point by the joints alone, with the base still, m/s, in level axes.
+    pub by_joints: Vec3,
 }
 
 /// The robot at an instant.
@@ -93,32 +80,21 @@ impl<'a> Posed<'a> {
         Posed { model, dynamics, poses, joints, velocities, accelerations }
     }
 
-    /// Returns the velocity of each joint that moves a point fixed to a link: [`Candidate::columns`].
-    pub(super) fn columns(&self, link: usize, p: &Vec3) -> Vec<(usize, Vec3)> {
-        let mut columns: Vec<(usize, Vec3)> = Vec::new();
-        for step in self.model.kinematics.ancestors(link) {
-            let Some(axis) = step.joint_axis(&self.poses) else { continue };
-            let velocity = axis.velocity(p).0;
-            for &(joint, factor) in step.terms() {
-                match columns.iter_mut().find(|(known, _)| *known == joint) {
-                    Some((_, column)) => *column += velocity * factor,
-                    None => columns.push((joint, velocity * factor)),
-                }
+    /// Returns the velocity by the joints alone, with the base still, of the body of each link at the centre of mass, by
+    /// the number of the link; zero for loose ones.
+    fn by_joints(&self) -> Vec<Twist> {
+        let mut twists = vec![Twist::default(); self.poses.len()];
+        for step in &self.model.kinematics.steps {
+            let mut twist = twists[step.parent];
+            if let Some(axis) = step.joint_axis(&self.poses) {
+                let (linear, angular) = axis.velocity(&Vec3::zeros());
+                let velocity: f64 = step.terms().iter().map(|&(j, factor)| factor * self.velocities[j]).sum();
+                twist.linear += linear * velocity;
+                twist.angular += angular * velocity;
             }
+            twists[step.link] = twist;
         }
-        columns
-    }
-
-    /// Returns the efforts of joints by a wrench (N, N·m) that acts on a link, with its moment about `p`: `(joint,
-    /// effort)`.
-    pub(super) fn efforts_of(&self, link: usize, p: &Vec3, wrench: &Wrench) -> Vec<(usize, f64)> {
-        let mut efforts = Vec::new();
-        for step in self.model.kinematics.ancestors(link) {
-            let Some(axis) = step.joint_axis(&self.poses) else { continue };
-            let effort = along(&axis, wrench, p);
-            efforts.extend(step.terms().iter().map(|&(joint, factor)| (joint, factor * effort)));
-        }
-        efforts
+        twists
     }
 
     /// Returns the points that the ground may bear: those at most [`gap_max`](super::tolerances::Parameters::gap_max)
@@ -150,20 +126,22 @@ impl<'a> Posed<'a> {
         }
         near.extend(self.treads(&placed, lowest));
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3))));
+        let by_joints = self.by_joints();
         let mut kept: Vec<Candidate> = Vec::new();
+        let mut on_link: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
         for (gap, link, index, k, p) in near {
-            let crowded = |c: &Candidate| c.link == link && (c.p - p).norm() < PARAMETERS.candidate_distance;
-            if kept.iter().any(crowded) {
+            let others = on_link.entry(link).or_default();
+            if others.iter().any(|other| (other - p).norm() < PARAMETERS.candidate_distance) {
                 continue;
             }
-            let friction = friction * self.model.bodies[link].friction;
+            others.push(p);
             kept.push(Candidate {
                 link,
                 feature: (index, k),
                 p,
                 gap,
-                friction,
-                columns: self.columns(link, &p),
+                friction: friction * self.model.bodies[link].friction,
+                by_joints: by_joints[link].at(&p),
             });
         }
         kept
@@ -218,12 +196,8 @@ impl<'a> Posed<'a> {
     /// is given, accelerates such that no force from outside is needed.
     fn floating_wrenches(&self, base: &Twist) -> Vec<Wrench> {
         let still = (*base, Twist::default());
-        let mut sum = Wrench::default();
-        for wrench in self.link_wrenches(Some(&still), 0.0) {
-            sum.force += wrench.force;
-            sum.moment += wrench.moment;
-        }
-        let acceleration = self.compensating(&sum).unwrap_or_default();
+        let acceleration =
+            self.compensating(&sum(&self.link_wrenches(Some(&still), 0.0))).unwrap_or_default();
         self.link_wrenches(Some(&(*base, acceleration)), 0.0)
     }
 
@@ -322,8 +296,6 @@ pub(super) struct Situation<'a> {
     /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and
     /// N·m.
     pub base: Wrench,
-    /// The effort of each joint without contacts, by [`crate::robot::JointId`], N·m or N.
-    pub efforts: Vec<f64>,
     /// The stiffness of each joint, by [`crate::robot::JointId`], N·m/rad or N/m.
     pub stiffness: Vec<f64>,
     /// The support of the robot.
@@ -355,13 +327,8 @@ impl<'a> Situation<'a> {
             Some(motion) if support == Support::Floats => posed.floating_wrenches(&motion.0),
             _ => posed.link_wrenches(motion, gravity),
         };
-        // Each link's own, then the sums over all that it carries.
-        let mut carried = needed.clone();
-        let kinematics = &posed.model.kinematics;
-        let efforts = posed.dynamics.efforts(kinematics, &posed.poses, &mut carried, &Vec3::zeros());
         Situation {
-            base: carried[kinematics.link(kinematics.root, 0)],
-            efforts,
+            base: sum(&needed),
             stops: loads::stops(posed),
             loops: loads::loops(posed),
             stiffness: stiffness(posed.model),
@@ -385,4 +352,9 @@ fn stiffness(model: &Model) -> Vec<f64> {
         _ => Joint::TURN_STIFFNESS_DEFAULT,
     };
     model.robot.joints().map(of).collect()
+}
+
+fn sum(wrenches: &[Wrench]) -> Wrench {
+    let add = |sum: Wrench, w: &Wrench| Wrench { force: sum.force + w.force, moment: sum.moment + w.moment };
+    wrenches.iter().fold(Wrench::default(), add)
 }

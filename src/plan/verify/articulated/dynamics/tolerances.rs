@@ -57,6 +57,11 @@ pub(super) struct Parameters {
     pub load_change: f64,
     /// The part of the weight below which known loads are no guess of the next ones.
     pub load_guess_min: f64,
+    /// The gap below which a contact just touches, m or rad. 1e-12: rounding of displacements.
+    pub touching: f64,
+    /// The greatest number of rounds in which contacts and stops come to push or leave. 200: some ten suffice for the
+    /// robots tried.
+    pub contact_rounds_max: usize,
     /// The greatest number of rounds of twist and loads.
     pub rounds_max: usize,
     /// The factor on the relaxation of the loads from round to round.
@@ -109,6 +114,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     twist_rounds_max: 80,
     load_change: 5e-3,
     load_guess_min: 0.5,
+    touching: 1e-12,
+    contact_rounds_max: 200,
     rounds_max: 12,
     relaxation: 0.85,
     relaxation_min: 0.1,

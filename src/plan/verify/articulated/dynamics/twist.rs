@@ -4,11 +4,13 @@
 //! what its motion needs: the minimum of a smooth, strictly convex power (Peshkin and Sanderson 1989; Moreau's maximum
 //! dissipation), by iteratively reweighted least squares.
 
+use super::elastic_tree::joined;
 use super::posed::Candidate;
 use super::tolerances::PARAMETERS;
 use crate::geometry::Vec3;
-use crate::robot::dynamics::{Twist, Wrench};
+use crate::robot::dynamics::Twist;
 use nalgebra::{Matrix6, Vector3, Vector6};
+use std::collections::BTreeMap;
 
 /// The planar momentum that the robot keeps where friction is low.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +27,6 @@ pub(super) struct Momentum {
 pub(super) struct TwistProblem<'a> {
     /// The contacts.
     pub candidates: &'a [Candidate],
-    /// The velocities of the contacts by the joints alone, m/s.
-    pub by_joints: Vec<Vec3>,
     /// The loads of the contacts, N.
     pub loads: &'a [f64],
     /// The horizontal force (N) and the moment about the vertical (N·m) that friction has to supply: x, y, yaw.
@@ -43,10 +43,8 @@ const PLANAR: [usize; 3] = [0, 1, 5];
 /// Returns the twist of the body at the centre of mass, in level axes, found from the guess `before`; that of the last
 /// round if the rounds do not suffice.
 pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
-    let mut twist = Vector6::zeros();
-    twist.fixed_rows_mut::<3>(0).copy_from(&before.linear);
-    twist.fixed_rows_mut::<3>(3).copy_from(&before.angular);
-    let start = twist;
+    let start = joined(&before.linear, &before.angular);
+    let mut twist = start;
     let ridge = PARAMETERS.regularization * problem.weight;
     let press = PARAMETERS.normal_weight / PARAMETERS.slip_speed;
     for _ in 0..PARAMETERS.twist_rounds_max {
@@ -67,15 +65,13 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
             if load <= 0.0 {
                 continue;
             }
-            let slip = velocity(candidate, &twist) + problem.by_joints[i];
+            let slip = moved(&twist).at(&candidate.p) + candidate.by_joints;
             let speed = libm::hypot(libm::hypot(slip.x, slip.y), PARAMETERS.slip_speed);
-            let weights =
-                [candidate.friction * load / speed, candidate.friction * load / speed, press * load];
-            for (axis, weight) in weights.into_iter().enumerate() {
-                let row = row(candidate, axis);
-                matrix += row * row.transpose() * weight;
-                right -= row * (weight * problem.by_joints[i][axis]);
-            }
+            let (along, normal) = (candidate.friction * load / speed, press * load);
+            add_contact(&mut matrix, &candidate.p, along, normal);
+            let v = &candidate.by_joints;
+            let force = Vec3::new(along * v.x, along * v.y, normal * v.z);
+            right -= joined(&force, &candidate.p.cross(&force));
         }
         let Some(next) = matrix.cholesky().map(|c| c.solve(&right)) else { break };
         let change = (next - twist).amax();
@@ -84,27 +80,44 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
             break;
         }
     }
+    moved(&twist)
+}
+
+/// Adds a point at `p` that resists a twist with these weights of its velocities, along the ground and along the normal:
+/// `Jᵀ W J` with the Jacobian J of the point's velocity, upper and lower triangle.
+fn add_contact(matrix: &mut Matrix6<f64>, p: &Vec3, along: f64, normal: f64) {
+    let mut add = |row: usize, column: usize, value: f64| {
+        matrix[(row, column)] += value;
+        if row != column {
+            matrix[(column, row)] += value;
+        }
+    };
+    add(0, 0, along);
+    add(1, 1, along);
+    add(2, 2, normal);
+    add(0, 4, along * p.z);
+    add(0, 5, -along * p.y);
+    add(1, 3, -along * p.z);
+    add(1, 5, along * p.x);
+    add(2, 3, normal * p.y);
+    add(2, 4, -normal * p.x);
+    add(3, 3, along * p.z * p.z + normal * p.y * p.y);
+    add(4, 4, along * p.z * p.z + normal * p.x * p.x);
+    add(5, 5, along * (p.x * p.x + p.y * p.y));
+    add(3, 4, -normal * p.x * p.y);
+    add(3, 5, -along * p.z * p.x);
+    add(4, 5, -along * p.z * p.y);
+}
+
+/// Returns the twist of `[linear; angular]`.
+fn moved(twist: &Vector6<f64>) -> Twist {
     Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() }
-}
-
-/// Returns the row of the Jacobian of a point's velocity along an axis by the base's twist.
-fn row(candidate: &Candidate, axis: usize) -> Vector6<f64> {
-    let p = &candidate.p;
-    match axis {
-        0 => Vector6::new(1.0, 0.0, 0.0, 0.0, p.z, -p.y),
-        1 => Vector6::new(0.0, 1.0, 0.0, -p.z, 0.0, p.x),
-        _ => Vector6::new(0.0, 0.0, 1.0, p.y, -p.x, 0.0),
-    }
-}
-
-fn velocity(candidate: &Candidate, twist: &Vector6<f64>) -> Vec3 {
-    Vec3::new(row(candidate, 0).dot(twist), row(candidate, 1).dot(twist), row(candidate, 2).dot(twist))
 }
 
 /// Returns the slip of each contact under a twist, m/s, and the force of friction on it, N.
 pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3)> {
     let one = |(i, candidate): (usize, &Candidate)| {
-        let mut slip = candidate.by_base(twist) + problem.by_joints[i];
+        let mut slip = twist.at(&candidate.p) + candidate.by_joints;
         slip.z = 0.0;
         let speed = libm::hypot(slip.norm(), PARAMETERS.slip_speed);
         (slip, slip * (-candidate.friction * problem.loads[i] / speed))
@@ -112,17 +125,7 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     problem.candidates.iter().enumerate().map(one).collect()
 }
 
-/// Returns the wrench about the centre of mass of forces (N) at the contacts, one for each.
-pub(super) fn wrench(candidates: &[Candidate], forces: impl Iterator<Item = Vec3>) -> Wrench {
-    let mut sum = Wrench::default();
-    for (candidate, force) in candidates.iter().zip(forces) {
-        sum.force += force;
-        sum.moment += candidate.p.cross(&force);
-    }
-    sum
-}
-
-/// Returns for each loaded link the length of the mean slip of its contacts, weighted by their loads (m/s), and its
+/// Returns for each loaded link, by its number, the length of the mean slip of its contacts, weighted by their loads (m/s), and its
 /// load as a part of `weight` (N).
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
@@ -130,15 +133,13 @@ pub(super) fn slips_by_link(
     friction: &[(Vec3, Vec3)],
     weight: f64,
 ) -> Vec<(usize, f64, f64)> {
-    let mut found: Vec<(usize, Vec3, f64)> = Vec::new();
+    let mut found: BTreeMap<usize, (Vec3, f64)> = BTreeMap::new();
     for ((candidate, load), (slip, _)) in candidates.iter().zip(loads).zip(friction) {
         if *load <= 0.0 {
             continue;
         }
-        match found.iter_mut().find(|(link, _, _)| *link == candidate.link) {
-            Some((_, sum, whole)) => (*sum, *whole) = (*sum + slip * *load, *whole + load),
-            None => found.push((candidate.link, slip * *load, *load)),
-        }
+        let (sum, whole) = found.entry(candidate.link).or_default();
+        (*sum, *whole) = (*sum + slip * *load, *whole + load);
     }
-    found.into_iter().map(|(link, sum, load)| (link, sum.norm() / load, load / weight)).collect()
+    found.into_iter().map(|(link, (sum, load))| (link, sum.norm() / load, load / weight)).collect()
 }
