@@ -22,34 +22,36 @@ const NONE: u32 = u32::MAX;
 /// An axis-aligned box, in metres, in a frame of the caller's choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
-    /// The corner of least coordinates, m.
+    /// The corner of least coordinates, m, in the frame of the box.
     pub low: Vec3,
-    /// The corner of greatest coordinates, m.
+    /// The corner of greatest coordinates, m, in the frame of the box.
     pub high: Vec3,
 }
 
 impl Aabb {
-    /// Returns the least box around some points, m; for no points, the box that no union with another changes.
+    /// Returns the least box around some points (m), in their frame; for no points, the empty box (`low` at +∞,
+    /// `high` at -∞), which a union with another box leaves as the other.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
         let none = Aabb { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
         points.into_iter().fold(none, |all, p| Aabb { low: all.low.inf(&p), high: all.high.sup(&p) })
     }
 
-    /// Returns the gap to another box along each axis, m, 0 along axes on which they overlap; the length of this
-    /// vector is the distance of the boxes.
+    /// Returns the gap to another box of the same frame along each axis, m; 0 along axes on which they overlap. The
+    /// length of this vector is the distance of the boxes.
     #[inline]
     pub fn gap(&self, other: &Aabb) -> Vec3 {
         (self.low - other.high).sup(&(other.low - self.high)).sup(&Vec3::zeros())
     }
 }
 
-/// Calls `found(i, j, d²)` once for every pair `i < j` of `count` points at a distance less than `reach` (> 0), with
-/// the square of that distance, both in the unit of the points. Coordinates must lie within 2²⁰ times `reach`. A pair
-/// at just this distance may be missed by rounding.
+/// Calls `found(i, j, d²)` once for every pair `i < j` of `count` points (indices from 0; `point(i)` is the position
+/// of point i) at a distance less than `reach` (> 0), with the square of that distance, both in the unit of the
+/// points. The method is the fixed-radius search on a uniform grid (Bentley, Stanat and Williams 1977). Coordinates
+/// must lie within 2²⁰ times `reach`. A pair at just this distance may be missed by rounding.
 ///
-/// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: so the
-/// three cubes of a column that may hold a point's neighbours are contiguous in the list, and for each of the
-/// columns around, this range advances with the points. There is no hash table and no memory for empty cubes.
+/// Points are sorted into cubes of that size, cubes into columns, and columns by their coordinates: the three cubes
+/// of a column that may hold a point's neighbours are then contiguous in the list, and for each of the columns
+/// around, this range advances with the points. There is no hash table and no memory for empty cubes.
 pub fn near_points(
     count: usize,
     point: impl Fn(usize) -> Vec3,
@@ -94,10 +96,11 @@ pub fn near_points(
     }
 }
 
-/// Calls `found(i, j)` once for every pair `i < j` of boxes that come within `reach` (≥ 0, m) of each other along
-/// every axis, up to rounding: a superset of those that are nearer than `reach`. The calls are ordered by j, then by
-/// cell and i. `cell` (> 0, m) is the least size of a cell, best about that of a box; grids of more than eight cells
-/// for each box are made coarser.
+/// Calls `found(i, j)` once for every pair `i < j` of boxes (by index in `boxes`, from 0) that come within `reach` (≥
+/// 0, m) of each other along every axis, up to rounding: a superset of those that are nearer than `reach`. The method
+/// is a uniform grid (compare Ericson, *Real-Time Collision Detection*, 2005, sec. 7.1). The calls are ordered by j,
+/// then by cell and i. `cell` (> 0, m) is the least size of a cell, best about that of a box; grids of more than
+/// eight cells for each box are made coarser.
 pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, mut found: impl FnMut(usize, usize)) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;

@@ -11,7 +11,8 @@ use super::distance::signed_distance_within;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
 
-/// A segment from its first point to its second, m; the two may be one point.
+/// A segment from its first point to its second, m, both in one frame of the caller's choice; the two may be one
+/// point.
 pub type Segment = (Vec3, Vec3);
 
 /// The squared sine of the angle of two segments below which they count as parallel in [`segment_segment`].
@@ -25,11 +26,13 @@ pub struct SegmentPair {
     /// The unit vector from the second segment's point to the first's, in the frame of the segments. If the segments
     /// meet, it is perpendicular to both of them, with arbitrary sign, and +z where they are parallel or a point.
     pub normal: Vec3,
-    /// The positions of the points along the first and the second segment, as fractions of the lengths, 0 to 1.
+    /// The positions of the closest points along the first and the second segment, as fractions of the segments'
+    /// lengths, 0 (first end) to 1.
     pub along: (f64, f64),
 }
 
-/// Returns the closest points of two segments (Ericson 5.1.9).
+/// Returns the closest points of two segments of one frame (m), by the method of Ericson (*Real-Time Collision
+/// Detection*, 2005, sec. 5.1.9).
 ///
 /// Of parallel segments, which have many closest pairs, one pair is returned; it may jump while the segments move a
 /// little. Segments at an angle of less than 3.2e-5 rad count as parallel; the distance is then too great by at most
@@ -52,8 +55,8 @@ pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     pair_at(p, q, (along_p, along_q))
 }
 
-/// Returns the first or second end (`end` is 0 or 1) of the segment `p` with the point of `q` that is closest to it;
-/// coordinates in m.
+/// Returns the first or second end of the segment `p` (`end` is 0 or 1) with the point of `q` that is closest to it;
+/// both segments in m and in one frame.
 pub fn end_segment(p: Segment, end: usize, q: Segment) -> SegmentPair {
     let point = if end == 0 { p.0 } else { p.1 };
     let v = q.1 - q.0;
@@ -69,7 +72,7 @@ fn pair_at(p: Segment, q: Segment, along: (f64, f64)) -> SegmentPair {
     SegmentPair { distance, normal, along }
 }
 
-/// Returns the distance of two segments, m, exact to rounding at any angle between them.
+/// Returns the distance of two segments of one frame, m, exact to rounding at any angle between them.
 ///
 /// It is the least of the four distances from an end to the other segment, and of the distance of the lines if their
 /// closest points, by Cramer's rule from the common perpendicular, lie inside both segments.
@@ -94,23 +97,25 @@ pub fn segment_segment_distance(p: Segment, q: Segment) -> f64 {
     }
 }
 
-/// Returns the position along a segment, as a fraction of its length from 0 to 1, of its point closest to `point`
-/// (Ericson 5.1.2); 0 where the segment is a point.
+/// Returns the position along a segment, as a fraction of its length from 0 to 1, of its point closest to `point` (m,
+/// in the segment's frame), by the method of Ericson (*Real-Time Collision Detection*, 2005, sec. 5.1.2); 0 where the
+/// segment is a point.
 pub fn point_segment(point: Vec3, (a, b): Segment) -> f64 {
     let along = b - a;
     let length = along.norm_squared();
     if length > 0.0 { ((point - a).dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Returns the distance of a point from a segment, m.
+/// Returns the distance of a point (m) from the nearest point of a segment of the same frame, m; not negative, and 0
+/// on the segment.
 pub fn point_segment_distance(point: Vec3, segment: Segment) -> f64 {
     let (a, b) = segment;
     (point - a - (b - a) * point_segment(point, segment)).norm()
 }
 
-/// Returns the point of a triangle that is closest to `point`, m: its projection on the plane if that is inside,
-/// else the closest point of the three edges (compare Ericson 5.1.5). A triangle whose corners lie on one line is
-/// treated as its edges.
+/// Returns the point of a triangle `[a, b, c]` that is closest to `point`, all in m and in one frame: its projection
+/// on the plane if that is inside, else the closest point of the three edges (compare Ericson, *Real-Time Collision
+/// Detection*, 2005, sec. 5.1.5). A triangle whose corners lie on one line is treated as its edges.
 pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
     let normal = (b - a).cross(&(c - a));
     let area = normal.norm_squared();
@@ -126,16 +131,17 @@ pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
     candidates.into_iter().reduce(nearer).unwrap_or(a)
 }
 
-/// Returns the signed distance of a point from a box, m: outside the distance from the box, inside minus the
-/// distance from the nearest face.
+/// Returns the signed distance of a point (m) from the surface of a box of the same frame, m: outside the distance
+/// from the box, inside minus the distance from the nearest face.
 pub fn point_box(point: Vec3, around: &Aabb) -> f64 {
     let outside = (around.low - point).sup(&(point - around.high));
     if outside.max() < 0.0 { outside.max() } else { outside.sup(&Vec3::zeros()).norm() }
 }
 
-/// Returns the signed distance of a segment from a convex part, both in one frame, and its direction from the
-/// segment to the part; negative where the segment goes through the part. Once it is known to be at least `enough`
-/// (m), a lower bound on it of at least `enough` is returned.
+/// Returns the signed distance (m) of a segment from a convex part, both in one frame, and its direction from the
+/// segment to the part; negative where the segment goes through the part. The method is that of
+/// [`signed_distance_within`], to whose accuracy it holds. Once it is known
+/// to be at least `enough` (m), a lower bound on it of at least `enough` is returned.
 pub fn segment_part((a, b): Segment, part: &Part, enough: f64) -> SignedDistance {
     let segment = Part::capsule((a + b) / 2.0, (b - a) / 2.0, 0.0);
     signed_distance_within(&segment, part, &Pose::identity(), None, enough)

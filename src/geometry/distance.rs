@@ -15,25 +15,26 @@ use parry3d_f64::shape::SupportMap;
 /// The signed distance of two convex parts, with its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
-    /// The distance of the nearest points, m. If the parts overlap it is minus the penetration depth, the length of
-    /// the shortest shift that separates them. 0 if they touch.
+    /// The distance of the nearest points, m. If the parts overlap, minus the penetration depth, which is the length
+    /// of the shortest shift that separates them; 0 if they touch.
     pub distance: f64,
     /// The direction of the distance: a unit vector from the first part towards the second, in the first one's
     /// frame; any one of several that are equally short.
     pub normal: Vec3,
 }
 
-/// Returns the signed distance of two parts; `X_AB` is the pose of b's frame in a's. Distances of parts that are
-/// apart are exact to about 1e-9 m and 1e-9 of the distance. Depths of round parts that overlap are exact to about a
-/// micrometre, and no depth is too small by more than rounding.
+/// Returns the signed distance of two parts, m; `X_AB` is the pose of b's frame in a's. The method is that of
+/// Gilbert, Johnson and Keerthi (1988), and where parts overlap the expansion of a polytope (EPA). Distances of parts
+/// that are apart are exact to about 1e-9 m and 1e-9 of the distance. Depths of round parts that overlap are exact to
+/// about a micrometre, and no depth is too small by more than rounding.
 pub fn signed_distance(a: &Part, b: &Part, X_AB: &Pose) -> SignedDistance {
     signed_distance_within(a, b, X_AB, None, f64::MAX)
 }
 
-/// Returns the signed distance of two parts as [`signed_distance`] does, or, once it is known to be at least
-/// `enough` (m), a lower bound on it of at least `enough`, with the direction in which it holds. `normal`: a
-/// direction from a to b to begin with, such as that of an instant before; `None` begins with the line of the
-/// centres. Any direction gives the same result to the tolerance.
+/// Returns the signed distance (m) of two parts as [`signed_distance`] does, or, once it is known to be at least
+/// `enough` (m), a lower bound on it of at least `enough`, with the direction in which it holds. `X_AB` is the pose
+/// of b's frame in a's. `normal`: a direction from a to b in a's frame to begin with, such as that of an instant
+/// before; `None` begins with the line of the centres. Any direction gives the same result to the tolerance.
 pub fn signed_distance_within(
     a: &Part,
     b: &Part,
@@ -131,10 +132,10 @@ pub fn separation_along(a: &Part, b: &Part, X_AB: &Pose, normal: &Vec3) -> f64 {
     between.dot(normal) - a.reach(normal) - b.reach(&backward)
 }
 
-/// Returns the signed distance of two solids at their world poses, m: the least of their parts; if negative, minus
-/// the penetration depth of the deepest pair of parts. A solid inside a closed mesh that is not convex, but not in its
-/// hollow, is at minus a lower bound on its depth: its distance from the surface, or the depth of an inner point if
-/// that is more. Infinite if one of the solids is empty.
+/// Returns the signed distance of two solids at their poses `X_WA` and `X_WB` in the world, m: the least of their
+/// parts; if negative, minus the penetration depth of the deepest pair of parts. A solid inside a closed mesh that is
+/// not convex, but not in its hollow, is at minus a lower bound on its depth: its distance from the surface, or the
+/// depth of an inner point if that is more. Infinite if one of the solids is empty.
 pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64 {
     let X_AB = X_WA.inverse() * X_WB;
     let mut least = f64::INFINITY;
@@ -150,14 +151,14 @@ pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64
     if enclosed > 0.0 { -enclosed.max(least.abs()) } else { least }
 }
 
-/// Returns how deep one of two solids is inside the meshes of the other that are not convex, m (see
-/// [`Solid::enclosed_point`]); 0 if neither is. `X_AB` is the pose of b in a.
+/// Returns the depth, m, to which one of two solids is inside the meshes of the other that are not convex (see
+/// [`Solid::enclosed_point`]): a lower bound, not negative; 0 if neither is. `X_AB` is the pose of b's frame in a's.
 pub fn enclosed_depth(a: &Solid, b: &Solid, X_AB: &Pose) -> f64 {
     enclosed_point(a, b, X_AB).map_or(0.0, |(depth, _)| depth)
 }
 
-/// Returns the depth as [`enclosed_depth`] does, with a point that is as deep, in a's frame (m); `None` if neither solid
-/// is inside the other's meshes.
+/// Returns the depth (m) as [`enclosed_depth`] does, with a point that is as deep, in a's frame (m); `None` if
+/// neither solid is inside the other's meshes. `X_AB` is the pose of b's frame in a's.
 pub fn enclosed_point(a: &Solid, b: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
     let in_a = a.enclosed_point(b, X_AB);
     let in_b = b.enclosed_point(a, &X_AB.inverse());

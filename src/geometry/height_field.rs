@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightField {
-    /// The position (x, y) of the first height in the world, m.
+    /// The position (x, y) of the first height in the world's frame, m.
     pub corner: [f64; 2],
     /// The distance of neighbours along x and y, m; positive.
     pub spacing: f64,
@@ -23,7 +23,8 @@ pub struct HeightField {
 }
 
 impl HeightField {
-    /// Returns the fault of the field in words; `None` if it is sound, which the other methods need.
+    /// Returns the fault of the field in words, as a clause for a message; `None` if the field is sound, which the
+    /// other methods require.
     pub fn fault(&self) -> Option<&'static str> {
         let rows = self.heights.len().checked_div(self.columns).unwrap_or(0);
         let faults = [
@@ -43,7 +44,7 @@ impl HeightField {
         self.heights.iter().chain(&self.corner).chain(&ends).all(|x| x.abs() <= EXTENT_MAX)
     }
 
-    /// Returns the number of heights along y.
+    /// Returns the number of heights along y, at least 2 for a sound field.
     pub fn rows(&self) -> usize {
         self.heights.len() / self.columns
     }
@@ -78,9 +79,9 @@ impl HeightField {
         p.z - self.height(p.x, p.y)
     }
 
-    /// Calls `report` with fractions of a segment's length (0 to 1) and the heights above the ground there (m): at
-    /// its ends and wherever it crosses, seen from above, a side of a triangle. In between the height is linear. The
-    /// calls are in no order; the same fraction may come twice.
+    /// Calls `report` with fractions of a segment's length (0 at `p` to 1 at `q`, both in the world, m) and the
+    /// heights above the ground there (m): at its ends and wherever it crosses, seen from above, a side of a
+    /// triangle. In between the height is linear. The calls are in no order; the same fraction may come twice.
     pub fn profile(&self, p: Vec3, q: Vec3, mut report: impl FnMut(f64, f64)) {
         let mut sample = |part: f64| report(part, self.above(p + (q - p) * part));
         sample(0.0);
@@ -104,8 +105,8 @@ impl HeightField {
         }
     }
 
-    /// Returns the point of a segment that is lowest above the ground: its position as a fraction of the length, 0
-    /// to 1, and its height above the ground, m; negative below it.
+    /// Returns the point of the segment from `p` to `q` (in the world, m) that is lowest above the ground: its
+    /// position as a fraction of the length, 0 to 1, and its height above the ground, m; negative below it.
     pub fn lowest(&self, p: Vec3, q: Vec3) -> (f64, f64) {
         let mut least = (0.0, f64::INFINITY);
         self.profile(p, q, |part, height| {

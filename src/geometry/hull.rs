@@ -5,17 +5,18 @@ use nalgebra::Matrix3;
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::BTreeMap;
 
-/// The surface of a convex hull: only the points that are its corners, and triangles.
+/// The surface of a convex hull as a triangle mesh whose vertices are the corners of the hull alone.
 #[derive(Clone, Debug)]
 pub struct Faces {
-    /// The corners of the hull, m.
+    /// The corners of the hull, m, in the frame of the points that it was made of.
     pub points: Vec<Vec3>,
     /// Three indices in `points`, from 0, for each triangle, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Returns the surface of the convex hull of points (m); `None` if they span no volume, or rounding keeps parry from
-/// a hull.
+/// Returns the surface of the convex hull of points (m), in their frame, by parry's convex hull of the points after
+/// an affine map that makes them as thick as wide; `None` if they span no volume, or rounding keeps parry from a
+/// hull.
 pub fn faces(points: &[Vec3]) -> Option<Faces> {
     // An affine map leaves the corners the same: coordinates are whitened, so that a thin hull is as thick as wide
     // and not taken for flat.
@@ -30,10 +31,10 @@ pub fn faces(points: &[Vec3]) -> Option<Faces> {
     Some(Faces { points: corners.collect::<Option<_>>()?, triangles })
 }
 
-/// Returns three perpendicular vectors by which points reach from the first of them, m: in the direction in which
-/// they reach farthest; across that; and across both, the flattest direction among the planes through three far
-/// apart points. The three are right-handed. `None` if one is shorter than `least` (m), or has no length, and for no
-/// points.
+/// Returns the extents of a set of points (m) as three perpendicular, right-handed vectors, each with the length (m)
+/// by which the points reach from the first of them: in the direction in which they reach farthest; across that; and
+/// across both, the flattest direction among the planes through three far apart points. `None` if one is shorter than
+/// `least` (m), or has no length, and for no points.
 pub fn extents(points: &[Vec3], least: f64) -> Option<[Vec3; 3]> {
     let first = points.first()?;
     let farthest = |measure: &dyn Fn(&Vec3) -> f64| {

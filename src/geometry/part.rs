@@ -17,9 +17,9 @@ const RIM_CORNERS: usize = 256;
 #[derive(Clone, Debug)]
 pub struct Part {
     form: Form,
-    /// Centre of a ball around the part, m.
+    /// The centre of a ball around the part, m, in the frame of the part's solid.
     pub centre: Vec3,
-    /// Radius of that ball, m.
+    /// The radius of the ball about [`Part::centre`] that holds the part, m.
     pub radius: f64,
 }
 
@@ -36,31 +36,35 @@ enum Form {
 }
 
 impl Part {
-    /// Returns the box about `centre` (m) with these halves of its edges, which must be perpendicular; m.
+    /// Returns the box about `centre` (m) with these halves of its edges (m) as vectors, which must be perpendicular
+    /// to each other; all in the frame of the part's solid.
     pub fn boxed(centre: Vec3, half_edges: [Vec3; 3]) -> Part {
         let radius = half_edges.iter().map(Vec3::norm_squared).sum::<f64>().sqrt();
         Part { form: Form::Box(half_edges), centre, radius }
     }
 
-    /// Returns the cylinder about `centre` (m) with this half of its axis, a vector that must not be zero, and this
-    /// radius; m.
+    /// Returns the cylinder about `centre` (m) with half of its axis as the vector `half_axis` (m), which must not be
+    /// zero, and this `radius` (m); all in the frame of the part's solid.
     pub fn cylinder(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         let reach = (half_axis.norm_squared() + radius * radius).sqrt();
         Part { form: Form::Cylinder(half_axis, half_axis.normalize(), radius), centre, radius: reach }
     }
 
     /// Returns the capsule about `centre` (m), all points within `radius` (m) of the segment from `centre -
-    /// half_axis` to `centre + half_axis`. Both the radius and the half axis may be zero.
+    /// half_axis` to `centre + half_axis`, in the frame of the part's solid. Both the radius and the half axis may be
+    /// zero.
     pub fn capsule(centre: Vec3, half_axis: Vec3, radius: f64) -> Part {
         Part { form: Form::Capsule(half_axis, radius), centre, radius: half_axis.norm() + radius }
     }
 
-    /// Returns the ball about `centre` (m) with this radius (m); with a radius of 0 it is a point.
+    /// Returns the ball about `centre` (m, in the frame of the part's solid) with this `radius` (m); with a radius of
+    /// 0 it is a point.
     pub fn sphere(centre: Vec3, radius: f64) -> Part {
         Part { form: Form::Sphere(radius), centre, radius }
     }
 
-    /// Returns the convex hull of these points (m), which may be flat. Panics if there are none.
+    /// Returns the convex hull of these points (m, in the frame of the part's solid), which may be flat. Panics if
+    /// there are none.
     pub fn points(points: &[Vec3]) -> Part {
         let bound = |pick: fn(f64, f64) -> f64| points.iter().fold(points[0], |m, p| m.zip_map(p, pick));
         let centre = (bound(f64::min) + bound(f64::max)) / 2.0;
@@ -69,8 +73,8 @@ impl Part {
         Part { form: Form::Points(points), centre, radius }
     }
 
-    /// Returns the support function from the centre, `max n · (p - centre)` over the part's points, m for a unit
-    /// vector; `n` may have any length, with which the result grows in proportion.
+    /// Returns the support function about the centre, `max n · (p - centre)` over the part's points p, m for a unit
+    /// vector `n` of the part's frame; `n` may have any length, with which the result grows in proportion.
     #[inline]
     pub fn reach(&self, n: &Vec3) -> f64 {
         match &self.form {
@@ -85,13 +89,14 @@ impl Part {
         }
     }
 
-    /// Returns a point of the part that is farthest along `n`, a support point, m; `n` may have any length.
+    /// Returns a support point of the part: one that is farthest along `n`, in the part's frame (m). `n` may have any
+    /// length.
     pub fn support(&self, n: &Vec3) -> Vec3 {
         self.core_support(n) + unit_or_zero(n) * self.rounding()
     }
 
-    /// Returns a point inside the part, m: the centre, or the mean of the corners of a hull, whose centre may be
-    /// outside.
+    /// Returns a point inside the part, m, in the part's frame: the centre, or the mean of the corners of a hull,
+    /// whose centre may be outside.
     pub fn inner_point(&self) -> Vec3 {
         match &self.form {
             Form::Points(points) => self.centre + points.iter().sum::<Vec3>() / points.len() as f64,
@@ -108,7 +113,8 @@ impl Part {
         }
     }
 
-    /// Returns a point of the core (see [`rounding`](Self::rounding)) that is farthest along `n`, m.
+    /// Returns a point of the core (see [`rounding`](Self::rounding)) that is farthest along the vector `n`, in the
+    /// part's frame, m.
     pub fn core_support(&self, n: &Vec3) -> Vec3 {
         let toward = |v: &Vec3| if n.dot(v) < 0.0 { -v } else { *v };
         let from_centre = match &self.form {
@@ -144,7 +150,7 @@ impl Part {
         from_centre.into_iter().map(|p| self.centre + p).collect()
     }
 
-    /// Returns the part in the frame in which its own frame has the pose `X`.
+    /// Returns the part in the frame in which its own frame has the pose `X` (metres): every point p becomes `X · p`.
     pub fn moved(&self, X: &Pose) -> Part {
         let turn = |v: &Vec3| X.rotation * v;
         let form = match &self.form {
@@ -157,7 +163,7 @@ impl Part {
         Part { form, centre: X.transform_point(&self.centre.into()).coords, radius: self.radius }
     }
 
-    /// Returns the part scaled about its centre by a positive factor.
+    /// Returns the part scaled about its centre by a positive factor without unit; the centre stays.
     pub fn scaled(&self, factor: f64) -> Part {
         let form = match &self.form {
             Form::Box(e) => Form::Box(e.map(|v| v * factor)),
@@ -169,9 +175,9 @@ impl Part {
         Part { form, centre: self.centre, radius: self.radius * factor }
     }
 
-    /// Returns true if a turn by any angle about the line through `point` (m) along the unit vector `axis` leaves
-    /// the part as it is: it is a ball, cylinder or capsule whose centre and half axis are off the line by at most
-    /// `tol`, m.
+    /// Returns true if a turn by any angle about the line through `point` (m, in the part's frame) along the unit
+    /// vector `axis` leaves the part as it is: it is a ball, cylinder or capsule whose centre and half axis are off
+    /// the line by at most `tol`, m.
     pub fn is_round_about(&self, point: &Vec3, axis: &Vec3, tol: f64) -> bool {
         let off_line = |p: &Vec3| (p - axis * axis.dot(p)).norm();
         let centred = off_line(&(self.centre - point)) <= tol;

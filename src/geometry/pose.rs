@@ -1,15 +1,16 @@
 //! Vectors, and rigid displacements with a quaternion. A pose `X_AB` is the pose of frame B in frame A:
 //! `p_A = X_AB * p_B`.
 
-/// A rigid displacement of SE(3), by a unit quaternion: rotation, then translation in metres. For inner loops see
-/// [`RigidTransform`](super::RigidTransform).
+/// A rigid displacement of SE(3) as a unit quaternion and a translation in metres: rotation first, then translation.
+/// `X_AB` is the pose of frame B in frame A. For inner loops see [`RigidTransform`](super::RigidTransform).
 pub type Pose = nalgebra::Isometry3<f64>;
 
-/// A vector of three numbers: a position in metres, a direction, a moment.
+/// A vector of three real numbers along x, y and z: a position in metres, a direction without unit, or a moment in
+/// N·m, as the user of the type states.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
-/// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule. The
-/// axis need not be of unit length; a zero axis gives no rotation.
+/// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule, as a pose
+/// without translation. The axis need not be of unit length; a zero axis gives no rotation.
 pub fn turned(axis: Vec3, angle: f64) -> Pose {
     let n = axis.norm();
     if n == 0.0 {
@@ -21,7 +22,7 @@ pub fn turned(axis: Vec3, angle: f64) -> Pose {
     Pose::from_parts(nalgebra::Translation3::identity(), nalgebra::UnitQuaternion::new_normalize(q))
 }
 
-/// Returns the translation by a vector in metres.
+/// Returns the translation by a vector in metres, as a pose without rotation.
 pub fn shifted(p: Vec3) -> Pose {
     Pose::from_parts(p.into(), nalgebra::UnitQuaternion::identity())
 }

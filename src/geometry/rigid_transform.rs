@@ -11,9 +11,10 @@ use super::pose::{Pose, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::ops::Mul;
 
-/// `X_AB`: the pose of frame B in frame A, `p_A = R_AB · p_B + t_AB`.
+/// A rigid transform as a rotation matrix and a translation: `X_AB`, the pose of frame B in frame A, maps `p_B` to
+/// `p_A = R_AB · p_B + t_AB`.
 ///
-/// Lengths are in the caller's unit (metres, or pitches of a lattice); nothing here depends on it.
+/// Lengths are in the caller's unit (metres, or pitches of a lattice); no method depends on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidTransform {
     /// `R_AB`: the axes of B as columns, in A. Orthonormal with determinant 1; nothing renormalises it.
@@ -23,12 +24,13 @@ pub struct RigidTransform {
 }
 
 impl RigidTransform {
-    /// Returns the transform that changes nothing.
+    /// Returns the identity transform: no rotation, and a translation of zero.
     pub fn identity() -> RigidTransform {
         RigidTransform { rotation: Matrix3::identity(), translation: Vec3::zeros() }
     }
 
-    /// Returns the product `X_AC = X_AB · X_BC`, where `self` is `X_AB` and `next` is `X_BC`.
+    /// Returns the product `X_AC = X_AB · X_BC`, where `self` is `X_AB` and `next` is `X_BC`; both in one unit of
+    /// length.
     #[inline]
     pub fn then(&self, next: &RigidTransform) -> RigidTransform {
         RigidTransform {
@@ -37,7 +39,7 @@ impl RigidTransform {
         }
     }
 
-    /// Returns the inverse transform, `X_BA`.
+    /// Returns the inverse transform, `X_BA` if `self` is `X_AB`, with the translation in the same unit of length.
     #[inline]
     pub fn inverse(&self) -> RigidTransform {
         let back = self.rotation.transpose();
@@ -76,22 +78,23 @@ impl From<&RigidTransform> for Pose {
     }
 }
 
-/// Returns the rotation matrix of a turn about +x by an angle in radians, by the right-hand rule.
+/// Returns the 3 × 3 rotation matrix of a turn about +x by an angle in radians, by the right-hand rule.
 #[inline]
 pub fn rotation_x(angle: f64) -> Matrix3<f64> {
     let (s, c) = sin_cos(angle);
     Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
 }
 
-/// Returns the rotation matrix of a turn about +z by an angle in radians, by the right-hand rule.
+/// Returns the 3 × 3 rotation matrix of a turn about +z by an angle in radians, by the right-hand rule.
 #[inline]
 pub fn rotation_z(angle: f64) -> Matrix3<f64> {
     let (s, c) = sin_cos(angle);
     Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Returns the rotation vector of a rotation matrix, the logarithm of SO(3): the unit axis times the angle, which is
-/// 0 to π, in radians. The sign of the axis of a half turn is arbitrary, but depends on nothing but the matrix.
+/// Returns the rotation vector of a rotation matrix, the logarithm of SO(3) (Murray, Li and Sastry 1994, sec. 2.2):
+/// the unit axis times the angle, which is 0 to π, in radians. The sign of the axis of a half turn is arbitrary, but
+/// depends on nothing but the matrix.
 pub fn rotation_vector(r: &Matrix3<f64>) -> Vec3 {
     let twice_sine = Vec3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12);
     let (s, c) = (0.5 * twice_sine.norm(), 0.5 * (r.trace() - 1.0));

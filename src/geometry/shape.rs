@@ -11,56 +11,56 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
-    /// A cuboid with its edges along x, y and z.
+    /// A cuboid about the origin of its frame, with its edges along x, y and z.
     Box {
-        /// Edge lengths, m.
+        /// The edge lengths along x, y and z of the shape's frame, m.
         #[schemars(with = "[f64; 3]")]
         size: Vec3,
     },
     /// A cylinder about the origin of its frame, as long as `length` along `axis`.
     Cylinder {
-        /// The radius, m.
+        /// The radius of the cylinder, m.
         radius: f64,
-        /// The length, m.
+        /// The length of the cylinder along its axis, m.
         length: f64,
-        /// The direction of the axis, as a unit vector.
+        /// The direction of the axis, as a unit vector in the shape's frame.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     /// A ball about the origin of its frame.
     Sphere {
-        /// The radius, m.
+        /// The radius of the ball, m.
         radius: f64,
     },
     /// A capsule about the origin of its frame: all points within `radius` of a segment along `axis`.
     Capsule {
-        /// The radius, m.
+        /// The radius of the capsule about its segment, m.
         radius: f64,
         /// The length of the segment, between the centres of the two caps, m; it may be 0.
         length: f64,
-        /// The direction of the axis, as a unit vector.
+        /// The direction of the segment, as a unit vector in the shape's frame.
         #[schemars(with = "[f64; 3]")]
         axis: Vec3,
     },
     /// The convex hull of at least four points that do not lie in one plane. A prism is one, too.
     Hull {
-        /// Points whose convex hull it is, m.
+        /// The points whose convex hull the shape is, m, in the shape's frame.
         #[schemars(with = "Vec<[f64; 3]>")]
         points: Vec<Vec3>,
     },
     /// A closed triangle mesh; `name` is the file it was read from.
     Mesh {
-        /// Name of the file, relative to the project.
+        /// The name of the file that the mesh was read from, relative to the project.
         name: String,
-        /// The positions of the vertices, m.
+        /// The positions of the vertices, m, in the shape's frame.
         #[schemars(with = "Vec<[f64; 3]>")]
         vertices: Vec<Vec3>,
-        /// Indices of vertices, from 0, counterclockwise as seen from outside.
+        /// The triangles, each as three indices in `vertices`, from 0, counterclockwise as seen from outside.
         triangles: Vec<[u32; 3]>,
     },
-    /// Solids that are one; they may overlap.
+    /// A union of solids; they may overlap.
     Union {
-        /// The solids with their poses.
+        /// The solids of the union, each with its pose in the frame of the union.
         parts: Vec<Placed>,
     },
 }
@@ -83,14 +83,14 @@ impl Shape {
     }
 }
 
-/// A shape at a pose in the frame of the thing that it belongs to (`X_LS`, link to shape).
+/// A shape at a pose in the frame of the link or union that it belongs to (`X_LS`, link to shape).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Placed {
-    /// The pose of the shape's frame, `X_LS`.
+    /// The pose of the shape's frame in the frame of its link or union, `X_LS`, in metres.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
-    /// The shape in that frame.
+    /// The shape, in its own frame.
     pub shape: Shape,
 }

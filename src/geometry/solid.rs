@@ -26,17 +26,18 @@ pub struct Solid {
     /// A point inside each convex part and inside each connected surface of a mesh, m: where no surfaces cross, some
     /// of these points are inside another solid if anything of this one is.
     probes: Vec<Vec3>,
-    /// Centre of a ball around the whole, m.
+    /// The centre of a ball around the whole solid, m, in the link's frame.
     pub centre: Vec3,
-    /// Radius of that ball, m; 0 for an empty solid.
+    /// The radius of the ball about [`Solid::centre`] that holds the solid, m; 0 for an empty solid.
     pub radius: f64,
-    /// The least and the greatest corner of the axis-aligned box around the whole, m; both 0 for an empty solid.
+    /// The least and the greatest corner of the axis-aligned box around the whole solid, m, in the link's frame; both
+    /// 0 for an empty solid.
     pub bounds: (Vec3, Vec3),
 }
 
 impl Solid {
-    /// Compiles placed shapes, in metres in the link's frame, into convex parts; no shapes give an empty solid.
-    /// Poses must be rigid, which [`soundness::check_placed`] checks.
+    /// Compiles placed shapes, in metres in the link's frame, into convex parts; no shapes give an empty solid. Poses
+    /// must be rigid, which [`soundness::check_placed`] checks.
     ///
     /// # Errors
     /// The first [`Unsound`] fault of a shape: too thin, not finite or larger than
@@ -69,11 +70,11 @@ impl Solid {
         !self.shells.is_empty()
     }
 
-    /// Returns a point (m) of another solid at the pose `X_AB` that is inside the meshes of this one that are not
-    /// convex, in this one's frame, with its distance from their surface: a lower bound, m, on the depth to which the
-    /// other is inside. One point inside each convex part of the other and inside each connected surface of its meshes
-    /// is tried, and the deepest is returned; `None` if none is inside, as in a hollow. A solid that is wholly inside is
-    /// found if no surfaces cross.
+    /// Returns the point (m, in this solid's frame) of another solid at the pose `X_AB` that is deepest inside the
+    /// meshes of this one that are not convex, with its distance from their surface: a lower bound, m, on the depth
+    /// to which the other is inside. One point inside each convex part of the other and inside each connected surface
+    /// of its meshes is tried; `None` if none is inside, as in a hollow. A solid that is wholly inside is found if no
+    /// surfaces cross.
     pub fn enclosed_point(&self, other: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
         let (low, high) = self.bounds;
         let found = |probe: &Vec3| {
@@ -91,8 +92,8 @@ impl Solid {
         deepest.filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Returns the penetration depth of a point (m, in the link's frame), m: that in the part in which it is
-    /// deepest; 0 outside of all, and in the hollow of a mesh that is not convex.
+    /// Returns the penetration depth, m, of a point (m, in the link's frame): that in the part in which it is
+    /// deepest; 0 outside of all parts, and in the hollow of a mesh that is not convex.
     pub fn depth_of(&self, point: &Vec3) -> f64 {
         let point = Part::sphere(*point, 0.0);
         let depth = |part: &Part| -signed_distance(part, &point, &Pose::identity()).distance;

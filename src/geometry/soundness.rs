@@ -21,34 +21,34 @@ pub const TOL_UNIT: f64 = 1e-6;
 /// The fault by which a shape is no solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsound {
-    /// A number that is not finite, or whose absolute value is larger than [`EXTENT_MAX`].
+    /// A number of a shape or pose that is not finite, or whose absolute value is larger than [`EXTENT_MAX`].
     NotFinite,
-    /// The named size is zero, negative or less than [`THICKNESS_MIN`].
+    /// A size of a shape, given by its name, that is zero, negative or less than [`THICKNESS_MIN`].
     TooThin {
-        /// The name of the size: `radius`.
+        /// The name of the size, such as `radius`.
         what: &'static str,
-        /// The extent, m.
+        /// The size that was found, m.
         value: f64,
     },
-    /// The axis has no direction: it is shorter than [`THICKNESS_MIN`].
+    /// A cylinder or capsule whose axis has no direction: the vector is shorter than [`THICKNESS_MIN`].
     NoAxis,
-    /// Fewer than four points, or all in one plane to [`THICKNESS_MIN`].
+    /// A hull or mesh of fewer than four points, or of points that all lie in one plane to [`THICKNESS_MIN`].
     Flat,
-    /// A corner of a triangle is an index that is too large for the vertices.
+    /// A triangle of a mesh with a corner whose index is too large for the list of vertices.
     NoVertex {
-        /// Index of the triangle, from 0.
+        /// The index of the triangle in the mesh, from 0.
         triangle: usize,
     },
-    /// An edge has not as many triangles in one direction as in the opposite one.
+    /// A mesh that is not closed: an edge has not as many triangles in one direction as in the opposite one.
     Open {
-        /// The lesser index of the edge's two vertices, from 0.
+        /// The lesser index, from 0, of the edge's two vertices in the mesh.
         a: u32,
-        /// The greater index.
+        /// The greater index, from 0, of the edge's two vertices in the mesh.
         b: u32,
     },
-    /// The triangles enclose less than the cube of [`THICKNESS_MIN`], or are turned inside out.
+    /// A mesh whose triangles enclose less than the cube of [`THICKNESS_MIN`], or are turned inside out.
     NoInside,
-    /// A list of shapes, or of vertices, with nothing in it.
+    /// An empty list of shapes, or of vertices.
     Empty,
     /// A pose whose rotation is a quaternion with a norm that differs from 1 by [`TOL_UNIT`] or more.
     NotRigid,
@@ -129,7 +129,7 @@ pub fn check_pose(pose: &Pose) -> Result<(), Unsound> {
     if (norm - 1.0).abs() < TOL_UNIT { Ok(()) } else { Err(Unsound::NotRigid) }
 }
 
-/// Returns true if all coordinates (m) are finite and not farther from 0 than [`EXTENT_MAX`].
+/// Returns true if all coordinates (m) are finite and of an absolute value of at most [`EXTENT_MAX`].
 pub fn in_reach(position: &[f64]) -> bool {
     position.iter().all(|c| c.abs() <= EXTENT_MAX)
 }

@@ -7,10 +7,10 @@ use super::soundness::{self, Unsound};
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// The volume of a solid, with its first and second moments.
+/// The volume of a solid, with its first and second moments for a density of 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume {
-    /// The volume, m³.
+    /// The volume of the solid, m³.
     pub volume: f64,
     /// The centroid, m, in the frame of the shape or of the poses that it was computed from.
     pub centre: Vec3,
@@ -19,8 +19,9 @@ pub struct Volume {
 }
 
 impl Volume {
-    /// Returns the inertia tensor about the centroid for a density of 1, `tr(S) 1 - S`, m⁵: times the density in
-    /// kg/m³ it is in kg·m².
+    /// Returns the 3 × 3 inertia tensor about the centroid for a density of 1, `tr(S) 1 - S` with S the second
+    /// moments, m⁵: times the density in kg/m³ it is in kg·m². Its axes are those of the frame that the volume was
+    /// computed in.
     pub fn inertia(&self) -> Matrix3<f64> {
         Matrix3::identity() * self.second.trace() - self.second
     }
@@ -50,7 +51,8 @@ impl Volume {
     }
 }
 
-/// Returns the moments of one shape in its own frame.
+/// Returns the volume, centroid and second moments of one shape in its own frame: in closed form, and of a hull or
+/// mesh as a sum of tetrahedra.
 ///
 /// # Errors
 /// The first fault of the shape ([`soundness::check`]).
@@ -79,12 +81,11 @@ pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     })
 }
 
-/// Returns the moments of several placed shapes together, in the frame of their poses; an overlap counts as often as
-/// shapes share it.
+/// Returns the volume, centroid and second moments of several placed shapes together, in the frame of their poses, by
+/// the parallel axis theorem; an overlap counts as often as shapes share it. Poses are not checked to be rigid.
 ///
 /// # Errors
-/// The first fault of a shape ([`soundness::check`]), or [`Unsound::Empty`] if there is none. Poses are taken as
-/// they are.
+/// The first fault of a shape ([`soundness::check`]), or [`Unsound::Empty`] if there is none.
 pub fn of_placed(shapes: &[Placed]) -> Result<Volume, Unsound> {
     if shapes.is_empty() {
         return Err(Unsound::Empty);

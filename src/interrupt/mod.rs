@@ -35,7 +35,7 @@ struct Flags {
 type Waker = Box<dyn Fn() + Send>;
 
 impl CancelState {
-    /// Cancels the work, and that under every [`child`](Self::child): it unwinds at its next checkpoint.
+    /// Cancels the work of this token, and of every [`child`](Self::child): it unwinds at its next checkpoint.
     pub fn cancel(&self) {
         self.0.cancelled.store(true, Ordering::Relaxed);
     }
@@ -59,8 +59,8 @@ impl CancelState {
             || self.0.parent.as_ref().is_some_and(CancelState::is_cancelled)
     }
 
-    /// Returns a new token, for helper threads, that is also cancelled whenever this one is. Cancelling it leaves
-    /// this one alone, and it has its own progress requests.
+    /// Returns a new token, for helper threads, that is also cancelled whenever this one is. Cancelling the child
+    /// leaves this one alone, and the child has its own progress requests.
     pub fn child(&self) -> CancelState {
         CancelState(Arc::new(Flags { parent: Some(self.clone()), ..Flags::default() }))
     }
@@ -89,7 +89,7 @@ impl CancelState {
         self.0.progress_requested.store(true, Ordering::Relaxed);
     }
 
-    /// Returns true if a progress request waits to be answered.
+    /// Returns true if a progress request has not been answered yet.
     pub fn is_progress_requested(&self) -> bool {
         self.0.progress_requested.load(Ordering::Relaxed)
     }

@@ -6,7 +6,8 @@
 //! an order that keeps the envelope small ([`super::cuthill_mckee`]), by the active-set quadratic programs. Small
 //! systems of a size known when compiled are left to nalgebra's own decomposition, which needs no heap.
 
-/// The lower half of a symmetric matrix, by rows, within an envelope.
+/// A symmetric matrix, of which the lower half is stored by rows within an envelope (skyline storage; George and Liu
+/// 1981, sec. 4.2): each row from its first entry that may differ from zero to the diagonal.
 #[derive(Clone, Debug)]
 pub struct SymmetricMatrix {
     /// The first column of each row.
@@ -37,7 +38,8 @@ pub enum PivotRule {
     Raise(f64),
 }
 
-/// The factor `L`, lower triangular with a positive diagonal, in the envelope of the matrix it comes from.
+/// The factor `L` of the Cholesky decomposition `A = L Lᵀ`: lower triangular with a positive diagonal, in the
+/// envelope of A.
 #[derive(Clone, Debug)]
 pub struct Cholesky {
     lower: SymmetricMatrix,
@@ -68,46 +70,47 @@ impl SymmetricMatrix {
         self.first.len()
     }
 
-    /// Returns the first column of a row's envelope; both count from 0.
+    /// Returns the first column of the envelope of a row; rows and columns count from 0. Panics if there is no such
+    /// row.
     #[inline]
     pub fn first(&self, row: usize) -> usize {
         self.first[row]
     }
 
-    /// Returns a row's entries, in order of column, from the first column of its envelope up to the diagonal; rows
-    /// count from 0.
+    /// Returns the stored entries of a row, in order of column, from the first column of its envelope up to the
+    /// diagonal; rows count from 0. Panics if there is no such row.
     #[inline]
     pub fn row(&self, row: usize) -> &[f64] {
         &self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Returns a row's entries, to be changed, in order of column, from the first column of its envelope up to the
-    /// diagonal; rows count from 0.
+    /// Returns the stored entries of a row for writing, in order of column, from the first column of its envelope up
+    /// to the diagonal; rows count from 0. Panics if there is no such row.
     #[inline]
     pub fn row_mut(&mut self, row: usize) -> &mut [f64] {
         &mut self.values[self.start[row]..self.start[row + 1]]
     }
 
-    /// Adds `value` to the entry at a row and column, from 0. Panics unless the entry lies in the envelope of the
-    /// lower half.
+    /// Adds `value` to the entry at a row and a column, both from 0. Panics unless the entry lies in the envelope of
+    /// the lower half.
     #[inline]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let first = self.first[row];
         self.row_mut(row)[column - first] += value;
     }
 
-    /// Returns the sum of the diagonal entries.
+    /// Returns the trace, the sum of the diagonal entries, in the unit of the entries.
     pub fn trace(&self) -> f64 {
         (0..self.size()).map(|row| self.values[self.start[row + 1] - 1]).sum()
     }
 
-    /// Returns the number of multiplications that a decomposition takes, to the leading order.
+    /// Returns the number of multiplications that a Cholesky decomposition of the matrix takes, to the leading order.
     pub fn work(&self) -> usize {
         self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
     }
 
-    /// Decomposes the matrix in place (Cholesky-Banachiewicz). Returns `None` where the rule refuses a pivot;
-    /// [`PivotRule::Raise`] refuses none.
+    /// Returns the Cholesky decomposition of the matrix, made in place row by row (Cholesky–Banachiewicz). `None`
+    /// where the rule refuses a pivot; [`PivotRule::Raise`] refuses none.
     pub fn cholesky(mut self, rule: PivotRule) -> Option<Cholesky> {
         for i in 0..self.size() {
             let (done, rest) = self.values.split_at_mut(self.start[i]);
@@ -139,13 +142,13 @@ impl PivotRule {
 }
 
 impl Cholesky {
-    /// Returns the lower triangular factor `L`.
+    /// Returns the lower triangular factor `L` of `A = L Lᵀ`.
     pub fn lower(&self) -> &SymmetricMatrix {
         &self.lower
     }
 
     /// Replaces `b`, with an entry for every row, by `L⁻¹ b` (forward substitution). Leading zeros of `b` stay zeros
-    /// and cost nothing.
+    /// and cost nothing. Panics if `b` has more entries than the matrix has rows.
     pub fn solve_lower(&self, b: &mut [f64]) {
         let begin = b.iter().position(|value| *value != 0.0).unwrap_or(b.len());
         for i in begin..b.len() {
@@ -156,7 +159,8 @@ impl Cholesky {
         }
     }
 
-    /// Replaces `y`, with an entry for every row, by `L⁻ᵀ y` (backward substitution).
+    /// Replaces `y`, with an entry for every row, by `L⁻ᵀ y` (backward substitution). Panics if `y` has more entries
+    /// than the matrix has rows.
     pub fn solve_upper(&self, y: &mut [f64]) {
         match self.lower.summation {
             Summation::InOrder => self.solve_upper_by_columns(y),
@@ -183,7 +187,8 @@ impl Cholesky {
         }
     }
 
-    /// Replaces the right side `b`, with an entry for every row, by the solution of `A x = b`.
+    /// Replaces the right side `b`, with an entry for every row, by the solution x of `A x = b`, by forward and
+    /// backward substitution. Panics if `b` has more entries than the matrix has rows.
     pub fn solve(&self, b: &mut [f64]) {
         self.solve_lower(b);
         self.solve_upper(b);

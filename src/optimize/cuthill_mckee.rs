@@ -1,10 +1,11 @@
 //! The order of Cuthill and McKee (1969): rows of a sparse symmetric matrix numbered so that entries keep near the
 //! diagonal, in a narrow band or a small envelope.
 
-/// Numbers the rows that are connected with row `start`, breadth first; of the neighbours of a row those with fewer
-/// neighbours come first, and of these those of smaller index. Appends their indices, from 0, to `order` and marks
-/// them in `known`, which has a flag for every row, and where `start` must not be marked yet. `neighbours` lists for
-/// each row the others with which it shares an entry, as [`neighbours()`] does.
+/// Numbers the rows that are connected with row `start`, in the order of Cuthill and McKee (1969): breadth first; of
+/// the neighbours of a row those with fewer neighbours come first, and of these those of smaller index. Appends their
+/// indices, from 0, to `order` and marks them in `known`, which has a flag for every row, and where `start` must not
+/// be marked yet. `neighbours` lists for each row the others with which it shares an entry, as [`neighbours()`] does.
+/// Panics if an index is not less than the number of rows.
 pub fn number_from(start: usize, neighbours: &[Vec<usize>], known: &mut [bool], order: &mut Vec<usize>) {
     known[start] = true;
     let mut at = order.len();

@@ -13,7 +13,8 @@ use super::sparse_cholesky::SparseCholesky;
 /// measured to be the faster.
 const WORK_MAX: usize = 400_000_000;
 
-/// The convex quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows come one by one.
+/// The convex quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows are added one by
+/// one; between solutions it is warm-started.
 pub struct QuadraticProgram {
     /// The entries of the positive semidefinite H on and above the diagonal; those with equal indices are
     /// summed.
@@ -37,13 +38,13 @@ impl QuadraticProgram {
         QuadraticProgram { hessian, linear, rows: Vec::new(), active }
     }
 
-    /// Adds an equality `a·x = b`, which takes the next row number.
+    /// Adds an equality `a·x = b`, which takes the next row number, from 0.
     pub fn equal(&mut self, row: Row) {
         self.add(row, true);
     }
 
-    /// Adds an inequality `a·x ≤ b`. Returns its row number, for [`set`](Self::set): rows of both sorts are counted
-    /// from 0.
+    /// Adds an inequality `a·x ≤ b`. Returns its row number, for [`set`](Self::set): equalities and inequalities are
+    /// counted together, from 0.
     pub fn at_most(&mut self, row: Row) -> usize {
         self.add(row, false)
     }
@@ -56,8 +57,8 @@ impl QuadraticProgram {
         self.rows.len() - 1
     }
 
-    /// Changes the right side of the row of this number, from 0 in the order of the rows. Panics if there is no such
-    /// row.
+    /// Sets the right side of the row of this number, from 0 in the order in which rows were added. Panics if there
+    /// is no such row.
     pub fn set(&mut self, row: usize, right: f64) {
         self.rows[row].0.1 = right;
         if let Some(active) = &mut self.active {
@@ -65,13 +66,14 @@ impl QuadraticProgram {
         }
     }
 
-    /// Returns the optimal x for the rows as they are now, one entry for every variable, to the tolerance of
-    /// [`new`](Self::new); where the active-set method fails, and if H is singular or too dense for it, to that of
+    /// Returns the optimal x for the rows as they are now, one entry for every variable, by the dual active-set
+    /// method of Goldfarb and Idnani (1983), to the tolerance of [`new`](Self::new); where that fails, and if H is
+    /// singular or too dense for it, by an interior-point method to the tolerance of
     /// [`solve_linear_program`](super::solve_linear_program).
     ///
     /// # Errors
-    /// The reason that there is none. `Numerical` also where a strictly convex program has a solution that rounding
-    /// hides.
+    /// The reason that there is none. [`Unsolved::Numerical`] also where a strictly convex program has a solution
+    /// that rounding hides.
     pub fn solve(&mut self) -> Result<Vec<f64>, Unsolved> {
         // The other method decides where the active-set method fails, for rounding may hide the solution; if
         // that can't, either, the first result holds.

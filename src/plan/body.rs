@@ -17,22 +17,22 @@ use std::sync::Arc;
 /// The motion itself, of one of three families of robots.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
-    /// Articulated robots: piecewise polynomial joint positions, docking and undocking.
+    /// The motion of an articulated robot: piecewise polynomial joint positions, docking and undocking.
     Tracks(Tracks),
-    /// Lattices of expanding cubes: trajectories in closed form, exact.
+    /// The motion of a lattice of expanding cubes: trajectories in closed form, exact.
     Stages(Stages),
-    /// Trusses: paths of the nodes; strut lengths follow.
+    /// The motion of a truss: paths of the nodes, from which strut lengths follow.
     NodePaths(NodePaths),
 }
 
 /// The configuration of a plan's robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Snapshot {
-    /// Joint positions, bonds and the base of an articulated robot.
+    /// The joint positions, the bonds and the base pose of an articulated robot.
     Robot(State),
     /// The boxes of the cells of a lattice, by the number of the cell, in cell sizes.
     Cells(Vec<CellBox>),
-    /// World positions of the nodes of a truss, by the index of the node, m.
+    /// The world positions of the nodes of a truss, by the index of the node, m.
     Nodes(Vec<[f64; 3]>),
 }
 
@@ -63,7 +63,7 @@ impl From<NodePaths> for Body {
 }
 
 impl Body {
-    /// Returns the duration, s.
+    /// Returns the duration of the motion, s.
     pub fn duration(&self) -> f64 {
         match self {
             Body::Tracks(tracks) => tracks.duration,
@@ -72,8 +72,8 @@ impl Body {
         }
     }
 
-    /// Returns the configuration at a time in seconds; before the start and after the end, that of the
-    /// nearer end.
+    /// Returns the configuration at a time `t` from the start of the plan (s); before the start and after the end,
+    /// that of the nearer end.
     pub fn state(&self, t: f64) -> Snapshot {
         match self {
             Body::Tracks(tracks) => Snapshot::Robot(tracks.state(t)),
@@ -82,7 +82,8 @@ impl Body {
         }
     }
 
-    /// Returns every instant in seconds at which the law of motion changes, with 0 and the end, ascending.
+    /// Returns every instant (s from the start of the plan) at which the law of motion changes, with 0 and the end,
+    /// ascending.
     pub fn instants(&self) -> Vec<f64> {
         match self {
             Body::Tracks(tracks) => tracks.instants(),

@@ -18,11 +18,12 @@ pub struct Cause {
     pub line: usize,
     /// The column, from 1, in characters.
     pub column: usize,
-    /// The text of the line, without the blanks around it.
+    /// The text of the cause's line, without the blanks around it.
     pub text: String,
-    /// The instance, such as `i = 3` or `leg[2].m[0].tilt`; empty if there is only one.
+    /// The instance of the command where one line commands several, such as `i = 3` or `leg[2].m[0].tilt`; empty if
+    /// there is only one.
     pub instance: String,
-    /// The call in the user's own file that led here; `None` if `file` itself is the user's.
+    /// The call in the user's own file that led to this cause; `None` if `file` itself is the user's.
     pub caller: Option<Box<Cause>>,
 }
 

@@ -14,28 +14,28 @@ use serde_json::Value;
 /// The number of digits of a hash that are shown: enough to tell files apart that people compare.
 const DIGITS: usize = 12;
 
-/// A declaration of a library in a few words.
+/// A declaration of a library in a few words: kind, name, limits and digest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Facts {
     /// The kind of declaration: `module`, `cell` or `strut`.
     pub kind: &'static str,
     /// The declared name, with its arguments where they differ from the defaults.
     pub name: String,
-    /// Masses, tolerances and limits in words.
+    /// The masses, tolerances and limits of the declaration in words, with units.
     pub words: String,
-    /// The first twelve hexadecimal digits of the SHA-256 of all that the file states of it, its connectors
-    /// included.
+    /// The first twelve hexadecimal digits of the SHA-256 of all that the file states of the declaration, its
+    /// connectors included.
     pub digest: String,
 }
 
 /// A declaration of a library, by its index among those of its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declared {
-    /// Index in [`Library::modules`].
+    /// A module type, by its index in [`Library::modules`].
     Module(usize),
-    /// Index in [`Library::cells`].
+    /// A type of cells, by its index in [`Library::cells`].
     Cell(usize),
-    /// Index in [`Library::struts`].
+    /// A type of struts, by its index in [`Library::struts`].
     Strut(usize),
 }
 

@@ -12,48 +12,48 @@ use crate::robot::LibraryFault;
 use serde::Serialize;
 use std::fmt;
 
-/// The first fault that was found in the form of a plan.
+/// The first fault that was found in the form of a plan, before it is judged.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlanFault {
     /// An index into a list of things of one sort that is too large for the list.
     Index {
-        /// The sort of things in the list.
+        /// The sort of things in the list, as a word: `module`.
         what: &'static str,
-        /// The index, from 0.
+        /// The index that is too large, from 0.
         index: usize,
-        /// The length of the list.
+        /// The number of things in the list.
         count: usize,
     },
     /// A duration that is negative, not finite, or longer than [`DURATION_MAX`].
     Duration {
-        /// The duration, s.
+        /// The duration that was found, s.
         duration: f64,
     },
     /// Times that must ascend and do not.
     TimeOrder {
-        /// The list that has these times.
+        /// The list that has these times, in words.
         what: &'static str,
     },
     /// A number that no file can hold, in a part of the plan.
     Unwritable {
-        /// The part of the plan.
+        /// The part of the plan, in words.
         part: &'static str,
         /// The value that no file can hold.
         value: Unwritable,
     },
     /// A value that a planner minimised, or its bound, that is no number from 0 on.
     ObjectiveValue {
-        /// The value, in the unit of what was minimised.
+        /// The value that was found, in the unit of what was minimised.
         value: f64,
     },
     /// A lower bound above the value that it is about.
     BoundAbove {
-        /// The bound, in the unit of what was minimised.
+        /// The stated lower bound, in the unit of what was minimised.
         bound: f64,
-        /// The value, in the same unit.
+        /// The stated value of the plan, in the same unit as the bound.
         reached: f64,
     },
-    /// The first world does not hold from 0 on.
+    /// A first world that does not hold from 0 on.
     FirstWorld,
     /// An exemption that ends before it begins.
     ExemptionOrder,
@@ -61,69 +61,69 @@ pub enum PlanFault {
     Gravity,
     /// A negative coefficient of friction in a world, or one that is no number.
     Friction,
-    /// A world that holds a base where the robot has none.
+    /// A world that holds the base fast, for a robot that has none.
     NoBaseToHold,
     /// A sampling interval of the judge that is not positive.
     SampleInterval {
-        /// The sampling interval, s.
+        /// The sampling interval that was found, s.
         interval: f64,
     },
     /// A negative longest time without support, or one that is no number.
     UnstableFor,
-    /// The reserve is not between 0 and 1.
+    /// A reserve that is not between 0 and 1.
     Reserve {
-        /// The stated reserve.
+        /// The reserve that was found, as a fraction of the limits.
         reserve: f64,
     },
     /// Settings by which the judge may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
     ProgramChild {
-        /// The index of the node.
+        /// The index of the node in the program's table, from 0.
         node: usize,
-        /// The index of its child.
+        /// The index of its child in the program's table, from 0.
         child: usize,
     },
     /// An index for the root of a program at which the table has no node.
     ProgramRoot {
-        /// The index that is given.
+        /// The index that is given for the root, from 0.
         node: usize,
     },
     /// A fault inside the track of a joint.
     InTrack {
         /// The joint, by the number in its `JointId`.
         joint: u32,
-        /// The fault in the track.
+        /// The fault that the track has.
         fault: Box<PlanFault>,
     },
     /// A fault inside a stage of a lattice's plan.
     InStage {
-        /// The name of the stage.
+        /// The name of the stage, as the plan states it.
         stage: String,
-        /// The fault in the stage.
+        /// The fault that the stage has.
         fault: Box<PlanFault>,
     },
     /// A fault in the bonds that hold after a docking or an undocking.
     After {
-        /// The time of the event, s.
+        /// The time of the docking or undocking, s.
         time: f64,
-        /// The fault in the bonds.
+        /// The fault in the bonds that hold from then on.
         fault: Box<PlanFault>,
     },
     /// A name in a file that contradicts the index which it stands beside.
     Name {
-        /// The sort of the thing that has the name.
+        /// The sort of the thing that has the name, as a word: `module`.
         what: &'static str,
-        /// The index of the thing among those of its sort.
+        /// The index of the thing among those of its sort, from 0.
         index: usize,
-        /// The name in the file.
+        /// The name that the file states.
         stated: String,
         /// The name of the thing that the index stands for.
         name: String,
     },
     /// Names in a file that are too few or too many, or stand in another order.
     Names {
-        /// The sort of the first name that has no counterpart.
+        /// The sort of the first name that has no counterpart, as a word: `module`.
         what: &'static str,
     },
     /// A world that states other dynamics than those under which plans of this family are judged.
@@ -138,16 +138,16 @@ pub enum PlanFault {
     /// A pose or a position that is not finite, farther away than
     /// [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX), or no rigid displacement.
     Pose {
-        /// The thing that has the pose.
+        /// The thing that has the pose, in words.
         of: &'static str,
-        /// The fault of the pose.
+        /// The fault that the pose has.
         fault: Unsound,
     },
     /// A number whose absolute value is above its limit, or that is no number.
     Bound {
-        /// The quantity in words.
+        /// The name of the quantity in words.
         what: &'static str,
-        /// Its value in SI units.
+        /// The value that was found, in SI units.
         value: f64,
         /// The greatest absolute value that is allowed, in SI units.
         most: f64,
@@ -163,19 +163,19 @@ pub enum PlanFault {
 /// A fault of the plan of an articulated robot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TracksFault {
-    /// Two modules of one name.
+    /// Two modules that have one name.
     SharedName {
-        /// The name that both have.
+        /// The path name that both modules have.
         name: String,
     },
     /// A start pose without one position for each joint.
     StartJoints {
-        /// The number of joints.
+        /// The number of joints, which is the number of positions that it must have.
         joints: usize,
     },
     /// A start pose without one flag for each bond.
     StartBonds {
-        /// The number of bonds.
+        /// The number of bonds, which is the number of flags that it must have.
         bonds: usize,
     },
     /// Tracks that are not in ascending order of joint.
@@ -184,7 +184,7 @@ pub enum TracksFault {
     ControlPoints {
         /// The time at which the segment begins, s.
         time: f64,
-        /// The number of control points.
+        /// The number of control points of the segment, one more than its degree.
         count: usize,
     },
     /// A segment that begins before the one before ends, ends before it begins, or ends after the plan.
@@ -208,9 +208,9 @@ pub enum TracksFault {
     BondUnchanged {
         /// The time of the event, s.
         time: f64,
-        /// The index of the bond in the assembly.
+        /// The index of the bond in [`Assembly::bonds`](crate::robot::Assembly::bonds).
         bond: usize,
-        /// True if it holds before the event.
+        /// True if the bond holds before the event.
         holds: bool,
     },
     /// A joint that is moved farther from 0 than is allowed.
@@ -220,7 +220,7 @@ pub enum TracksFault {
     },
     /// A track of a joint that takes no commands.
     NoCommands {
-        /// The name of the joint.
+        /// The path name of the joint.
         joint: String,
     },
     /// A port that two bonds hold at once.
@@ -255,7 +255,7 @@ pub enum StagesFault {
     Start,
     /// A stage whose squared duration is negative.
     StageDuration {
-        /// The name of the stage.
+        /// The name of the stage, as the plan states it.
         stage: String,
     },
     /// A ramp whose fraction of the time has too large a denominator.
@@ -266,18 +266,18 @@ pub enum StagesFault {
     RunSize,
     /// A run that names cells which there are not: the lowest and the highest that it names.
     RunCells {
-        /// The lowest number that it names.
+        /// The lowest number of a cell that the run names.
         low: i128,
-        /// The highest number that it names.
+        /// The highest number of a cell that the run names.
         high: i128,
-        /// The number of cells, which are numbered from 0.
+        /// The number of cells of the lattice, which are numbered from 0.
         count: u64,
     },
     /// A pair of numbers that is no rational number with a positive denominator.
     Ratio {
-        /// The number above.
+        /// The numerator that was found.
         numerator: i64,
-        /// The number below.
+        /// The denominator that was found.
         denominator: i64,
     },
 }
@@ -285,7 +285,7 @@ pub enum StagesFault {
 /// A fault of the plan of a truss.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodePathsFault {
-    /// A first keyframe elsewhere than at 0.
+    /// A first keyframe at another time than 0.
     FirstKeyframe,
     /// A keyframe without one position for each node.
     KeyframeNodes {
@@ -308,7 +308,7 @@ pub enum NodePathsFault {
     StrutEnds,
     /// An obstacle that is no solid.
     Obstacle(Unsound),
-    /// A field of heights that is no ground, in words.
+    /// A height field that is no ground; the fault is given in words.
     Terrain(&'static str),
 }
 

@@ -13,21 +13,21 @@ use std::sync::Arc;
 /// [`validation::check`](super::validation::check) finds what makes no sense, before it is judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// The origin of the plan, and the changes since.
+    /// The origin of the plan: its planner and sources, and the changes since.
     pub provenance: Provenance,
     /// The worlds, in order of time, the first from 0 on; each part of a concatenation keeps the world it was
     /// planned for.
     pub worlds: Vec<WorldFrom>,
-    /// The settings of the judge.
+    /// The settings of the judge: sampling interval, rule of stability, reserve.
     pub settings: Settings,
     /// The module types, connectors, cells and struts that the body refers to by index.
     pub library: Arc<Library>,
-    /// The motion.
+    /// The motion itself, of one of three families of robots.
     pub body: Body,
     /// The program that a position-servo robot executes; `None` for planned bodies without one, and where a change
     /// of the plan dropped it.
     pub program: Option<Program>,
-    /// `true` where times depend on what sensors would say: then they hold for the undisturbed run.
+    /// True where times depend on what sensors would say: then they hold for the undisturbed run.
     pub nominal: bool,
     /// The commands of the source that move something, by [`CauseId`](super::CauseId).
     pub causes: Vec<Cause>,
@@ -39,8 +39,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Returns the plan of a body in one world, and nothing more: without provenance, program, causes,
-    /// exemptions and verdict.
+    /// Returns the plan of a body in one world, and nothing more: without provenance, program, causes, exemptions and
+    /// verdict. `library` must be the one that the body refers to.
     pub fn bare(library: Arc<Library>, body: Body, world: World, settings: Settings) -> Plan {
         Plan {
             provenance: Provenance::default(),

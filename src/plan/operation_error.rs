@@ -2,14 +2,15 @@
 
 use crate::robot::Mismatch;
 
-/// The reason why an operation on plans cannot be done. SI units; modules by path name.
+/// The reason why an operation on plans (slice, concatenation, derivation of a program) cannot be done. Numbers are
+/// in SI units; modules are given by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OperationError {
     /// A slice that ends before it begins.
     Times {
         /// The time at which the slice would begin, s.
         from: f64,
-        /// The time at which it would end, s.
+        /// The time at which the slice would end, s.
         to: f64,
     },
     /// A lattice plan that would be cut within a stage.
@@ -17,7 +18,7 @@ pub enum OperationError {
         /// The time of the cut, s.
         time: f64,
     },
-    /// Two plans of different families.
+    /// Two plans of different families of robots: articulated, lattice, truss.
     Families,
     /// Two articulated robots of which the one at its end does not match the other at its start.
     Robots(Mismatch),
@@ -32,25 +33,25 @@ pub enum OperationError {
     Cells,
     /// Two lattices with different numbers of cells.
     CellCounts {
-        /// The cells of the first plan.
+        /// The number of cells of the first plan.
         first: u64,
-        /// The cells of the second plan.
+        /// The number of cells of the second plan.
         second: u64,
     },
-    /// Two lattices of which the one ends in another shape than the other starts in.
+    /// Two lattices of which the first ends in another shape than the second starts in.
     Shapes,
     /// Two lattice plans whose numbers 64 bits do not hold together.
     Inexact,
     /// Two plans that together are longer than a plan may be.
     TooLong {
-        /// The duration of both, s.
+        /// The duration of both plans together, s.
         duration: f64,
     },
     /// A joint that moves between two times by a law that no command of a program states.
     NoCommand {
-        /// The time at which the piece of its motion begins, s.
+        /// The time at which the piece of the joint's motion begins, s.
         from: f64,
-        /// The time at which it ends, s.
+        /// The time at which the piece of the joint's motion ends, s.
         to: f64,
     },
     /// A robot without joints, of which none has a program.

@@ -110,8 +110,9 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     Ok(new)
 }
 
-/// Returns the plan with `tracks`, which go along the same path in another time. `clock` gives the new time (s) of each
-/// time of the plan (s), never decreasing; `reserve` is the part of the limits of torque that was to be left.
+/// Returns the plan with `tracks`, which go along the same path with another time law. `clock` gives the new time (s)
+/// of each time of the plan (s), never decreasing; `reserve` is the fraction of the limits of torque that was to be
+/// left, as the history records it.
 ///
 /// Worlds and exemptions hold for the same parts of the path. The program is derived again from the tracks, by the
 /// clock and without sensors, or dropped with the reason in the history; verdict and bound are dropped.

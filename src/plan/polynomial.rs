@@ -1,12 +1,12 @@
 //! Polynomials over 0..1 in Bernstein form, the pieces of trajectories, given by their control points: these bound
 //! the values, the first and the last are the values at the ends, and reversing them reverses the argument.
 
-/// The greatest degree of a segment in a plan.
+/// The greatest degree of a polynomial segment in a plan.
 pub const DEGREE_MAX: usize = 15;
 
-/// Returns the value at the argument `u` of the polynomial with these control points, by de Casteljau's rule: exact at
-/// both ends, and that of the nearer end outside 0..1. Panics without control points, or with more than [`DEGREE_MAX`]
-/// + 1.
+/// Returns the value at the argument `u` of the polynomial with these Bernstein control points, by de Casteljau's
+/// algorithm, in their unit: exact at both ends, and that of the nearer end outside 0..1. Panics without control
+/// points, or with more than [`DEGREE_MAX`] + 1.
 pub fn value(control: &[f64], u: f64) -> f64 {
     if u <= 0.0 {
         return control[0];
@@ -25,8 +25,8 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     points[0]
 }
 
-/// Returns the control points of the parts before and after the argument `u` (0 to 1), by de Casteljau's rule, each
-/// over 0..1 and of the same degree. They share the value at `u` to the bit.
+/// Returns the Bernstein control points of the parts before and after the argument `u` (0 to 1), by de Casteljau's
+/// algorithm, each over 0..1 and of the same degree. They share the value at `u` to the bit.
 pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     let mut right = control.to_vec();
     let mut left = Vec::with_capacity(control.len());
@@ -39,9 +39,9 @@ pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     (left, right)
 }
 
-/// Returns the part of a polynomial between `u0` and `u1` as control points over 0..1. `control`: its control
-/// points, at least one; `u0 <= u1`, with `u1` not below 0 and `u0` not above 1. A `u0` below 0 counts as 0, a `u1`
-/// above 1 as 1.
+/// Returns the part of a polynomial between the arguments `u0` and `u1` as Bernstein control points over 0..1.
+/// `control`: its control points, at least one; `u0 <= u1`, with `u1` not below 0 and `u0` not above 1. A `u0` below
+/// 0 counts as 0, a `u1` above 1 as 1.
 pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     let mut points = control.to_vec();
     if u1 < 1.0 {
@@ -53,8 +53,8 @@ pub fn part(control: &[f64], u0: f64, u1: f64) -> Vec<f64> {
     points
 }
 
-/// Returns the derivative with respect to the argument, as control points over 0..1; that of a constant is `[0]`.
-/// Panics without control points.
+/// Returns the derivative with respect to the argument, as Bernstein control points over 0..1; that of a constant is
+/// `[0]`. Panics without control points.
 pub fn derivative(control: &[f64]) -> Vec<f64> {
     let degree = control.len() - 1;
     if degree == 0 {
@@ -63,8 +63,8 @@ pub fn derivative(control: &[f64]) -> Vec<f64> {
     control.windows(2).map(|w| degree as f64 * (w[1] - w[0])).collect()
 }
 
-/// Returns the lowest and the highest control point, which bound every value over 0..1; infinity and minus infinity
-/// without any.
+/// Returns the lowest and the highest control point, which bound every value over 0..1 (the convex hull property of
+/// Bernstein polynomials); infinity and minus infinity without any.
 pub fn hull(control: &[f64]) -> (f64, f64) {
     control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
 }

@@ -8,32 +8,30 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A series-parallel graph of actions (Section V-B of the compositional-design paper, Tosun, Jing, Kress-Gazit and
-/// Yim), as a position-servo robot executes it.
+/// The root node, under which all other nodes are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
     /// The node that all others are under.
     pub root: Arc<Node>,
 }
 
-/// A node of the graph: an action, or a series (`Sc`) or parallel (`Pc`) composition of nodes. Nodes are shared
-/// where a behaviour is used twice.
+/// A single action: one command with its end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// One action.
+    /// The series composition `Sc`: behaviours one after the other.
     Action(Action),
-    /// Behaviours one after the other: `Sc`.
+    /// The parallel composition `Pc`: behaviours that begin together; it ends when the last of them has.
     Series(Vec<Arc<Node>>),
-    /// Behaviours that begin together, and end when the last of them has: `Pc`.
+    /// A repetition: a behaviour several times, one after the other.
     Parallel(Vec<Arc<Node>>),
-    /// A behaviour several times, one after the other.
+    /// The behaviour that is repeated.
     Repeat {
         /// The behaviour.
         body: Arc<Node>,
         /// The number of times that it is carried out.
         times: u64,
     },
-    /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.
+    /// The behaviour whose cycle is shifted.
     Phase {
         /// The behaviour.
         body: Arc<Node>,
@@ -42,8 +40,7 @@ pub enum Node {
         /// The command of the source that this comes from.
         cause: CauseId,
     },
-    /// A move of the joints together, in least time, to the positions at which `Phase` of the same body and shift
-    /// begins.
+    /// The behaviour to whose shifted cycle the joints move.
     Approach {
         /// The behaviour.
         body: Arc<Node>,
@@ -52,16 +49,16 @@ pub enum Node {
         /// The command of the source that this comes from.
         cause: CauseId,
     },
-    /// A behaviour whose time is scaled so that it lasts `duration` seconds.
+    /// The behaviour whose time is scaled.
     Stretch {
-        /// The behaviour.
+        /// The duration after scaling, s.
         body: Arc<Node>,
         /// The duration, s.
         duration: f64,
         /// The command of the source that this comes from.
         cause: CauseId,
     },
-    /// A behaviour excused from checks over its own interval.
+    /// The behaviour that is excused.
     Exempt {
         /// The behaviour.
         body: Arc<Node>,
@@ -92,45 +89,43 @@ pub struct Action {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
-    /// A move of a joint to a position.
+    /// A move of a joint to a position, by a time law.
     Move {
-        /// The joint.
+        /// The joint that is commanded.
         joint: JointId,
-        /// The end of the move.
+        /// The end of the move, as a position or a change of it.
         target: Target,
-        /// The duration, s; `None`: the least that the limits allow.
+        /// The duration of the move, s; `None`: the least that the limits allow.
         duration: Option<f64>,
-        /// The time law.
+        /// The time law of the move.
         profile: Profile,
     },
-    /// A motion of a joint at a constant speed.
+    /// The joint that is commanded.
     Spin {
-        /// The joint.
+        /// The speed, rad/s or m/s; negative towards lower positions.
         joint: JointId,
-        /// The speed, rad/s or m/s.
+        /// The duration of the motion, s; `None`: until the next command to the joint.
         speed: f64,
         /// The duration, s; `None`: until the next command to the joint.
         duration: Option<f64>,
     },
-    /// A motion of a joint along a sampled function of the time since the action's start: between two samples it is
-    /// the cubic with their positions and velocities.
+    /// The joint that is commanded.
     Follow {
         /// The joint.
         joint: JointId,
-        /// Time (s), position (rad or m) and velocity (rad/s or m/s) of each sample, in order of time; the first at
-        /// 0.
+        /// A pause, in which nothing moves.
         keyframes: Vec<[f64; 3]>,
     },
-    /// Nothing moves for a time.
+    /// The duration of the pause, s.
     Wait {
-        /// The duration, s.
+        /// Docking of port `b` to port `a`; the turn is the allowed one nearest to that in which they meet.
         duration: f64,
     },
     /// Docking of port `b` to port `a`; the turn is the allowed one nearest to that in which they meet.
     Dock {
         /// The port that is docked to.
         a: PortRef,
-        /// The port that docks.
+        /// Undocking: the bond at a port ceases to hold.
         b: PortRef,
     },
     /// The bond at a port ceases to hold.
@@ -162,14 +157,14 @@ pub enum Profile {
     Linear,
 }
 
-/// The continuation when an action's timeout comes before its `until` holds.
+/// The next action begins, as in the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim, Section V-B).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Otherwise {
     /// The next action begins: the paper's meaning.
     Proceed,
     /// The behaviour fails, with a message.
     Abort(String),
-    /// Another behaviour begins.
+    /// Another behaviour, given by its root node, begins.
     Node(Arc<Node>),
 }
 
@@ -203,24 +198,24 @@ pub enum Compare {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
-    /// A signal compares with a value.
+    /// A comparison, which holds while a signal compares with a value.
     Compare {
-        /// The left side.
+        /// The signal on the left side.
         signal: Signal,
         /// The comparison.
         compare: Compare,
-        /// The right side, in the unit of the signal.
+        /// The value on the right side, in the unit of the signal.
         value: f64,
     },
     /// Something is docked at a port.
     Docked(PortRef),
     /// Two ports are docked to each other.
     Mated(PortRef, PortRef),
-    /// Both conditions hold at once.
+    /// A conjunction: both conditions hold at once.
     And(Box<Condition>, Box<Condition>),
-    /// One of the conditions holds, or both.
+    /// A disjunction: one of the conditions holds, or both.
     Or(Box<Condition>, Box<Condition>),
-    /// The condition does not hold.
+    /// A negation: the condition does not hold.
     Not(Box<Condition>),
 }
 

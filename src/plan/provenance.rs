@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The name of the planner; `behavior` for the plan of a behaviour.
+    /// The name of the planner, such as `fold`; `behavior` for the plan of a behaviour.
     pub planner: String,
-    /// Name and SHA-256 (hexadecimal) of every source text, ascending by name.
+    /// The name and the SHA-256 (hexadecimal) of every source text, ascending by name.
     pub sources: Vec<(String, String)>,
     /// The seed of the random numbers; `None` if the planner draws none.
     pub seed: Option<u64>,
@@ -25,7 +25,7 @@ pub struct Provenance {
     pub reached: Option<ObjectiveValue>,
     /// The tool that planned it, with its version: `modl 0.1.0`.
     pub tool: String,
-    /// The changes since, in order of time.
+    /// The changes of the plan since it was made, in order of time.
     pub history: Vec<Change>,
 }
 
@@ -38,7 +38,7 @@ pub enum ObjectiveValue {
 }
 
 impl ObjectiveValue {
-    /// Returns the value, in the unit of the quantity.
+    /// Returns the value that was minimised, in the unit of the quantity.
     pub fn value(self) -> f64 {
         let ObjectiveValue::FoldingEnergy(value) = self;
         value
@@ -66,29 +66,29 @@ impl Provenance {
 pub enum Change {
     /// The plan runs from its end to its start.
     Reversed,
-    /// The plan was cut to the interval between these times (s).
+    /// The plan was cut to the interval between two times of the plan before.
     Sliced {
-        /// The beginning, s.
+        /// The beginning of the interval, s.
         from: f64,
-        /// The end, s.
+        /// The end of the interval, s.
         to: f64,
     },
     /// The motion goes along the same path in another time.
     Retimed {
-        /// The duration before, s.
+        /// The duration of the plan before, s.
         before: f64,
-        /// The part of the limits of torque that was to be left.
+        /// The fraction of the limits of torque that was to be left.
         reserve: f64,
     },
-    /// Another plan was appended at a time (s).
+    /// Another plan was appended.
     Joined {
-        /// The time, s.
+        /// The time at which the other plan begins in this one, s.
         at: f64,
         /// The modules of the other plan with another name here: (name there, name here).
         renamed: Vec<(String, String)>,
-        /// The changes of the other plan before.
+        /// The changes that the other plan had undergone before.
         appended: Vec<Change>,
     },
-    /// The program was dropped, for the reason in words.
+    /// The program was dropped, for the reason given in words.
     ProgramDropped(String),
 }

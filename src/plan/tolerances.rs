@@ -4,19 +4,21 @@
 /// Tolerances of plans of all families; [`TOLERANCES`] has the values.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
-    /// The greatest difference of a joint's positions where two plans meet, rad or m: rounding, which no eye sees.
+    /// The greatest difference of a joint's positions where two plans meet, rad or m: that of rounding, which cannot
+    /// be seen.
     pub join_joint: f64,
-    /// The greatest difference of a node's positions where two plans meet, m, along each axis: rounding, which no
-    /// eye sees.
+    /// The greatest difference of a node's positions where two plans meet, m, along each axis: that of rounding,
+    /// which cannot be seen.
     pub join_node: f64,
-    /// The greatest distance of a cut at the time t from the border of a stage, as a fraction of 1 s + t: rounding.
-    pub stage_border: f64,
-    /// The greatest jump of a joint between two segments, rad or m: rounding, where plans were joined.
-    pub joint_jump: f64,
-    /// The absolute value below which lengths (m), angles (rad) and fractions of a limit are reported as zero:
+    /// The greatest distance of a cut at the time t from the border of a stage, as a fraction of 1 s + t: that of
     /// rounding.
+    pub stage_border: f64,
+    /// The greatest jump of a joint between two segments, rad or m: that of rounding, where plans were joined.
+    pub joint_jump: f64,
+    /// The absolute value below which lengths (m), angles (rad) and fractions of a limit are reported as zero: that
+    /// of rounding.
     pub reported_zero: f64,
-    /// The width below which hulls of contacts are lines, m.
+    /// The width below which support polygons count as lines, m.
     pub polygon_width: f64,
     /// The fraction of the larger by which numbers of two libraries may differ and be equal: rounding on the way
     /// through other tools.

@@ -24,7 +24,7 @@ pub enum CheckKind {
     Acceleration,
     /// Quasi-static efforts of joints and motors stay below their limits.
     Torque,
-    /// Quasi-static forces and moments across bonds stay below what connectors hold.
+    /// Quasi-static forces and moments across bonds stay below what their connectors hold.
     BondLoad,
     /// Ports are within capture of each other when they dock.
     Docking,
@@ -42,9 +42,9 @@ pub enum CheckKind {
     Rest,
     /// A lattice needs no external force or moment.
     Momentum,
-    /// Forces of the ground exist that hold the robot in motion.
+    /// Forces of the ground exist that hold the robot in its motion, in balance with gravity and inertia.
     Balance,
-    /// Friction determines the travel.
+    /// Friction determines the robot's travel: no part of it is left open by the contacts.
     Traction,
 }
 
@@ -83,14 +83,14 @@ pub enum Measure {
     Fraction,
     /// An angle, rad.
     Angle,
-    /// A number without a unit.
+    /// A number without unit.
     Number,
 }
 
 /// A kind of worst value that a verdict may hold: one row of [`WORST_VALUES`].
 #[derive(Clone, Copy, Debug)]
 pub struct WorstKind {
-    /// The name in reports.
+    /// The name of the value in reports.
     pub name: &'static str,
     /// The name on a page, after "least"; `None` for a value that a page does not show.
     pub title: Option<&'static str>,
@@ -98,7 +98,7 @@ pub struct WorstKind {
     pub measure: Measure,
     /// The function that returns the value in a verdict, `None` if the verdict has none.
     pub of: fn(&Verdict) -> &Option<Worst>,
-    /// The function that returns the value in a verdict for writing.
+    /// The function that returns the value in a verdict for writing, `None` if the verdict has none.
     pub of_mut: fn(&mut Verdict) -> &mut Option<Worst>,
 }
 
@@ -163,13 +163,13 @@ impl std::fmt::Display for Status {
     }
 }
 
-/// A check with its outcome.
+/// A check of the judge with its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
-    /// The kind of check.
+    /// The kind of the check: the statement that was checked.
     pub kind: CheckKind,
-    /// The outcome of the check.
+    /// The outcome, with the strength of its evidence.
     pub status: Status,
 }
 
@@ -182,27 +182,27 @@ pub struct Worst {
     pub value: f64,
     /// The time at which the value occurs, from the start of the plan, s.
     pub time: f64,
-    /// The path names of the things that it was found at.
+    /// The path names of the modules, joints, bonds or struts that the value was found at.
     pub at: Vec<String>,
 }
 
-/// A violation of a limit, or of what a plan must be.
+/// A failure of a check: a violation of a limit, or of what a plan must be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
-    /// The check that failed.
+    /// The check of which this is a failure.
     pub kind: CheckKind,
-    /// The time of the failure, from the start of the plan, s.
+    /// The time at which the failure begins, from the start of the plan, s.
     pub time: f64,
-    /// The time at which it ends, s; `None` if that was not followed.
+    /// The time at which the failure ends, s; `None` if that was not followed.
     pub until: Option<f64>,
-    /// Path names of the modules, links or joints concerned.
+    /// The path names of the modules, links or joints concerned.
     pub at: Vec<String>,
     /// The finding in words with units: `s[0].m[2] and s[1].m[0] meet, 3.1 mm deep`.
     pub message: String,
-    /// The amount found in SI units; 0 where there is none.
+    /// The amount found, in SI units; 0 where there is none.
     pub value: f64,
-    /// The limit in SI units; 0 where there is none.
+    /// The limit that it violates, in SI units; 0 where there is none.
     pub limit: f64,
     /// The commands to blame, at most three, as indices in the plan's causes: each of them held still removes the
     /// failure; if none does alone, those that move at its time. Empty if none was found or sought.
@@ -229,19 +229,19 @@ impl Failure {
     }
 }
 
-/// Greatest dynamic quantities of a lattice plan, from the contact forces that the judge found.
+/// The greatest dynamic quantities of a lattice plan, from the contact forces that the judge found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Dynamics {
-    /// Greatest force over one contact along one axis, N.
+    /// The greatest force over one contact along one axis, N.
     pub peak_force: f64,
-    /// Greatest speed of a cell, m/s.
+    /// The greatest speed of a cell, m/s.
     pub peak_speed: f64,
-    /// Greatest kinetic energy of all cells together, J.
+    /// The greatest kinetic energy of all cells together, J.
     pub peak_energy: f64,
-    /// Greatest angular momentum about the centre of mass, kg·m²/s.
+    /// The greatest angular momentum about the centre of mass, kg·m²/s.
     pub angular_momentum: f64,
-    /// Lower bound on the duration of any motion between the same shapes under the same limits, s.
+    /// A lower bound on the duration of any motion between the same shapes under the same limits, s.
     pub lower_bound: f64,
 }
 
@@ -264,7 +264,7 @@ impl Dynamics {
     }
 }
 
-/// The findings of the judge about a plan.
+/// The verdict of the judge about a plan: checks with their outcomes, failures and worst values.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verdict {
@@ -272,9 +272,9 @@ pub struct Verdict {
     pub checks: Vec<Check>,
     /// All failures, in order of time, at most 100; a note counts the others.
     pub failures: Vec<Failure>,
-    /// Findings that are no failures: a large settling at the start, "needs friction".
+    /// The findings that are no failures, as messages: a large settling at the start, "needs friction".
     pub notes: Vec<String>,
-    /// Indices of the plan's exemptions that nothing needed, ascending.
+    /// The indices in [`Plan::exemptions`](super::Plan::exemptions) of those that nothing needed, ascending.
     pub unneeded_exemptions: Vec<usize>,
     /// The least signed distance between links that may not touch, cells or struts, and of these from obstacles, m;
     /// `None` if none was measured, as for the other worst values.
@@ -300,7 +300,7 @@ pub struct Verdict {
     pub travel: [f64; 3],
     /// The change of the base's heading, rad, counter-clockwise from above.
     pub heading: f64,
-    /// Greatest slip of a loaded link, summed over the plan, m; `None` if none was measured.
+    /// The greatest slip of a loaded link over the ground, summed over the plan, m; `None` if none was measured.
     pub slip: Option<Worst>,
     /// The duration of the plan, s.
     pub duration: f64,
@@ -310,7 +310,7 @@ pub struct Verdict {
     pub dynamics: Option<Dynamics>,
     /// The number of samples judged, refinements included.
     pub samples: usize,
-    /// Tip-overs and rolls as (time, s; words), in order of time.
+    /// The tip-overs and rolls, each as (time in s, event in words), in order of time.
     pub events: Vec<(f64, String)>,
 }
 

@@ -4,7 +4,8 @@ use super::program::{Action, Node, Otherwise};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// The distinct nodes under a root, children before parents; two nodes are distinct if their addresses are.
+/// The distinct nodes of a program under a root, children before parents; two nodes are distinct if their addresses
+/// are.
 pub struct Graph<'a> {
     /// The nodes, in order of first completion; the root is last.
     pub nodes: Vec<&'a Arc<Node>>,
@@ -14,7 +15,7 @@ pub struct Graph<'a> {
 }
 
 impl<'a> Graph<'a> {
-    /// Returns the graph under a root. The walk has a stack of its own, so that no depth overflows.
+    /// Returns the graph of the nodes under a root. The traversal has a stack of its own, so that no depth overflows.
     pub fn of(root: &'a Arc<Node>) -> Graph<'a> {
         let mut graph = Graph { nodes: Vec::new(), index: HashMap::new(), depth: 0 };
         let mut depths = Vec::new();
@@ -52,7 +53,7 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// The size of a program as it is carried out; counts saturate.
+/// The size of a program as it is carried out, in actions and steps; counts saturate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Extent {
     /// The number of actions that begin, repetitions included; `else` branches are not.

@@ -4,13 +4,13 @@ use super::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The ground under the robot, and its hold on the base.
+/// The ground under the robot, and how it holds the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
-    /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels, tips.
+    /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels and tips.
     Settle,
-    /// Level ground, to which the robot is lowered at the start with its orientation; its base then keeps the pose.
+    /// Level ground, to which the robot is lowered at the start with its orientation; its base then keeps that pose.
     Fixed,
     /// The base module's body is held fast, fixed in the world: its fixture takes any force and moment, and
     /// nothing else touches the robot.
@@ -19,36 +19,37 @@ pub enum Ground {
     Off,
 }
 
-/// The assumptions about the surroundings.
+/// The assumptions about the robot's surroundings: gravity, ground, friction, dynamics.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct World {
-    /// The gravity, m/s², downwards; 0 is weightless.
+    /// The acceleration of gravity, m/s², downwards along -z of the world; 0 is weightless.
     pub gravity: f64,
-    /// The ground under the robot.
+    /// The ground under the robot, and how it holds the base.
     pub ground: Ground,
     /// The factor on the coefficient of friction of every link, without unit; not negative.
     pub friction: f64,
-    /// The dynamics of articulated robots: statics or full. Robots of other families have their own
-    /// ([`Body::dynamics`](super::Body::dynamics)), and do not read it.
+    /// The dynamics that articulated robots are judged under: statics or full. Robots of other families have their
+    /// own ([`Body::dynamics`](super::Body::dynamics)), and do not read it.
     pub dynamics: DynamicsModel,
 }
 
-/// The dynamics that a plan is judged under: the assumed relation of forces and motion. Later versions add models;
-/// none of those here changes its meaning.
+/// The dynamics that a plan is judged under: the assumed relation of forces and motion. Later versions may add
+/// models; none of these changes its meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DynamicsModel {
-    /// Every instant is judged at rest: weight and contacts balance, inertia is left out.
+    /// Statics: every instant is judged at rest; weight and contacts balance, inertia is left out.
     Statics,
-    /// Inertia, friction of sliding contacts, and servos that yield decide forces and travel.
+    /// Full dynamics: inertia, friction of sliding contacts, and servos that yield decide forces and travel.
     Full,
-    /// Cells accelerate within their force along each axis, and momentum is kept; there is no weight.
+    /// The dynamics of lattices: cells accelerate within their force along each axis, and momentum is kept; there is
+    /// no weight.
     Kinodynamic,
 }
 
 impl DynamicsModel {
-    /// Returns the model as it stands in a sentence: `full dynamics`.
+    /// Returns the name of the model as it stands in a sentence, such as `full dynamics`.
     pub fn words(self) -> &'static str {
         match self {
             DynamicsModel::Statics => "statics",
@@ -69,7 +70,7 @@ impl std::fmt::Display for DynamicsModel {
 }
 
 impl World {
-    /// The world in which nothing pulls, and there is no ground.
+    /// The world without gravity and without ground, under statics.
     pub const FREE: World =
         World { gravity: 0.0, ground: Ground::Off, friction: 1.0, dynamics: DynamicsModel::Statics };
 
@@ -96,7 +97,7 @@ impl Default for World {
 pub struct WorldFrom {
     /// The time from which the world holds, from the start of the plan, s.
     pub from: f64,
-    /// The world from then on.
+    /// The world that holds from that time on.
     pub world: World,
 }
 
@@ -106,14 +107,14 @@ pub fn is_full(worlds: &[WorldFrom]) -> bool {
     worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full)
 }
 
-/// The support polygon that the centre of mass must be over, for static stability: Definition IV.7 of the
-/// compositional-design paper.
+/// The rule for the support polygon that the centre of mass must be over, for static stability: Definition IV.7 of
+/// the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Stability {
     /// The hull of the ground contacts (McGhee and Frank 1968).
     Footprint,
-    /// The paper's rule: the hull of the centres of the lowest modules.
+    /// The hull of the centres of the lowest modules, the rule of the compositional-design paper.
     Centres,
 }
 
@@ -123,11 +124,13 @@ pub enum Stability {
 pub struct Settings {
     /// The longest time between two samples, s.
     pub sample: f64,
-    /// The longest continuous time without support (t_max of Definition V.3), s.
+    /// The longest continuous time without support, s: t_max of Definition V.3 of the compositional-design paper
+    /// (Tosun, Jing, Kress-Gazit and Yim).
     pub unstable_for: f64,
-    /// The polygon of the check of stability.
+    /// The rule for the support polygon of the check of stability.
     pub stability: Stability,
-    /// The part of each limit of torque, force and bond load that must be left under full dynamics, from 0 to 1.
+    /// The part of each limit of torque, force and bond load that must be left under full dynamics, as a fraction
+    /// from 0 to 1.
     #[serde(default = "Settings::reserve_default")]
     pub reserve: f64,
     /// The greatest number of samples of one verification, refinements included; a verification that needs more
@@ -159,24 +162,24 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
-    /// The centre of mass outside the support polygon.
+    /// Stability: the centre of mass may be outside the support polygon.
     Unstable,
-    /// Links in contact that slide.
+    /// Slip: links in contact may slide over the ground.
     Slip,
-    /// Collisions between two modules, by their indices; `None`: between any two.
+    /// Collisions between two modules, by their indices in the assembly; `None`: between any two.
     Collision(Option<(usize, usize)>),
-    /// The overload of one joint ([`JointId`](crate::robot::JointId)); `None`: of any.
+    /// Overload of one joint, by the number in its [`JointId`](crate::robot::JointId); `None`: of any joint.
     Overload(Option<u32>),
     /// Accelerations beyond the limits of joints, and steps of their velocities.
     Acceleration,
-    /// A weight that no forces of the ground balance.
+    /// Balance: no forces of the ground need hold the robot in its motion.
     Balance,
-    /// A travel that friction does not determine.
+    /// Traction: friction need not determine the travel.
     Traction,
 }
 
 impl ExemptionKind {
-    /// Returns the word of the language for it, as in `allows unstable`.
+    /// Returns the word of the language for the check, such as `unstable` in `allows unstable`.
     pub fn name(&self) -> &'static str {
         match self {
             ExemptionKind::Unstable => "unstable",
@@ -194,18 +197,18 @@ impl ExemptionKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Exemption {
-    /// The check that is excused.
+    /// The check that is excused, and for which parts of the robot.
     pub kind: ExemptionKind,
-    /// The time from which the check is excused, s; included.
+    /// The time from which the check is excused, s from the start of the plan; included.
     pub from: f64,
-    /// The time up to which the check is excused, s; included.
+    /// The time up to which the check is excused, s from the start of the plan; included.
     pub to: f64,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that this exemption comes from.
     pub cause: CauseId,
 }
 
 impl Exemption {
-    /// Returns true if it excuses at a time, s.
+    /// Returns true if the exemption excuses its check at a time, s from the start of the plan; both ends are included.
     pub fn covers(&self, time: f64) -> bool {
         self.from <= time && time <= self.to
     }

@@ -10,42 +10,42 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A robot: modules, and every bond between them that exists at some time. Indices count from 0.
+/// A robot: modules, and every bond between them that exists at some time. Indices of modules and bonds count from 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Assembly {
-    /// The name of the configuration.
+    /// The name of the configuration that the program declares.
     pub name: String,
-    /// The declarations that `kind` and connector indices refer to.
+    /// The declarations of module types and connectors that the modules and their ports refer to by index.
     pub library: Arc<Library>,
     /// The modules; a module is referred to by its index here.
     pub modules: Vec<ModuleInstance>,
     /// Every bond that exists at some time; a bond is referred to by its index here, and which of them hold at the
     /// moment is part of the state.
     pub bonds: Vec<Bond>,
-    /// The index of the base module: its body's pose is part of the state, and is reported.
+    /// The index in `modules` of the base module: its body's pose in the world is part of the state, and is reported.
     pub base: usize,
     /// True if the connections may close loops.
     pub closed: bool,
 }
 
-/// A module of an assembly: a name and a type.
+/// A module of an assembly: a path name and a module type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleInstance {
-    /// Path name, such as `leg[2].m[0]`; unique in the assembly.
+    /// The path name of the module, such as `leg[2].m[0]`; unique in the assembly.
     pub name: String,
-    /// Index in [`Library::modules`].
+    /// The index of the module's type in [`Library::modules`].
     pub kind: usize,
 }
 
-/// A port of a module of the assembly.
+/// A port of a module of the assembly, by index of the module and of the port in the module's type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PortRef {
-    /// Index in [`Assembly::modules`].
+    /// The index of the module in [`Assembly::modules`].
     pub module: usize,
-    /// Index in [`ModuleType::ports`](super::ModuleType::ports).
+    /// The index of the port in [`ModuleType::ports`](super::ModuleType::ports) of the module's type.
     pub port: usize,
 }
 
@@ -58,7 +58,7 @@ pub struct Bond {
     pub a: PortRef,
     /// The second port, Q.
     pub b: PortRef,
-    /// The turn about the common normal, in steps of the connector: 0 to `turns` - 1.
+    /// The turn about the common normal, in steps of 360° divided by the `turns` of the connector: 0 to `turns` - 1.
     pub turn: u32,
 }
 
@@ -75,7 +75,7 @@ pub enum JointOwner {
     Module {
         /// Index of the module in [`Assembly::modules`].
         module: usize,
-        /// Index of the joint in [`ModuleType::joints`](super::ModuleType::joints).
+        /// Index of the joint in [`ModuleType::joints`](super::ModuleType::joints) of the module's type.
         joint: usize,
     },
     /// The hinge of the bond of this index in [`Assembly::bonds`].
@@ -86,24 +86,24 @@ pub enum JointOwner {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    /// One position for every [`JointId`], radians or metres; those of fixed joints and mimics are ignored.
+    /// The position of each joint by [`JointId`], rad or m; those of fixed joints and mimics are ignored.
     pub joints: Vec<f64>,
     /// One flag for every bond of the assembly: true if it holds.
     pub bonds: Vec<bool>,
-    /// World pose of the base module's body, `X_WB`.
+    /// The world pose of the base module's body, `X_WB`, in metres.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub base: Pose,
 }
 
 impl Assembly {
-    /// Returns the type of the module of an index. Panics if there is no such module.
+    /// Returns the type of the module of an index in [`Assembly::modules`]. Panics if there is no such module.
     pub fn module_type(&self, module: usize) -> &ModuleType {
         &self.library.modules[self.modules[module].kind]
     }
 
-    /// Iterates over all joints in the order of their ids: those of the modules in order, then the hinges of the bonds
-    /// whose connectors have one.
+    /// Iterates over the owners of all joints in the order of the joints' ids ([`JointId`]): those of the modules in
+    /// order, then the hinges of the bonds whose connectors have one.
     pub fn joints(&self) -> impl Iterator<Item = JointOwner> + '_ {
         let of_modules = (0..self.modules.len()).flat_map(move |module| {
             (0..self.module_type(module).joints.len()).map(move |joint| JointOwner::Module { module, joint })

@@ -11,61 +11,64 @@ use super::kinematics::Kinematics;
 use crate::geometry::{Pose, Vec3};
 use nalgebra::{DMatrix, Matrix3};
 
-/// The mass of a link and its distribution.
+/// The mass of a link and its distribution, in the link's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBody {
-    /// The mass, kg.
+    /// The mass of the body, kg.
     pub mass: f64,
     /// The centre of mass in the link's frame, m.
     pub com: Vec3,
-    /// The inertia about the centre of mass along the axes of the link's frame, kg·m².
+    /// The 3 × 3 inertia about the centre of mass along the axes of the link's frame, kg·m².
     pub inertia: Matrix3<f64>,
 }
 
-/// The velocity of a frame, or its derivative by time: of the frame's origin and of its orientation, in the world.
+/// The velocity of a frame, that of its origin and of its orientation, or the derivative of the velocity by time;
+/// along the axes of the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Twist {
-    /// The linear velocity of the origin, m/s; as a derivative its acceleration, m/s².
+    /// The linear velocity of the frame's origin in the world, m/s; as a derivative its acceleration, m/s².
     pub linear: Vec3,
-    /// The angular velocity, rad/s; as a derivative the angular acceleration, rad/s².
+    /// The angular velocity of the frame in the world, rad/s; as a derivative the angular acceleration, rad/s².
     pub angular: Vec3,
 }
 
 impl Twist {
-    /// Returns the velocity (m/s) of the point that is carried along at `p` (m) from the frame's origin.
+    /// Returns the velocity in the world (m/s) of the point that the frame carries along at `p` (m, in the axes of the
+    /// world) from its origin.
     pub fn at(&self, p: &Vec3) -> Vec3 {
         self.linear + self.angular.cross(p)
     }
 }
 
-/// A force with its moment about a point, in the world.
+/// A force with its moment about a stated point, along the axes of the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
-    /// The force, N.
+    /// The force in the world, N; as a momentum, N·s.
     pub force: Vec3,
-    /// The moment about the point, N·m.
+    /// The moment about the stated point, in the world, N·m; as an angular momentum, N·m·s.
     pub moment: Vec3,
 }
 
-/// The motion of a robot at an instant.
+/// The motion of a robot at an instant: poses, velocities and accelerations.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionState<'a> {
-    /// The world poses of all links, by their numbers.
+    /// The world poses of all links, by their numbers ([`Kinematics::link`]).
     pub poses: &'a [Pose],
-    /// The velocity of the base's frame.
+    /// The velocity of the base's frame in the world.
     pub base: Twist,
-    /// The acceleration of the base's frame.
+    /// The acceleration of the base's frame in the world.
     pub base_acceleration: Twist,
     /// The velocity of each joint by [`JointId`](super::JointId), rad/s or m/s. Those of mimics are not read.
     pub velocities: &'a [f64],
-    /// The acceleration of each joint, rad/s² or m/s².
+    /// The acceleration of each joint by [`JointId`](super::JointId), rad/s² or m/s². Those of mimics are not read.
     pub accelerations: &'a [f64],
 }
 
-/// The forces that a motion needs.
+/// The forces that a motion needs: the result of inverse dynamics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseDynamics {
-    /// The wrench that the surroundings must exert on the robot; the moment is about the origin of the base's frame.
+    /// The wrench that the surroundings must exert on the robot, in the world; the moment is about the origin of the
+    /// base's frame.
     pub base: Wrench,
     /// The torque or force of each joint by [`JointId`](super::JointId), N·m or N; 0 for mimics, whose share is in
     /// the joints that they follow.
@@ -80,14 +83,15 @@ struct MovingStep {
     acceleration: f64,
 }
 
-/// A robot compiled for dynamics.
+/// A robot compiled for dynamics: the rigid bodies of its links.
 #[derive(Clone, Debug)]
 pub struct Dynamics {
     bodies: Vec<RigidBody>,
 }
 
 impl Dynamics {
-    /// Returns the dynamics of a robot, whose links are numbered as in its [`Kinematics`].
+    /// Returns the dynamics of a robot, whose links are numbered as in its [`Kinematics`]. Panics if a module names a
+    /// type that the library has not.
     pub fn new(robot: &Assembly) -> Dynamics {
         let mut bodies = Vec::new();
         for module in 0..robot.modules.len() {
@@ -100,13 +104,14 @@ impl Dynamics {
         Dynamics { bodies }
     }
 
-    /// Returns the rigid body of each link, by its number.
+    /// Returns the rigid body of each link, by its number ([`Kinematics::link`]).
     pub fn bodies(&self) -> &[RigidBody] {
         &self.bodies
     }
 
-    /// Returns the forces that a motion needs under `gravity` (m/s², the vector of free fall) where nothing else acts.
-    /// Panics if a slice of `state` is shorter than the robot's links or joints.
+    /// Returns the forces that a motion needs under `gravity` (m/s² in the world, the vector of free fall) where
+    /// nothing else acts, by recursive Newton-Euler (Luh, Walker and Paul 1980). `kinematics` must be that of the
+    /// same robot. Panics if a slice of `state` is shorter than the robot's links or joints.
     pub fn inverse(&self, kinematics: &Kinematics, state: &MotionState, gravity: &Vec3) -> InverseDynamics {
         let root = kinematics.link(kinematics.root, 0);
         let origin = position(state.poses, root);
@@ -115,8 +120,10 @@ impl Dynamics {
         InverseDynamics { base: wrenches[root], efforts }
     }
 
-    /// Returns the wrench that each link needs for its own motion under `gravity` (m/s²), about the point `origin` (m),
-    /// by the numbers of the links; zero for loose ones. Panics if a slice of `state` is too short.
+    /// Returns the wrench that each link needs for its own motion under `gravity` (m/s² in the world, the vector of
+    /// free fall), about the point `origin` (m, in the world), by the numbers of the links: the forward pass of
+    /// recursive Newton-Euler (Luh, Walker and Paul 1980). Zero for links that are not connected with the root.
+    /// Panics if a slice of `state` is too short.
     pub fn link_wrenches(
         &self,
         kinematics: &Kinematics,
@@ -145,8 +152,9 @@ impl Dynamics {
     }
 
     /// Returns the effort of each joint by [`JointId`](super::JointId), N·m or N, that carries a wrench on each link,
-    /// about the point `origin` (m). On return `wrenches` holds for each link the sum over all that it carries. `poses` are
-    /// the world poses of all links.
+    /// about the point `origin` (m, in the world): the backward pass of recursive Newton-Euler (Luh, Walker and Paul
+    /// 1980). On return `wrenches` holds for each link the sum over all that it carries. `poses` are the world poses
+    /// of all links, by their numbers. Panics if a slice is too short.
     pub fn efforts(
         &self,
         kinematics: &Kinematics,
@@ -168,9 +176,10 @@ impl Dynamics {
         efforts
     }
 
-    /// Returns the momentum of the robot (N·s) and its angular momentum about the point `origin` (N·m·s), as force and
-    /// moment, with the velocity `base` of the base's frame and the velocities of the joints (rad/s or m/s). `poses` are the
-    /// world poses of all links.
+    /// Returns the momentum of the robot (N·s) and its angular momentum about the point `origin` (N·m·s), as force
+    /// and moment in the world, with the velocity `base` of the base's frame and the velocities of the joints by
+    /// [`JointId`](super::JointId) (rad/s or m/s). `poses` are the world poses of all links, by their numbers;
+    /// `origin` is in the world, m. Panics if a slice is too short.
     pub fn momentum(
         &self,
         kinematics: &Kinematics,
@@ -227,10 +236,11 @@ impl Dynamics {
         Wrench { force, moment: spin + (pose.translation.vector + r - origin).cross(&force) }
     }
 
-    /// Returns the symmetric mass matrix M (6 + n square, n joints): the kinetic energy is `½ uᵀ M u` with u the linear
-    /// velocity of the base's origin (m/s, rows 0 to 2), its angular velocity (rad/s, rows 3 to 5), both in the world,
-    /// and the velocities of the joints by [`JointId`](super::JointId). Rows of mimics and fixed joints are zero.
-    /// `poses` are the world poses of all links.
+    /// Returns the symmetric mass matrix M (6 + n square, n joints), by the composite-rigid-body method (Walker and
+    /// Orin 1982): the kinetic energy is `½ uᵀ M u` (J) with u the linear velocity of the base's origin (m/s, rows 0
+    /// to 2), its angular velocity (rad/s, rows 3 to 5), both in the world, and the velocities of the joints by
+    /// [`JointId`](super::JointId). Rows of mimics and fixed joints are zero. `poses` are the world poses of all
+    /// links, by their numbers.
     pub fn mass_matrix(&self, kinematics: &Kinematics, poses: &[Pose]) -> DMatrix<f64> {
         let root = kinematics.link(kinematics.root, 0);
         let origin = position(poses, root);
@@ -326,7 +336,8 @@ fn position(poses: &[Pose], link: usize) -> Vec3 {
     poses[link].translation.vector
 }
 
-/// Returns the part of a wrench about `origin` that does work along a joint: N·m about its axis, or N along it.
+/// Returns the part of a wrench about `origin` (m), all in the world, that does work along a joint: N·m about the
+/// axis of one that turns, N along that of one that slides.
 pub fn along(axis: &JointAxis, wrench: &Wrench, origin: &Vec3) -> f64 {
     match axis {
         JointAxis::Revolute { axis, point } => {

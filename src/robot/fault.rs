@@ -6,76 +6,76 @@ use std::fmt;
 /// The first fault that was found in a library or in one of its declarations. Lengths are in m, masses in kg.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LibraryFault {
-    /// A fault of a declaration.
+    /// A fault of a declaration, named by its kind and name.
     Declaration {
         /// The kind of declaration: `connector`, `module`, `cell` or `strut`.
         kind: &'static str,
-        /// The declared name.
+        /// The name of the declaration that has the fault.
         name: String,
-        /// The fault of the declaration.
+        /// The fault that the declaration has.
         fault: Box<LibraryFault>,
     },
-    /// A fault of a part of a module.
+    /// A fault of a part of a module, named by its sort, index and name.
     Inside {
-        /// The part, by its index.
+        /// The part of the module, by its sort and index.
         part: ModulePart,
         /// The declared name of the part.
         name: String,
-        /// The fault of the part.
+        /// The fault that the part has.
         fault: Box<LibraryFault>,
     },
     /// An index into a list of things of one sort that is too large for the list.
     Index {
         /// The sort of things in the list, as a word: `link`.
         what: &'static str,
-        /// The index, from 0.
+        /// The index that is too large, from 0.
         index: usize,
-        /// The length of the list.
+        /// The length of the list that the index is into.
         count: usize,
     },
     /// A quantity that must be positive, and is zero, negative or no number.
     NotPositive {
-        /// The quantity in words.
+        /// The name of the quantity in words, such as `mass`.
         what: &'static str,
-        /// Its value in SI units.
+        /// The value that was found, in SI units.
         value: f64,
     },
     /// A quantity that must not be negative, and is so or is no number.
     Negative {
-        /// The quantity in words.
+        /// The name of the quantity in words, such as `mass`.
         what: &'static str,
-        /// Its value in SI units.
+        /// The value that was found, in SI units.
         value: f64,
     },
     /// A quantity whose absolute value is above its limit, or that is no number.
     Bound {
-        /// The quantity in words.
+        /// The name of the quantity in words, such as `speed`.
         what: &'static str,
-        /// Its value in SI units.
+        /// The value that was found, in SI units.
         value: f64,
         /// The greatest absolute value that is allowed, in SI units.
         most: f64,
     },
-    /// A connector with no allowed turn, or with too many.
+    /// A connector whose number of allowed turns is 0, or too large.
     Turns {
-        /// The number of turns.
+        /// The number of turns that was found.
         turns: u32,
         /// The greatest number that is allowed.
         most: u32,
     },
-    /// A connector that mates another, which does not mate it.
+    /// A connector that states to mate with another, which does not state to mate with it.
     OneWayMate {
-        /// The name of the other connector.
+        /// The declared name of the other connector.
         other: String,
     },
-    /// Connectors that mate and have different turns.
+    /// Two connectors that mate and have different numbers of turns.
     MateTurns {
-        /// The name of the other connector.
+        /// The declared name of the other connector.
         other: String,
     },
-    /// A module without a link.
+    /// A module without any link, so that it has no body.
     NoLink,
-    /// A shape that is no solid, or a pose that is none.
+    /// A shape that is no solid, or a pose that is not rigid.
     Shape(Unsound),
     /// A drawn shape that sticks out of the shape that is judged, farther than the link states.
     LeftOut {
@@ -84,16 +84,16 @@ pub enum LibraryFault {
         /// The distance that the link states, m.
         stated: f64,
     },
-    /// A centre of mass outside the box around its module.
+    /// A centre of mass outside the axis-aligned box around its module.
     MassOutside {
-        /// The greatest distance from the box along one of its axes, m.
+        /// The greatest distance from the box along one of the axes of the module's frame, m.
         outside: f64,
     },
     /// An inertia of a link without mass.
     InertiaWithoutMass,
     /// An inertia with a principal moment that is not positive.
     InertiaNotPositive {
-        /// The least principal moment, kg·m².
+        /// The least principal moment that was found, kg·m².
         least: f64,
     },
     /// Principal moments of which one is more than the other two together.
@@ -103,7 +103,7 @@ pub enum LibraryFault {
     },
     /// A principal moment that no body of this mass within the module has.
     InertiaExtent {
-        /// The greatest principal moment, kg·m².
+        /// The greatest principal moment that was found, kg·m².
         most: f64,
         /// The moment of all of the mass at the farthest corner of the module, kg·m².
         bound: f64,
@@ -112,7 +112,7 @@ pub enum LibraryFault {
     SharedLink,
     /// A link that no joints connect with the body.
     LooseLink,
-    /// An axis that is no unit vector, to 1e-6.
+    /// An axis that is no unit vector: its norm differs from 1 by more than 1e-6.
     Axis,
     /// A range that ends before it begins.
     RangeOrder,
@@ -120,7 +120,7 @@ pub enum LibraryFault {
     MimicCycle,
     /// A joint that follows others over too many steps.
     MimicDepth {
-        /// The greatest number of steps that is allowed.
+        /// The greatest number of steps from a joint to the last that it follows that is allowed.
         most: usize,
     },
     /// A cell whose contracted edge is not shorter than its expanded one.
@@ -132,18 +132,18 @@ pub enum LibraryFault {
 /// A part of a module, by its index, from 0, among those of its sort.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModulePart {
-    /// Index in [`ModuleType::links`](super::ModuleType::links).
+    /// A link, by its index in [`ModuleType::links`](super::ModuleType::links).
     Link(usize),
-    /// Index in [`ModuleType::joints`](super::ModuleType::joints).
+    /// A joint, by its index in [`ModuleType::joints`](super::ModuleType::joints).
     Joint(usize),
-    /// Index in [`ModuleType::motors`](super::ModuleType::motors).
+    /// A motor, by its index in [`ModuleType::motors`](super::ModuleType::motors).
     Motor(usize),
-    /// Index in [`ModuleType::ports`](super::ModuleType::ports).
+    /// A port, by its index in [`ModuleType::ports`](super::ModuleType::ports).
     Port(usize),
 }
 
 impl ModulePart {
-    /// Returns the word for its sort: `link`, `joint`, `motor` or `port`.
+    /// Returns the word for the sort of the part: `link`, `joint`, `motor` or `port`.
     pub fn word(self) -> &'static str {
         match self {
             ModulePart::Link(_) => "link",
@@ -166,7 +166,7 @@ impl LibraryFault {
     }
 
     /// Returns the part of a module that has the fault, if this is a [`LibraryFault::Inside`]; `None` for a fault of
-    /// a module as a whole, and for a fault that is wrapped in its declaration.
+    /// a module as a whole, and for one wrapped in a [`LibraryFault::Declaration`].
     pub fn part(&self) -> Option<ModulePart> {
         match self {
             LibraryFault::Inside { part, .. } => Some(*part),

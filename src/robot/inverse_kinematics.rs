@@ -27,16 +27,18 @@ use crate::interrupt;
 use crate::optimize::cholesky::{PivotRule, SymmetricMatrix};
 use nalgebra::{DMatrix, Vector6};
 
-/// A linear condition on the changes of joints: `Σ factor · Δq[joint] = goal` in a task, `≥ goal` in an inequality.
+/// A linear condition on the changes Δq of joint positions: `Σ factor · Δq[joint] = goal` in a task, `≥ goal` in an
+/// inequality.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
-    /// Joint, by its index from 0, and factor; a joint may stand more than once, and its factors are then summed.
+    /// The terms of the sum as (index of the joint, from 0; factor). A joint may stand more than once, and its
+    /// factors are then summed.
     pub terms: Vec<(usize, f64)>,
     /// The value on the right, in the unit of the factors times that of the joints.
     pub goal: f64,
 }
 
-/// The state of a descent at some joint positions.
+/// The state of a descent of inverse kinematics at some joint positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The squared norm of the residual of the task, in the squared unit of its rows: it sets the damping.
@@ -44,62 +46,66 @@ pub struct Evaluation {
     /// The figure that is to become less from iteration to iteration, not negative: residual and violations of
     /// inequalities together.
     pub merit: f64,
-    /// True where the task is fulfilled.
+    /// True where the task is fulfilled to the problem's tolerance.
     pub converged: bool,
 }
 
 /// The problem that [`solve`] solves. Joints are numbered from 0 as the problem chooses, positions are in rad or m;
 /// every method after [`evaluate`](IkProblem::evaluate) is about the positions given there last.
 pub trait IkProblem {
-    /// Evaluates the problem at these joint positions, also for the other methods; `iteration` counts from 0.
+    /// Evaluates the problem at the joint positions `q` (rad or m, one for every joint), for its own result and for
+    /// the other methods; `iteration` counts from 0.
     fn evaluate(&mut self, q: &[f64], iteration: usize) -> Evaluation;
 
-    /// Returns the rows of the task: `J Δq = e`, with the residual e (wanted less found) cut to an amount that one
-    /// step can correct.
+    /// Returns the rows of the task, `J Δq = e` with one row for each component of the residual e (wanted less
+    /// found), cut to an amount that one step can correct.
     fn task(&self) -> Vec<Row>;
 
-    /// Returns the preferred change Δq₀ of every joint, the secondary task, for `count` joints; none by default.
+    /// Returns the preferred change Δq₀ (rad or m) of every joint, the secondary task, for `count` joints; none (all
+    /// 0) by default.
     fn preferred(&self, count: usize) -> Vec<f64> {
         vec![0.0; count]
     }
 
-    /// Shortens a change, one entry for every joint, to a length for which the linear model holds.
+    /// Shortens a change of the joint positions (rad or m, one entry for every joint) in place to a length for which
+    /// the linear model holds.
     fn shorten(&self, change: &mut [f64]);
 
-    /// Returns the inequality of a number, from those that [`violated`](IkProblem::violated) returns: `Σ factor · Δq
-    /// ≥ goal`.
+    /// Returns the inequality of a number, one of those that [`violated`](IkProblem::violated) returns: `Σ factor ·
+    /// Δq ≥ goal`.
     fn inequality(&self, number: usize) -> Row;
 
-    /// Returns the numbers of the inequalities that a change violates by more than a tolerance and that are not among
-    /// the active ones, the worst first.
+    /// Returns the numbers of the inequalities that a change (rad or m, one entry for every joint) violates by more
+    /// than a tolerance and that are not among the `active` ones, the worst first.
     fn violated(&self, change: &[f64], active: &[usize]) -> Vec<usize>;
 
-    /// Receives the joint positions after a step; does nothing by default.
+    /// Receives the joint positions (rad or m) after a step; does nothing by default.
     fn stepped(&mut self, _q: &[f64]) {}
 }
 
-/// Limits and weights of the descent. The default is for one frame of a chain ([`reach`]).
+/// The limits and weights of a descent of inverse kinematics. The default is for one frame of a chain ([`reach`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The greatest number of iterations of the search.
+    /// The greatest number of iterations of the descent.
     pub iterations_max: usize,
     /// The greatest number of iterations in a row without [`progress`](Settings::progress); after one more the
     /// descent counts as stalled.
     pub patience: usize,
     /// The fraction of the best merit so far below which a merit counts as progress, 0 to 1.
     pub progress: f64,
-    /// The damping λ, without unit, is this times the squared residual, at most this itself (Levenberg–Marquardt
-    /// damping after Sugihara 2011): strong far away, where the linear model is poor, and gone near the solution.
+    /// The factor of the damping λ that is added to `J Jᵀ`: λ is this times the squared residual of the task, at most
+    /// this itself (Levenberg–Marquardt damping after Sugihara 2011): strong far away, where the linear model is
+    /// poor, and gone near the solution.
     pub damping: f64,
-    /// The least damping, in the unit of `J Jᵀ`.
+    /// The least damping λ, in the unit of `J Jᵀ`.
     pub damping_min: f64,
-    /// The fraction of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
+    /// The fraction, without unit, of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
     pub damping_of_trace: f64,
     /// The damping of inequality rows, in the unit of `A Aᵀ`.
     pub damping_inequality: f64,
     /// The greatest number of rounds of the active-set method in one step.
     pub rounds_max: usize,
-    /// The greatest number of active inequalities.
+    /// The greatest number of inequality rows that are active at once.
     pub active_max: usize,
 }
 
@@ -122,13 +128,14 @@ impl Default for Settings {
 /// The reason that a descent ended; only [`StopReason::Converged`] means that the goal is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopReason {
-    /// The task is fulfilled.
+    /// The descent converged: the task is fulfilled.
     Converged,
-    /// The merit made no progress for as long as the settings allow: a local minimum, a singular posture, or limits.
+    /// The descent stalled: the merit made no progress for as long as the settings allow, at a local minimum, a
+    /// singular posture, or limits.
     Stalled,
-    /// All iterations were used.
+    /// The descent used all iterations that the settings allow.
     IterationLimit,
-    /// The goal is farther from the held link than the links between reach; nothing was tried.
+    /// The goal is out of reach: farther from the held link than the links between reach. Nothing was tried.
     OutOfReach,
     /// Bonds do not connect the frame with the held link; nothing was tried.
     NotConnected,
@@ -282,25 +289,26 @@ const TRACE_MIN: f64 = 1e-9;
 /// The part of a pose that is to be reached, by its number of rows in the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TaskSpace {
-    /// Origin and orientation: six rows.
+    /// The whole pose, origin and orientation: six rows.
     Pose,
-    /// The origin alone: three rows.
+    /// The position of the origin alone: three rows.
     Position,
 }
 
 /// The task of [`reach`]: a frame of an assembly that is to be at a pose.
 pub struct Reach<'a> {
-    /// The robot.
+    /// The robot that the frame is part of.
     pub robot: &'a Assembly,
-    /// Its kinematics, for the bonds that hold.
+    /// The kinematics of the robot, compiled for the bonds that hold.
     pub kinematics: &'a Kinematics,
-    /// The frame that is to be moved.
+    /// The frame F that is to be moved, fixed to a link.
     pub frame: LinkFrame,
-    /// The index in the assembly of the module whose body stays where it is, and the world pose of that body.
+    /// The index in [`Assembly::modules`] of the module whose body stays where it is, and the world pose of that
+    /// body.
     pub base: (usize, Pose),
-    /// The pose at which the frame is to be, `X_WF`.
+    /// The pose in the world at which the frame is to be, `X_WF`.
     pub goal: Pose,
-    /// The part of that pose that is to be reached.
+    /// The part of the goal that is to be reached: the whole pose, or the position alone.
     pub task_space: TaskSpace,
     /// Positions that joints are drawn to as far as the goal allows (secondary task), rad or m, one for every joint of
     /// the assembly, by the number in its `JointId`; `None`: joints stay near where they are.
@@ -317,12 +325,13 @@ pub struct Reached {
     pub joints: Vec<f64>,
     /// The reason that the descent ended; only [`StopReason::Converged`] means that the goal is reached.
     pub stop: StopReason,
-    /// The number of steps taken; 0 if nothing was tried.
+    /// The number of steps taken by the descent; 0 if nothing was tried.
     pub iterations: usize,
-    /// The distance of the frame's origin from the goal, m; without meaning for [`StopReason::NotConnected`].
+    /// The distance of the frame's origin from that of the goal at the end, m; without meaning for
+    /// [`StopReason::NotConnected`].
     pub distance: f64,
-    /// The angle between the frame and the goal, rad, 0 to π, also if only the position is to be reached; without
-    /// meaning for [`StopReason::NotConnected`].
+    /// The angle between the orientations of frame and goal at the end, rad, 0 to π, also if only the position is to
+    /// be reached; without meaning for [`StopReason::NotConnected`].
     pub angle: f64,
 }
 

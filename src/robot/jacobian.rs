@@ -12,12 +12,12 @@ use nalgebra::{DMatrix, Matrix6};
 pub struct LinkFrame {
     /// The number of the link among all links ([`Kinematics::link`]).
     pub link: usize,
-    /// The pose of the frame in the link's frame.
+    /// The pose of the frame F in the frame of its link, `X_LF`, in metres.
     pub X_LF: Pose,
 }
 
 impl LinkFrame {
-    /// Returns the frame of a link itself, given by its number among all links.
+    /// Returns the frame of a link itself, given by its number among all links ([`Kinematics::link`]).
     pub fn of_link(link: usize) -> LinkFrame {
         LinkFrame { link, X_LF: Pose::identity() }
     }
@@ -40,14 +40,14 @@ impl LinkFrame {
 pub enum JointAxis {
     /// A turn about the line through `point` (m) along the unit vector `axis`, by the right-hand rule.
     Revolute {
-        /// The unit vector along the line.
+        /// The unit vector along the line, in the world.
         axis: Vec3,
-        /// A point on the line, m.
+        /// A point on the line, in the world, m.
         point: Vec3,
     },
-    /// A shift along a unit vector.
+    /// A shift along the unit vector `axis`.
     Prismatic {
-        /// The unit vector of the shift.
+        /// The unit vector of the shift, in the world.
         axis: Vec3,
     },
 }
@@ -65,7 +65,8 @@ impl JointAxis {
 
 impl Step {
     /// Returns the axis, in the world, about or along which this step moves its child against its parent as its
-    /// position grows; `None` where it is fixed. `poses` are the world poses of all links, by their numbers.
+    /// position grows; `None` where the joint is fixed. `poses` are the world poses of all links, by their numbers
+    /// ([`Kinematics::link`]).
     pub fn joint_axis(&self, poses: &[Pose]) -> Option<JointAxis> {
         let (X_WA, X_WB) = (&poses[self.parent], &poses[self.link]);
         match (self.motion, self.motion.axis()) {

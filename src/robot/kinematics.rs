@@ -11,10 +11,11 @@ use crate::geometry::{Pose, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// An assembly compiled for forward kinematics, with a fixed set of bonds that hold; links and joints go by numbers.
+/// The forward kinematics of an assembly with a fixed set of bonds that hold: the spanning tree from a root, and one
+/// step for each link. Links and joints go by numbers among those of the whole assembly.
 #[derive(Clone, Debug)]
 pub struct Kinematics {
-    /// The index in the assembly of the module whose body carries all others.
+    /// The index in [`Assembly::modules`] of the module whose body carries all others.
     pub root: usize,
     /// The spanning tree of modules over the bonds that hold.
     pub tree: Tree,
@@ -36,11 +37,11 @@ pub struct Kinematics {
 /// The closure error of a bond that closes a kinematic loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
-    /// Index in [`Assembly::bonds`].
+    /// The index of the bond in [`Assembly::bonds`].
     pub bond: usize,
     /// The distance of the second port from its position in a perfect mate, m.
     pub distance: f64,
-    /// The angle between the two orientations, rad, 0 to π.
+    /// The angle between the orientation of the second port and that in a perfect mate, rad, 0 to π.
     pub angle: f64,
 }
 
@@ -86,30 +87,31 @@ impl Kinematics {
         self.joint_count
     }
 
-    /// Returns the number of a module's link among all links, from 0, which are numbered module by module; `module` is
-    /// the index of the module, `link` that of the link in the module.
+    /// Returns the number of a module's link among all links, from 0, which are numbered module by module; `module`
+    /// is the index of the module, `link` that of the link in the module. Panics if there is no such module.
     pub fn link(&self, module: usize, link: usize) -> usize {
         self.first_link[module] + link
     }
 
-    /// Returns the numbers of the links of a module, given by its index, among all links.
+    /// Returns the numbers among all links of the links of a module, given by its index. Panics if there is no such
+    /// module.
     pub fn links_of(&self, module: usize) -> Range<usize> {
         self.first_link[module]..self.first_link[module + 1]
     }
 
-    /// Returns the index of the module of a link, given by its number among all links.
+    /// Returns the index in [`Assembly::modules`] of the module of a link, given by its number among all links.
     pub fn module_of(&self, link: usize) -> usize {
         self.first_link.partition_point(|&first| first <= link) - 1
     }
 
     /// Returns the number, from 0, of a module's joint among all joints, that of its [`super::JointId`]; `module` is
-    /// the index of the module, `joint` that of the joint in the module.
+    /// the index of the module, `joint` that of the joint in the module. Panics if there is no such module.
     pub fn joint(&self, module: usize, joint: usize) -> usize {
         self.first_joint[module] + joint
     }
 
     /// Returns the number among all joints, that of its [`super::JointId`], of the hinge of the bond of this index;
-    /// `None` if the bond does not turn.
+    /// `None` if the bond does not turn. Panics if there is no such bond.
     pub fn hinge(&self, bond: usize) -> Option<usize> {
         self.hinge_joint[bond]
     }
@@ -135,9 +137,9 @@ impl Kinematics {
         down.or_else(up).expect("the links are neighbours in the tree")
     }
 
-    /// Writes the world poses of all links, `X_WL`, by their numbers, with the root module's body at `X_WR`.
-    /// `joints` holds one position (rad, m) for each joint. The entries of `out` of links that are not connected
-    /// with the root stay as they are. Panics if `joints` or `out` is too short.
+    /// Writes the world poses of all links, `X_WL`, by their numbers, with the root module's body at `X_WR`. `joints`
+    /// holds the position (rad or m) of each joint by [`super::JointId`]. The entries of `out` of links that are not
+    /// connected with the root stay as they are. Panics if `joints` or `out` is too short.
     pub fn link_poses(&self, joints: &[f64], X_WR: &Pose, out: &mut [Pose]) {
         crate::interrupt::checkpoint();
         out[self.first_link[self.root]] = *X_WR;
@@ -146,17 +148,17 @@ impl Kinematics {
         }
     }
 
-    /// Writes the world poses of all links, as [`link_poses`](Self::link_poses) does, with the body of the module of
-    /// index `base` at `X_WB`, which need not be the root but must be connected with it. `joints`: rad or m, one for
-    /// each joint.
+    /// Writes the world poses of all links to `out`, as [`link_poses`](Self::link_poses) does, with the body of the
+    /// module of index `base` at `X_WB`, which need not be the root but must be connected with it. `joints`: the
+    /// position (rad or m) of each joint by [`super::JointId`]. Panics if `joints` or `out` is too short.
     pub fn link_poses_from(&self, base: usize, joints: &[f64], X_WB: &Pose, out: &mut [Pose]) {
         self.link_poses(joints, &Pose::identity(), out);
         let X_WR = X_WB * out[self.link(base, 0)].inverse();
         self.link_poses(joints, &X_WR, out);
     }
 
-    /// Returns the pose of the module of this index, that of its body (the first link), from the poses of all links,
-    /// by their numbers.
+    /// Returns the world pose of the module of this index, that of its body (the first link), from the world poses of
+    /// all links, by their numbers. Panics if there is no such module.
     pub fn module_pose(&self, module: usize, poses: &[Pose]) -> Pose {
         poses[self.link(module, 0)]
     }
@@ -166,7 +168,8 @@ impl Kinematics {
         self.link(port.module, robot.module_type(port.module).ports[port.port].link)
     }
 
-    /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers.
+    /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers. Panics if the
+    /// assembly has no such port.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
         poses[self.port_link(robot, port)] * robot.module_type(port.module).ports[port.port].pose
     }
@@ -218,7 +221,8 @@ impl Kinematics {
 
     /// Returns the closure error of the bond of this index, which need not hold: the distance (m) and the angle (rad)
     /// of its second port from a perfect mate with the first. `poses` are the world poses of all links, by their
-    /// numbers; `joints` (rad, m) matter only for the bond's own hinge.
+    /// numbers; `joints` (rad or m, by [`super::JointId`]) matter only for the bond's own hinge. Panics if there is
+    /// no such bond.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;
@@ -311,7 +315,8 @@ struct Pair {
     q: Pose,
 }
 
-/// Returns `X_PQ` of a bond (by index) whose hinge, if it has one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`.
+/// Returns the pose `X_PQ` of the second port in the frame of the first for a bond (by index) whose hinge, if it has
+/// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`. Panics if there is no such bond.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     let bond = &robot.bonds[bond];
     let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;

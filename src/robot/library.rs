@@ -5,17 +5,18 @@ use crate::geometry::{Placed, Pose, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The declarations that a robot or a plan refers to by index, from 0. Self-contained: it goes into plan files.
+/// The declarations that a robot or a plan refers to by index, from 0. It is complete in itself, and goes into plan
+/// files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Library {
-    /// Kinds of connectors; each is referred to by its index here.
+    /// The kinds of connectors; each is referred to by its index in this list.
     pub connectors: Vec<Connector>,
-    /// Types of modules with links and joints; each is referred to by its index here.
+    /// The types of modules with links and joints; each is referred to by its index in this list.
     pub modules: Vec<ModuleType>,
-    /// Types of expanding cubes; each is referred to by its index here.
+    /// The types of expanding cubes; each is referred to by its index in this list.
     pub cells: Vec<Cell>,
-    /// Types of linear actuators; each is referred to by its index here.
+    /// The types of linear actuators; each is referred to by its index in this list.
     pub struts: Vec<Strut>,
 }
 
@@ -23,17 +24,17 @@ pub struct Library {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Connector {
-    /// The declared name.
+    /// The declared name of the connector.
     pub name: String,
-    /// Indices in [`Library::connectors`] of those it mates with; the relation is symmetric.
+    /// The connectors that it mates with, as indices in [`Library::connectors`]; the relation is symmetric.
     pub mates: Vec<usize>,
     /// The number of allowed turns, at least 1: `k · 360° / turns` about the common normal, k from 0 to `turns` - 1.
     pub turns: u32,
-    /// Pull along the normal that a bond holds, N; `None`: no limit stated.
+    /// The greatest pull along the port's normal that a bond holds, N; `None`: no limit stated.
     pub holds_force: Option<f64>,
-    /// Moment across the bond that it holds, N·m; `None`: no limit stated.
+    /// The greatest moment across the bond that it holds, N·m; `None`: no limit stated.
     pub holds_moment: Option<f64>,
-    /// The error that docking tolerates; `None`: not stated.
+    /// The greatest error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
     /// The joint of the bond; `None`: bonds of this connector do not turn.
     pub hinge: Option<Hinge>,
@@ -43,37 +44,37 @@ pub struct Connector {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Capture {
-    /// The distance between the port origins, m.
+    /// The greatest distance between the origins of the two ports, m.
     pub distance: f64,
-    /// The angle between the orientations, rad.
+    /// The greatest angle between the orientation of the second port and that in a perfect mate, rad.
     pub angle: f64,
 }
 
-/// A joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, with q in rad, the axis in the frame of the first
-/// port P, and the bond's turn θ.
+/// A revolute joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, with the position q in rad, the axis in the
+/// frame of the first port P, and the bond's turn θ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
-    /// Unit vector in the frame of the first port.
+    /// The axis of the hinge, as a unit vector in the frame of the first port.
     #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
-    /// Its range (rad), speed, acceleration and torque.
+    /// The limits of the hinge: range (rad), speed (rad/s), acceleration (rad/s²) and torque (N·m).
     pub limits: Limits,
 }
 
-/// A module type; instances differ in nothing but their joint positions.
+/// A module type: links, joints, ports and motors. Instances differ in nothing but their joint positions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModuleType {
-    /// The name, with the arguments where they differ from the defaults: `Hinge(length: 50mm)`.
+    /// The name of the type, with the arguments where they differ from the defaults: `Hinge(length: 50mm)`.
     pub name: String,
     /// The rigid bodies; the first link is the body: its frame is the module's frame.
     pub links: Vec<Link>,
     /// The joints, which make a tree of the links.
     pub joints: Vec<Joint>,
-    /// The ports at which it docks.
+    /// The ports at which the module docks.
     pub ports: Vec<Port>,
-    /// Motors that drive several joints together.
+    /// The motors that drive several joints together.
     pub motors: Vec<Motor>,
     /// Pairs of links, by their indices in `links`, that meet by design: they are not checked for collisions with each
     /// other.
@@ -108,7 +109,7 @@ fn is_zero(value: &f64) -> bool {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Link {
-    /// The declared name.
+    /// The declared name of the link.
     pub name: String,
     /// The link's frame in the module's frame, all joints at zero (`X_ML`).
     #[serde(with = "crate::geometry::json")]
@@ -122,26 +123,27 @@ pub struct Link {
     /// drawn is not judged. A file whose shapes leave out more is refused.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub left_out: f64,
-    /// Mass, kg.
+    /// The mass of the link, kg.
     pub mass: f64,
-    /// Centre of mass in the link's frame, m.
+    /// The centre of mass in the link's frame, m.
     #[schemars(with = "[f64; 3]")]
     pub com: Vec3,
-    /// The inertia about the centre of mass in the link's frame, symmetric, kg·m²: xx, yy, zz, xy, xz, yz.
+    /// The entries xx, yy, zz, xy, xz, yz of the symmetric inertia matrix about the centre of mass, along the axes of
+    /// the link's frame, kg·m².
     pub inertia: [f64; 6],
     /// The Coulomb coefficient of friction against the ground, without unit.
     pub friction: f64,
 }
 
-/// The degree of freedom of a joint.
+/// The kind of a joint: its degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Turns about its axis; positions in radians.
+    /// A revolute joint, which turns about its axis; positions in radians.
     Revolute,
-    /// Slides along its axis; positions in metres.
+    /// A prismatic joint, which slides along its axis; positions in metres.
     Prismatic,
-    /// Does not move.
+    /// A fixed joint, which does not move.
     Fixed,
 }
 
@@ -151,24 +153,25 @@ pub enum JointKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// The declared name.
+    /// The declared name of the joint.
     pub name: String,
     /// Index in [`ModuleType::links`] of the link that carries.
     pub parent: usize,
     /// Index in [`ModuleType::links`] of the link that is carried.
     pub child: usize,
-    /// The degree of freedom.
+    /// The kind of the joint, which sets its degree of freedom.
     pub kind: JointKind,
     /// The joint's frame in the module's frame, all joints at zero (`X_MJ`).
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
-    /// Unit vector in the joint's frame.
+    /// The axis of the joint, as a unit vector in the joint's frame.
     #[schemars(with = "[f64; 3]")]
     pub axis: Vec3,
-    /// Its range, speed, acceleration and effort.
+    /// The limits of the joint: range, speed, acceleration and effort, in rad and N·m where it turns, in m and N
+    /// where it slides.
     pub limits: Limits,
-    /// True if it has no motor, so that it can't be commanded.
+    /// True if the joint has no motor, so that it can't be commanded.
     pub passive: bool,
     /// The joints of its module, by index in [`ModuleType::joints`], that the joint follows, with factors: `q = Σ
     /// factor · q_index`. Such a joint takes no commands; `None`: it follows none.
@@ -176,9 +179,11 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// The stiffness of the servo of a joint that turns, N·m/rad: 150, of position servos of the modules' size.
+    /// The stiffness of the servo of a joint that turns, where the judge assumes one, N·m/rad: 150, of position
+    /// servos of the modules' size.
     pub const TURN_STIFFNESS_DEFAULT: f64 = 150.0;
-    /// The stiffness of the servo of a joint that slides, N/m: 1.5e4, that of a joint that turns at a lever of 0.1 m.
+    /// The stiffness of the servo of a joint that slides, where the judge assumes one, N/m: 1.5e4, that of a joint
+    /// that turns at a lever of 0.1 m.
     pub const SLIDE_STIFFNESS_DEFAULT: f64 = 1.5e4;
 }
 
@@ -186,25 +191,25 @@ impl Joint {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
-    /// Lowest and highest position, rad or m; `None`: the joint has no end, as a continuous joint.
+    /// The lowest and the highest position, rad or m; `None`: the joint has no end, as a continuous joint.
     pub range: Option<(f64, f64)>,
-    /// Greatest speed, rad/s or m/s; `None`: no limit stated.
+    /// The greatest absolute speed, rad/s or m/s; `None`: no limit stated.
     pub speed: Option<f64>,
-    /// Greatest acceleration, rad/s² or m/s²; `None`: no limit stated.
+    /// The greatest absolute acceleration, rad/s² or m/s²; `None`: no limit stated.
     pub acceleration: Option<f64>,
-    /// Greatest torque (N·m) or force (N); `None`: no limit stated.
+    /// The greatest absolute torque (N·m) or force (N); `None`: no limit stated.
     pub effort: Option<f64>,
 }
 
-/// A motor that drives several joints together, with limits on `motor = Σ factor · joint`.
+/// A motor that drives several joints together, with limits on its position `Σ factor · joint position`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motor {
-    /// The declared name.
+    /// The declared name of the motor.
     pub name: String,
-    /// Index in [`ModuleType::joints`] and factor of each joint that it drives.
+    /// The joints that it drives, each as (index in [`ModuleType::joints`], factor).
     pub joints: Vec<(usize, f64)>,
-    /// Its range, speed, acceleration and effort, in the units of `factor · joint`.
+    /// The limits of the motor: range, speed, acceleration and effort, in the units of `factor · joint position`.
     pub limits: Limits,
 }
 
@@ -212,15 +217,15 @@ pub struct Motor {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Port {
-    /// The declared name.
+    /// The declared name of the port.
     pub name: String,
-    /// Index of its link in [`ModuleType::links`].
+    /// The index in [`ModuleType::links`] of the link that carries the port.
     pub link: usize,
     /// The port's frame in the frame of its link (`X_LP`): origin on the mating face, +x outward, +z up.
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub pose: Pose,
-    /// Index in [`Library::connectors`].
+    /// The index in [`Library::connectors`] of its kind of connector.
     pub connector: usize,
 }
 
@@ -228,17 +233,17 @@ pub struct Port {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cell {
-    /// The declared name.
+    /// The declared name of the cell.
     pub name: String,
-    /// Edge of the cube when it is expanded, m.
+    /// The edge of the cube when it is expanded, m.
     pub size: f64,
-    /// Edge of the cube when it is contracted, m.
+    /// The edge of the cube when it is contracted, m.
     pub shrinks_to: f64,
-    /// Mass, kg.
+    /// The mass of the cell, kg.
     pub mass: f64,
-    /// Greatest force with which it expands and contracts, N.
+    /// The greatest force with which the cell expands and contracts, N.
     pub force: f64,
-    /// Greatest speed at which a face moves against the opposite one, m/s.
+    /// The greatest speed at which a face moves against the opposite one, m/s.
     pub speed: f64,
 }
 
@@ -246,15 +251,15 @@ pub struct Cell {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strut {
-    /// The declared name.
+    /// The declared name of the strut.
     pub name: String,
-    /// Least and greatest length, m.
+    /// The least and the greatest length, m.
     pub length: (f64, f64),
-    /// Greatest speed of lengthening and shortening, m/s.
+    /// The greatest speed of lengthening and shortening, m/s.
     pub speed: f64,
-    /// Greatest force along it, N.
+    /// The greatest force along the strut, N.
     pub force: f64,
-    /// Mass, kg.
+    /// The mass of the strut, kg.
     pub mass: f64,
     /// The least distance of its axis from those of struts that share no node with it, and from obstacles, m.
     pub clearance: f64,

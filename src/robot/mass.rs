@@ -5,12 +5,12 @@ use crate::geometry::{Placed, Unsound, Vec3, volume};
 /// The mass properties of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass {
-    /// Mass, kg.
+    /// The mass of the body, kg.
     pub mass: f64,
-    /// Centre of mass in the frame that the shapes are placed in, m.
+    /// The centre of mass in the frame that the shapes are placed in, m.
     pub com: Vec3,
-    /// Inertia about the centre of mass, kg·m²: the entries xx, yy, zz, xy, xz, yz of the symmetric matrix,
-    /// along the axes of that frame.
+    /// The inertia about the centre of mass, kg·m²: the entries xx, yy, zz, xy, xz, yz of the symmetric matrix, along
+    /// the axes of the frame that the shapes are placed in.
     pub inertia: [f64; 6],
 }
 

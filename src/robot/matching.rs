@@ -27,57 +27,58 @@ pub struct Matching {
 }
 
 impl Matching {
-    /// Returns the image in A of a port of B, both by index of the module and of the port in its type.
+    /// Returns the image in A of a port of B, both by index of the module and of the port in its type. Panics if B
+    /// has no such module or port.
     pub fn port(&self, port: PortRef) -> PortRef {
         let turned = &self.turned[port.module];
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
     }
 
     /// Returns the image in A of a joint of a module of B, given by their indices: the index of the module in A, and
-    /// that of the joint in its type.
+    /// that of the joint in its type. Panics if B has no such module or joint.
     pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
         (self.modules[module], self.turned[module].joints[joint])
     }
 }
 
-/// The reason that two robots do not match; modules are given by path name.
+/// The reason that robot B does not match robot A; modules are given by path name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mismatch {
-    /// Different numbers of modules, or none in both.
+    /// The robots have different numbers of modules, or none.
     Count {
-        /// Modules of A.
+        /// The number of modules of A.
         a: usize,
-        /// Modules of B.
+        /// The number of modules of B.
         b: usize,
     },
     /// B is not connected, so that its bonds do not identify its modules.
     Pieces,
     /// A module of B is of another type than the module of A that the best attempt maps it to.
     Kind {
-        /// Path of the module in B.
+        /// The path name of the module in B.
         module: String,
-        /// Name of its type.
+        /// The name of its module type.
         kind: String,
     },
     /// One of two modules that the best attempt maps to each other is docked at a port and the other not, or to
     /// another port or with another turn.
     Bond {
-        /// Path of the module in A.
+        /// The path name of the module in A.
         a: String,
-        /// Path of the module in B.
+        /// The path name of the module in B.
         b: String,
-        /// Name of the port of B.
+        /// The name of the port of the module in B.
         port: String,
     },
     /// The positions of two joints differ in the best attempt by more than the tolerance.
     Joint {
-        /// Joint of A, with the path of its module.
+        /// The path name of the joint in A.
         a: String,
-        /// Joint of B, with the path of its module.
+        /// The path name of the joint in B.
         b: String,
-        /// Position in A, rad or m.
+        /// The position of the joint in A, rad or m.
         a_position: f64,
-        /// Position in B, rad or m.
+        /// The position of the joint in B, rad or m.
         b_position: f64,
     },
 }
@@ -100,13 +101,14 @@ impl std::fmt::Display for Mismatch {
     }
 }
 
-/// Finds an isomorphism from robot B, in its state, to robot A, in its own. Joint positions agree within `tol_joint`
-/// (rad or m), those of endless joints up to whole turns. Of several, the one that maps the first module of B to a
-/// module of the same name is preferred.
+/// Finds an isomorphism from robot `b`, in its state, to robot `a`, in its own: a map of modules that keeps module
+/// types, ports, turns and joint positions. Joint positions agree within `tol_joint` (rad or m), those of endless
+/// joints up to whole turns. Of several, the one that maps the first module of B to a module of the same name is
+/// preferred. Every image of the first module is tried, in quadratic time in the number of modules.
 ///
 /// # Errors
-/// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`] if
-/// they have different numbers of modules, or none.
+/// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`] if they have different
+/// numbers of modules, or none.
 pub fn matching(
     a: (&Assembly, &State),
     b: (&Assembly, &State),

@@ -19,11 +19,11 @@ pub struct World {
 /// A universal module and its joint positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Module {
-    /// The id in the file; ids may have gaps.
+    /// The id of the module in the file; ids may have gaps.
     pub id: u64,
-    /// Positions of alpha, beta and gamma, in this order, in degrees, as files have them.
+    /// The positions of the joints alpha, beta and gamma, in this order, in degrees, as files have them.
     pub joints: [f64; 3],
-    /// The line of the file, from 1; 0 if there is none.
+    /// The line of the file that states the module, from 1; 0 if there is none.
     pub line: usize,
 }
 
@@ -32,53 +32,53 @@ pub struct Module {
 pub struct Edge {
     /// The dock that the file names first.
     pub a: Dock,
-    /// The other dock.
+    /// The dock that the file names second.
     pub b: Dock,
-    /// Turn about the common normal in quarter turns: 0 is N, 1 E, 2 S, 3 W.
+    /// The turn about the common normal in quarter turns: 0 is north (N), 1 east (E), 2 south (S), 3 west (W).
     pub turn: u32,
-    /// The line of the file, from 1; 0 if there is none.
+    /// The line of the file that states the connection, from 1; 0 if there is none.
     pub line: usize,
 }
 
 /// A dock of a module by its shoe and face: one of six, at which modules are connected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dock {
-    /// Index of the module in [`World::modules`].
+    /// The index of the module in [`World::modules`].
     pub module: usize,
     /// The shoe that carries the dock.
     pub side: Side,
-    /// The dock's face of that shoe.
+    /// The face of that shoe which carries the dock.
     pub face: Face,
 }
 
 /// One of the two shoes of a universal module, the bodies at its ends, which carry three docks each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// The shoe A, the body of the module.
+    /// The shoe A, whose frame is that of the module.
     A,
-    /// The shoe B.
+    /// The shoe B, which the joints turn against shoe A.
     B,
 }
 
 /// A face of a shoe that carries a dock, by its direction in the shoe's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Face {
-    /// The face +X.
+    /// The face on the +x side of the shoe.
     PlusX,
-    /// The face -X.
+    /// The face on the -x side of the shoe.
     MinusX,
-    /// The face -Z, at the end of the shoe.
+    /// The face on the -z side, at the end of the shoe.
     MinusZ,
 }
 
 /// The first error in a file, with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileError {
-    /// The line, from 1.
+    /// The line of the error, from 1.
     pub line: usize,
-    /// The column in characters, from 1.
+    /// The column of the error in characters, from 1.
     pub column: usize,
-    /// A message in words.
+    /// The error as a message in words.
     pub what: String,
 }
 
@@ -114,11 +114,12 @@ impl Dock {
     }
 }
 
-/// Reads the one configuration of a text. Lines that begin with `#` are comments.
+/// Reads the one configuration of a text in RoFI's text format, in which every line is `C`, `M id alpha beta gamma`
+/// (degrees) or `E id side dock orientation dock side id`. Lines that begin with `#` are comments.
 ///
 /// # Errors
-/// [`FileError`] at the first word that does not follow the format, for a second connection of a dock, for a
-/// sequence of configurations, and for a text without modules.
+/// [`FileError`] at the first word that does not follow the format, for a second connection of a dock, for a sequence
+/// of configurations, and for a text without modules.
 pub fn read(text: &str) -> Result<World, FileError> {
     let mut reader = Reader::default();
     for (index, line) in text.lines().enumerate() {
@@ -141,8 +142,8 @@ pub fn read(text: &str) -> Result<World, FileError> {
     reader.finish()
 }
 
-/// Returns the text of a configuration. A configuration as [`read`] returns it reads back to the same but for the
-/// line numbers. Panics if a connection has an index that is no module.
+/// Returns a configuration in RoFI's text format. A configuration as [`read`] returns it reads back to the same but
+/// for the line numbers. Panics if a connection has an index that is no module.
 pub fn write(world: &World) -> String {
     let mut text = String::from("C\n");
     for Module { id, joints: [alpha, beta, gamma], .. } in &world.modules {

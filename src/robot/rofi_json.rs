@@ -96,8 +96,8 @@ struct Component {
     component: u32,
 }
 
-/// Reads the one configuration of a text: an object, or a list of one. Its pose in space is not read; angles that
-/// are left out are 0.
+/// Reads the one configuration of a text in RoFI's JSON format: an object, or a list of one. Its pose in space is not
+/// read; angles (degrees) that are left out are 0.
 ///
 /// # Errors
 /// [`FileError`] at the first piece that does not follow the format, for a module of another type, for a second
@@ -152,9 +152,9 @@ fn edge(reader: &Reader, connection: &Connection, line: usize) -> Result<Edge, S
     Ok(Edge { a: dock(&connection.from)?, b: dock(&connection.to)?, turn: turn as u32, line })
 }
 
-/// Returns the text of a configuration, in which shoe A of the first module is fixed at the origin. A configuration
-/// as [`read`] returns it reads back to the same but for the line numbers. Panics if a connection has an index that
-/// is no module.
+/// Returns a configuration in RoFI's JSON format, in which shoe A of the first module is fixed at the origin. A
+/// configuration as [`read`] returns it reads back to the same but for the line numbers. Panics if a connection has
+/// an index that is no module.
 pub fn write(world: &World) -> String {
     let module = |m: &Module| {
         let [alpha, beta, gamma] = m.joints;

@@ -13,20 +13,22 @@ const ROUNDING: f64 = 1e-15;
 /// The greatest number of steps over which joints follow joints that follow others.
 pub(super) const MIMIC_DEPTH_MAX: usize = 16;
 
-/// The placement of a link B against its parent A, across a joint or a bond.
+/// The placement of a link B against its parent A across a joint or a bond: for a revolute joint at the position q it
+/// is `X_AB = Trans(shift) · turn · Rot(axis, q) · Trans(offset)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// The parent's number among all links ([`Kinematics::link`](super::Kinematics::link)).
+    /// The number of the parent A among all links ([`Kinematics::link`](super::Kinematics::link)).
     pub parent: usize,
-    /// The link's number among all links.
+    /// The number of the link B among all links ([`Kinematics::link`](super::Kinematics::link)).
     pub link: usize,
-    /// Position of the joint's axis in the parent's frame, m.
+    /// The position of the joint's axis in the parent's frame, m.
     pub shift: Vec3,
-    /// Orientation `R_AB` of the child in the parent's frame with the joint at zero.
+    /// The orientation `R_AB` of the child in the parent's frame with the joint at zero.
     pub turn: UnitQuaternion<f64>,
-    /// The motion that the joint's position adds to that.
+    /// The motion that the joint's position adds to the placement at zero.
     pub motion: Motion,
-    /// Position of the child's origin from the axis, in the child's frame, m; zero for slides and fixed joints.
+    /// The position of the child's origin from the axis, in the child's frame, m; zero for prismatic and fixed
+    /// joints.
     pub offset: Vec3,
     drive: Drive,
     turned: bool,
@@ -54,9 +56,9 @@ pub enum Motion {
     Y(f64),
     /// A turn about +z of the child's frame, by the joint's position times this sign, 1 or -1.
     Z(f64),
-    /// A turn about this unit vector of the child's frame.
+    /// A turn about this unit vector of the child's frame, by the joint's position in rad.
     Axis(Vec3),
-    /// A shift along this unit vector of the parent's frame.
+    /// A shift along this unit vector of the parent's frame, by the joint's position in m.
     Along(Vec3),
 }
 
@@ -154,7 +156,8 @@ impl Step {
         }
     }
 
-    /// Returns `X_WB` from `X_WA` and the positions (rad, m) of all joints of the assembly.
+    /// Returns the world pose `X_WB` of the child from that of the parent, `X_WA`, and the positions (rad or m) of
+    /// all joints of the assembly, by the number in their `JointId`. Panics if `joints` is too short.
     #[inline]
     pub fn child_pose(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
         let mut shift = self.shift;
@@ -203,8 +206,8 @@ impl Step {
 }
 
 /// Returns the joints and factors that drive a joint of a module, given by its index in its type: itself, or those it
-/// mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of the module's
-/// first joint, and the joints returned are such numbers.
+/// mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of the
+/// module's first joint, and the joints returned are such numbers. Panics if there is no such joint.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

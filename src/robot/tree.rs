@@ -2,7 +2,7 @@
 
 use super::assembly::Assembly;
 
-/// A spanning tree over the modules that bonds connect with the root.
+/// A spanning tree over the modules that bonds connect with the root, and the bonds that close loops over it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     /// Reached modules (indices in the assembly), parents before children, the root first; each with the index of the

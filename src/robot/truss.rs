@@ -11,21 +11,22 @@ const NODES_DENSE: usize = 60;
 
 /// Tolerances of the examination of rigidity, all relative and without unit.
 pub(super) struct RigidityTolerances {
-    /// Singular values at most this fraction of the largest count as zero. 1e-9: far above rounding, far below the
-    /// stiffness of any truss that is worth building.
+    /// The fraction of the largest singular value up to which a singular value counts as zero. 1e-9: far above
+    /// rounding, far below the stiffness of any truss that is worth building.
     pub singular: f64,
-    /// Displacements at most this fraction of the largest count as none, and vectors of which others leave at most this
-    /// part count as dependent. 1e-6: between rounding and the motions of nodes that do move.
+    /// The fraction of the largest displacement up to which a displacement counts as none, and the part of a vector
+    /// up to which what others leave of it counts as dependent. 1e-6: between rounding and the motions of nodes that
+    /// do move.
     pub displacement: f64,
-    /// A strut carries a self-stress if more than this fraction of its row lies in the span of the others. 1e-9: far
+    /// The fraction of a strut's row in the span of the others above which the strut carries a self-stress. 1e-9: far
     /// above rounding.
     pub redundant: f64,
     /// The least singular value, as a fraction of the largest, above which a truss is clearly rigid, so that the banded
     /// decomposition decides. 1e-7: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
     pub clearly_rigid: f64,
-    /// An iteration has converged when its value changes by at most this fraction. 1e-11: below what is shown.
+    /// The relative change of its value up to which an iteration counts as converged. 1e-11: below what is shown.
     pub converged: f64,
-    /// Nodes nearer to a line than this fraction of its length lie on it. 1e-6: far above rounding.
+    /// The distance from a line, as a fraction of its length, below which nodes lie on it. 1e-6: far above rounding.
     pub on_line: f64,
 }
 
@@ -39,42 +40,47 @@ pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
     on_line: 1e-6,
 };
 
-/// Infinitesimal rigidity of a truss: the rank of its rigidity matrix, and what follows from it.
+/// The infinitesimal rigidity of a truss: the rank of its rigidity matrix, and what follows from it (Maxwell 1864;
+/// Calladine 1978).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigidity {
-    /// The rank of the rigidity matrix.
+    /// The rank of the rigidity matrix, which has a row for each strut and three columns for each node.
     pub rank: usize,
     /// The rank that a rigid truss of these nodes has: 3n - 6 for n nodes, 3n - 5 if they lie on a line, 0 for one
     /// node.
     pub rank_rigid: usize,
-    /// The dimension of the space of self-stresses, the states of stress without load: struts less rank.
+    /// The dimension of the space of self-stresses, the states of stress without load: the number of struts less the
+    /// rank.
     pub self_stresses: usize,
     /// The least singular value that is not zero, of the rigidity matrix of the truss scaled to a mean strut length
-    /// of 1; infinite if the rank is 0.
+    /// of 1, without unit; infinite if the rank is 0.
     pub weakest: f64,
-    /// Indices of the struts of which any one may be taken away without loss of rank, ascending.
+    /// The indices of the struts of which any one may be taken away without loss of rank, ascending.
     pub redundant: Vec<usize>,
     /// A basis of the infinitesimal mechanisms, the motions that change no length to first order; rigid motions are
     /// left out.
     pub free: Vec<FreeMotion>,
 }
 
-/// An infinitesimal mechanism, scaled so that the largest displacement is 1.
+/// An infinitesimal mechanism: displacements of the nodes that change no length to first order, scaled so that the
+/// largest is 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// The indices of the nodes that move, with their displacements, whose greatest length is 1.
+    /// The nodes that move, each as (index, displacement in the world, without unit); the greatest length of a
+    /// displacement is 1.
     pub nodes: Vec<(usize, Vec3)>,
 }
 
 impl Rigidity {
-    /// Returns true if the truss is infinitesimally rigid: no motion is free but those of the whole.
+    /// Returns true if the truss is infinitesimally rigid: only motions of the whole as a rigid body are free.
     pub fn rigid(&self) -> bool {
         self.free.is_empty()
     }
 }
 
 /// Returns the infinitesimal rigidity of a truss with nodes at these positions (m) and struts between them, as pairs
-/// of indices, which must have length. Panics without nodes, and for a strut of a node that is not there.
+/// of indices of nodes that lie apart, from the singular values of the rigidity matrix; large trusses that are
+/// clearly rigid by a banded QR decomposition. Panics without nodes, and for a strut of a node that is not there.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
         && let Some(report) = banded_qr::examine(nodes, struts)

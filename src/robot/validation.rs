@@ -26,7 +26,7 @@ pub const MODULE_EXTENT_MAX: f64 = 10.0;
 pub const TOUCH_MAX: f64 = 5e-3;
 /// The greatest `contact` of a module, m: links farther above the ground do not stand on it.
 pub const CONTACT_MAX: f64 = 2e-2;
-/// The greatest number of turns of a connector: more are no discrete turns any more.
+/// The greatest number of turns of a connector; more are no discrete turns any more.
 pub const TURNS_MAX: u32 = 3600;
 
 /// Threshold: the fraction of a link's inertia by which its principal moments may miss the triangle inequality, and by

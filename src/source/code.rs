@@ -1,6 +1,6 @@
 //! The stable codes of all diagnostics, each with its title and its page in `docs/errors/`.
 
-/// A stable code such as `E0201`. Errors begin with `E`, lints with `W`, notes with `N`.
+/// A stable code of a diagnostic, such as `E0201`. Errors begin with `E`, lints with `W`, notes with `N`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Code(pub &'static str);
 
@@ -13,7 +13,8 @@ impl std::fmt::Display for Code {
 macro_rules! codes {
     ($($name:ident = $code:literal, $title:literal;)*) => {
         $(#[doc = $title] pub const $name: Code = Code($code);)*
-        /// Every code with its title, in the order of the lists in this file: errors, then lints, then notes.
+        /// Every code of a diagnostic with its title, in the order of the lists in `source/code.rs`: errors, then
+        /// lints, then notes.
         pub const ALL: &[(Code, &str)] = &[$((Code($code), $title)),*];
     };
 }

@@ -6,50 +6,50 @@ use super::{Code, Span};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// The program (or plan) is wrong.
+    /// An error: the program (or plan) is wrong.
     Error,
-    /// The program may be wrong.
+    /// A warning: the program may be wrong.
     Warning,
-    /// Information without fault.
+    /// A note: information without fault.
     Note,
 }
 
-/// A span of a text with a few words about it, one of those of a diagnostic.
+/// A span of a text with a few words about it: one place that a diagnostic points at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The span.
+    /// The span of source text that the label points at.
     pub span: Span,
-    /// A few words about it; may be empty.
+    /// The words about the span that are shown beside it; may be empty.
     pub text: String,
 }
 
 /// A diagnostic: a stable code, a message, labels, and hints for correction.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The code, which has a page in `docs/errors/`.
+    /// The code that names the kind of diagnostic, with a page of its own in `docs/errors/`.
     pub code: Code,
-    /// The severity.
+    /// The severity: error, warning or note.
     pub severity: Severity,
     /// The message in the user's words and units: one sentence without a final full stop.
     pub message: String,
-    /// The labels; the first one is the primary one. Empty only if no text is at fault.
+    /// The labels, which point at the source; the first one is the primary one. Empty only if no text is at fault.
     pub labels: Vec<Label>,
     /// Hints for correction, each a sentence without a final full stop; may be empty.
     pub hints: Vec<String>,
 }
 
 impl Diagnostic {
-    /// Returns an error without labels and hints.
+    /// Returns an error with this code and message, and without labels and hints.
     pub fn error(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Error, message)
     }
 
-    /// Returns a warning without labels and hints.
+    /// Returns a warning with this code and message, and without labels and hints.
     pub fn warning(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Warning, message)
     }
 
-    /// Returns a note without labels and hints.
+    /// Returns a note with this code and message, and without labels and hints.
     pub fn note(code: Code, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(code, Severity::Note, message)
     }
@@ -58,13 +58,13 @@ impl Diagnostic {
         Diagnostic { code, severity, message: message.into(), labels: Vec::new(), hints: Vec::new() }
     }
 
-    /// Returns it with one more label; the first one added is the primary one.
+    /// Returns the diagnostic with one more label on `span`; the first one added is the primary one.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: text.into() });
         self
     }
 
-    /// Returns it with one more hint, a sentence without a final full stop.
+    /// Returns the diagnostic with one more hint for correction, a sentence without a final full stop.
     pub fn hint(mut self, text: impl Into<String>) -> Diagnostic {
         self.hints.push(text.into());
         self

@@ -26,35 +26,36 @@ const CUT: &str = "…";
 /// A block of consecutive lines of one file.
 #[derive(Debug)]
 pub(super) struct Block {
-    /// The file.
+    /// The file that the block is taken from.
     pub file: FileId,
-    /// The number of its first line, from 1.
+    /// The number, from 1, of the first line of the block in its file.
     pub first_line: usize,
-    /// The number of lines.
+    /// The number of lines in the block.
     pub line_count: usize,
-    /// The bytes of the block in [`Excerpt::text`].
+    /// The range of bytes that the block takes in [`Excerpt::text`].
     pub range: Range<usize>,
 }
 
 /// The position of a label in the excerpt.
 #[derive(Debug)]
 pub(super) struct Mark {
-    /// The bytes of the label in [`Excerpt::text`]; never empty, never past the last visible character.
+    /// The range of bytes that the label takes in [`Excerpt::text`]; never empty, never past the last visible
+    /// character.
     pub range: Range<usize>,
-    /// The position in the file.
+    /// The line and column at which the label begins in its file, both from 1.
     pub position: LineColumn,
-    /// The number of columns to the left of the mark's middle.
+    /// The number of columns of its line to the left of the mark's middle.
     pub indent: usize,
 }
 
 /// An excerpt.
 #[derive(Debug, Default)]
 pub(super) struct Excerpt {
-    /// The text of all blocks.
+    /// The text of all blocks, one after the other.
     pub text: String,
-    /// The blocks, those of the first label's file first, in a file by line.
+    /// The blocks of lines: those of the first label's file first, and within a file by line.
     pub blocks: Vec<Block>,
-    /// One mark for each label, in the labels' order.
+    /// The marks, one for each label of the diagnostic, in the labels' order.
     pub marks: Vec<Mark>,
 }
 

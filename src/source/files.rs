@@ -6,23 +6,23 @@ use std::borrow::Cow;
 /// The reason why a file can't be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReadError {
-    /// There is no such file.
+    /// There is no file of that path.
     NotFound,
     /// The path, or a link on it, leads out of the project.
     Outside,
     /// The file is larger than this limit, in bytes.
     TooLarge(usize),
-    /// Another failure, in the system's words.
+    /// Another failure, as a message in the words of the operating system.
     Failed(String),
 }
 
 /// Read access to the files of a project and of the standard library.
 pub trait Files {
-    /// Returns the bytes of a project file. `path` is relative to the project root, with forward slashes
-    /// and without `.` and `..` (see [`join`]).
+    /// Returns the bytes of a project file. `path` is relative to the project root, with forward slashes and without
+    /// `.` and `..` (see [`join`]).
     ///
     /// # Errors
-    /// The reason why the file can't be read.
+    /// The [`ReadError`] for which the file can't be read.
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadError>;
 
     /// Returns the text of a file of the standard library, such as `smores.mod` for `std.smores`; `None` if

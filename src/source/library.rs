@@ -7,7 +7,8 @@ macro_rules! embed {
     };
 }
 
-/// The name, such as `smores.mod`, and the text of each file, sorted by name; the prelude is one of them.
+/// The files of the standard library, each as (name such as `smores.mod`, text), sorted by name; the prelude is one
+/// of them.
 pub const FILES: &[(&str, &str)] = embed![
     "crystal.mod",
     "gaits.mod",

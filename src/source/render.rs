@@ -42,8 +42,8 @@ impl Style {
     }
 }
 
-/// Returns the diagnostics without duplicates, by file and position of the primary label, at one span errors
-/// before warnings; those without a label come last.
+/// Returns the diagnostics without duplicates, by file and position of the primary label, at one span errors before
+/// warnings; those without a label come last. Of equal diagnostics the first is kept.
 pub fn sorted(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
     sorted.sort_by(|a, b| key(a).cmp(&key(b)));
@@ -58,8 +58,8 @@ fn key(d: &Diagnostic) -> impl Ord + '_ {
     (d.span().is_none(), d.span(), d.severity, d.code, d.message.as_str(), texts, &d.hints)
 }
 
-/// Returns the diagnostics as text, [`sorted`] and without duplicates, up to `shown_max` of the style; each
-/// ends with an empty line. Empty if there are none.
+/// Returns the diagnostics as text, [`sorted`] and without duplicates, up to `shown_max` of the style; each ends with
+/// an empty line. Empty if there are none. Panics if a label is of another run.
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> String {
     let sorted = sorted(diagnostics);
     let mut out = String::new();
@@ -74,7 +74,7 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> S
 }
 
 /// Returns one diagnostic as text that ends with a line end: code, message, a snippet for each label, hints.
-/// Characters that control a terminal are replaced.
+/// Characters that control a terminal are replaced. Panics if a label is of another run.
 pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> String {
     let width = style.width.max(WIDTH_MIN);
     let gutter = gutter_width(sources, diagnostic);

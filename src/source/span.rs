@@ -7,11 +7,11 @@ pub struct FileId(pub u32);
 /// A half-open range of bytes `start..end` of one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
-    /// The file.
+    /// The file of which it is a range, by its identity among [`Sources`](super::Sources).
     pub file: FileId,
-    /// The offset of the first byte.
+    /// The offset of the first byte in the file, from 0.
     pub start: u32,
-    /// The offset after the last byte; that of an empty span is `start`.
+    /// The offset, from 0, after the last byte; that of an empty span is `start`.
     pub end: u32,
 }
 
@@ -25,7 +25,8 @@ impl Span {
         }
     }
 
-    /// Returns the smallest span that covers both. Both must be in one file, which debug builds check.
+    /// Returns the smallest span that covers both `self` and `other`. Both must be in one file, which debug builds
+    /// check.
     pub fn to(self, other: Span) -> Span {
         debug_assert_eq!(self.file, other.file);
         Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }

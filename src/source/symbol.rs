@@ -6,7 +6,8 @@ use std::sync::{LazyLock, Mutex};
 /// All interned names.
 static NAMES: LazyLock<Mutex<HashSet<&'static str>>> = LazyLock::new(Default::default);
 
-/// An interned name. It is never freed: a program has few distinct names.
+/// An interned name, which is compared and copied as cheaply as a pointer. It is never freed: a program has few
+/// distinct names.
 ///
 /// Equality compares pointers; order compares text, so that sorting is reproducible.
 #[derive(Clone, Copy, Eq)]
@@ -24,7 +25,7 @@ impl Symbol {
         Symbol(name)
     }
 
-    /// Returns the text.
+    /// Returns the text of the name.
     pub fn as_str(self) -> &'static str {
         self.0
     }

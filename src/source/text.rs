@@ -3,10 +3,10 @@
 use super::{FileId, Span};
 use std::sync::Arc;
 
-/// A position: line and column, both from 1; the column counts characters.
+/// A position in a text: line and column, both from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct LineColumn {
-    /// The line, from 1.
+    /// The number of the line, from 1.
     pub line: usize,
     /// The column in characters, from 1.
     pub column: usize,
@@ -18,18 +18,18 @@ pub struct SourceFile {
     /// The name in diagnostics and plans: relative to the project root, with forward slashes; a file of the
     /// standard library is `std/smores.mod`.
     pub name: Arc<str>,
-    /// The text.
+    /// The whole text of the file, as UTF-8.
     pub text: Arc<str>,
     /// True if the file belongs to the standard library.
     pub library: bool,
-    /// The number, from 1, of its first line; above 1 for a later piece of a longer input.
+    /// The number, from 1, of the first line of the text; above 1 for a later piece of a longer input.
     pub first_line: usize,
     line_starts: Vec<u32>,
 }
 
 impl SourceFile {
-    /// Returns the position of a byte offset. An offset beyond the text is taken as its end, and one within a
-    /// character as the character's begin.
+    /// Returns the line and column (from 1) of a byte offset (from 0). An offset beyond the text is taken as its end,
+    /// and one within a character as the character's begin.
     pub fn line_column(&self, offset: usize) -> LineColumn {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
@@ -58,7 +58,7 @@ impl SourceFile {
             .map_or(self.text.len(), |&start| start as usize)
     }
 
-    /// Returns the number of the last line, which is empty if the text ends with a line end.
+    /// Returns the number of the last line, counted from `first_line`; it is empty if the text ends with a line end.
     pub fn last_line(&self) -> usize {
         self.line_starts.len() + self.first_line - 1
     }

@@ -1,22 +1,22 @@
 //! Dimensions of quantities: exponents of length, mass, time and angle.
 
-/// A product of powers of metre, kilogram, second and radian. Angle is a dimension of its own, so
-/// that degrees never meet plain numbers silently.
+/// A physical dimension: a product of powers of metre, kilogram, second and radian. Angle is a dimension of its own,
+/// so that degrees never meet plain numbers silently.
 ///
 /// Dimensions are equal if their exponents are: an energy and a torque are one dimension, and only shown in other
 /// units.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Dimension {
-    /// Exponent of the metre.
+    /// The exponent of the metre.
     pub length: i8,
-    /// Exponent of the kilogram.
+    /// The exponent of the kilogram.
     pub mass: i8,
-    /// Exponent of the second.
+    /// The exponent of the second.
     pub time: i8,
-    /// Exponent of the radian.
+    /// The exponent of the radian.
     pub angle: i8,
-    /// Exponent of the dimension parameter of the function whose body is being checked, of which nothing else is
-    /// known; 0 everywhere else, and in every value.
+    /// The exponent of the dimension parameter of the function whose body is being checked, a dimension of which
+    /// nothing else is known; 0 everywhere else, and in every value.
     pub param: i8,
     /// True for what was declared an energy, or written in joules: it has the dimension of a torque, and is shown in
     /// joules. Sums of energies and their products with plain numbers are energies; any other result is shown by its
@@ -36,7 +36,8 @@ const fn dim(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
     Dimension { length, mass, time, angle, param: 0, energy: false }
 }
 
-/// The dimensions with a name that programs can write. Torque and energy are one dimension under two names.
+/// The dimensions that programs can write by name, each as (name, dimension). Torque and energy are one dimension
+/// under two names.
 pub const NAMED: &[(&str, Dimension)] = &[
     ("Number", Dimension::NUMBER),
     ("Length", Dimension::LENGTH),
@@ -57,35 +58,36 @@ pub const NAMED: &[(&str, Dimension)] = &[
 ];
 
 impl Dimension {
-    /// The dimension parameter of a function, in its body.
+    /// The dimension parameter of a function, as it stands in the function's body: a dimension of which nothing is
+    /// known.
     pub const PARAM: Dimension = Dimension { param: 1, ..Dimension::NUMBER };
-    /// No dimension: a plain number.
+    /// The dimension of a plain number: all exponents are 0.
     pub const NUMBER: Dimension = dim(0, 0, 0, 0);
-    /// Length, m.
+    /// The dimension of a length, m.
     pub const LENGTH: Dimension = dim(1, 0, 0, 0);
-    /// Mass, kg.
+    /// The dimension of a mass, kg.
     pub const MASS: Dimension = dim(0, 1, 0, 0);
-    /// Time, s.
+    /// The dimension of a time, s.
     pub const TIME: Dimension = dim(0, 0, 1, 0);
-    /// Angle, rad.
+    /// The dimension of an angle, rad.
     pub const ANGLE: Dimension = dim(0, 0, 0, 1);
-    /// Speed, m/s.
+    /// The dimension of a speed, m/s.
     pub const SPEED: Dimension = dim(1, 0, -1, 0);
-    /// Angular speed, rad/s.
+    /// The dimension of an angular speed, rad/s.
     pub const ANGULAR_SPEED: Dimension = dim(0, 0, -1, 1);
-    /// Acceleration, m/s².
+    /// The dimension of an acceleration, m/s².
     pub const ACCELERATION: Dimension = dim(1, 0, -2, 0);
-    /// Angular acceleration, rad/s².
+    /// The dimension of an angular acceleration, rad/s².
     pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
-    /// Force, N.
+    /// The dimension of a force, N.
     pub const FORCE: Dimension = dim(1, 1, -2, 0);
-    /// Torque, N·m, or an energy that nothing names so.
+    /// The dimension of a torque, N·m, which an energy that nothing declares as one has too.
     pub const TORQUE: Dimension = dim(2, 1, -2, 0);
-    /// Energy, J: the dimension of a torque, shown in joules.
+    /// The dimension of an energy, J: that of a torque, shown in joules.
     pub const ENERGY: Dimension = Dimension { energy: true, ..Dimension::TORQUE };
-    /// Angular momentum, N·m·s.
+    /// The dimension of an angular momentum, N·m·s.
     pub const ANGULAR_MOMENTUM: Dimension = dim(2, 1, -1, 0);
-    /// Frequency, Hz.
+    /// The dimension of a frequency, Hz.
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
     /// Returns the dimension with this name, such as `AngularSpeed`; `None` if none has it.
@@ -93,7 +95,8 @@ impl Dimension {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
 
-    /// Returns the name of this dimension, `Energy` only for one that is shown so; `None` if it has none.
+    /// Returns the name of this dimension that programs can write, such as `AngularSpeed`; `Energy` only for one that
+    /// is shown in joules; `None` if it has none.
     pub fn name(self) -> Option<&'static str> {
         NAMED.iter().find(|(_, d)| d.is_shown_as(self)).map(|(n, _)| *n)
     }
@@ -118,7 +121,8 @@ impl Dimension {
         Some(Dimension { energy, ..self.combine(other, i8::checked_sub)? })
     }
 
-    /// Returns the dimension of a power; `None` when an exponent leaves -128..=127.
+    /// Returns the dimension of the `n`th power of a quantity: every exponent times `n`; `None` when an exponent
+    /// leaves -128..=127.
     pub fn power(self, n: i64) -> Option<Dimension> {
         let scaled = |exponent: i8| i8::try_from(i64::from(exponent).checked_mul(n)?).ok();
         Some(Dimension { energy: self.energy && n == 1, ..self.map(scaled)? })

@@ -3,8 +3,8 @@
 use super::dimension::Dimension;
 use super::table::{UNITS, to_si};
 
-/// Returns a value in SI units as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in degrees.
-/// Digits as of [`number`]; a dimension without a usual unit is shown in base units (`0.25kg*m^2`).
+/// Returns a value in SI units as text with a unit, as a program would write it: 0.076 m as `76mm`, angles in
+/// degrees. Digits are those of [`number`]; a dimension without a usual unit is shown in base units (`0.25kg*m^2`).
 pub fn quantity(value: f64, dimension: Dimension) -> String {
     if dimension == Dimension::NUMBER {
         return number(value);
@@ -61,7 +61,7 @@ pub fn quantity_in(
     format!("{digits}{name}")
 }
 
-/// Returns a number with this many decimals; one that rounds to zero has no sign.
+/// Returns a number as text with this many decimals; one that rounds to zero has no sign.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     if text.bytes().any(|b| matches!(b, b'1'..=b'9')) {
@@ -141,7 +141,7 @@ pub fn usual_unit(dimension: Dimension) -> String {
     }
 }
 
-/// Returns true if a unit has this name.
+/// Returns true if the language has a unit of this name, such as `mm`.
 pub fn is_unit(name: &str) -> bool {
     UNITS.iter().any(|unit| unit.name == name)
 }

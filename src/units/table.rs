@@ -2,12 +2,12 @@
 
 use super::dimension::Dimension;
 
-/// A unit of measure, which programs write behind a number.
+/// A unit of measure, which programs write after a number: `76mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
-    /// The name as written, such as `mm`.
+    /// The name of the unit as programs write it, such as `mm`.
     pub name: &'static str,
-    /// The dimension of the quantities that it measures.
+    /// The dimension of the quantities that the unit measures.
     pub dimension: Dimension,
     /// The value of one such unit in SI: `value_si = value * factor`.
     pub factor: f64,
@@ -19,8 +19,7 @@ const fn u(name: &'static str, dimension: Dimension, factor: f64) -> Unit {
 
 const POWER: Dimension = Dimension { length: 2, mass: 1, time: -3, angle: 0, param: 0, energy: false };
 
-/// Every unit of the language. Values are converted by [`to_si`], so that `76mm` is exactly `76 / 1000` rounded
-/// once.
+/// Every unit of the language. Values are converted by [`to_si`], so that `76mm` is exactly `76 / 1000` rounded once.
 pub const UNITS: &[Unit] = &[
     u("nm", Dimension::LENGTH, 1e-9),
     u("um", Dimension::LENGTH, 1e-6),
@@ -49,13 +48,13 @@ pub const UNITS: &[Unit] = &[
     u("Hz", Dimension::FREQUENCY, 1.0),
 ];
 
-/// Returns the unit with this name, such as `mm`; `None` if there is none.
+/// Returns the unit with this name, such as `mm`; `None` if the language has none.
 pub fn unit(name: &str) -> Option<Unit> {
     UNITS.iter().copied().find(|unit| unit.name == name)
 }
 
-/// Returns `value`, in a unit of this factor, in SI units. A factor below one is applied by dividing by its exact
-/// inverse where that is a whole number: `76mm` is the double nearest to 0.076.
+/// Returns `value`, in a unit of this factor ([`Unit::factor`]), in SI units. A factor below one is applied by
+/// dividing by its exact inverse where that is a whole number: `76mm` is the double nearest to 0.076.
 pub fn to_si(value: f64, factor: f64) -> f64 {
     let inverse = (1.0 / factor).round();
     if factor < 1.0 && inverse * factor == 1.0 { value / inverse } else { value * factor }

@@ -12,17 +12,17 @@ use super::motion_plan::Plan;
 use super::validation::check_serialisable;
 use sha2::{Digest, Sha256};
 
-/// The greatest length of a text that is read, bytes.
+/// The greatest length of a text that [`read`] accepts, bytes.
 pub const TEXT_MAX: usize = 1 << 31;
 
 /// The reason why a plan cannot be written or read, with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
-    /// The line, from 1; 0 where the fault has no position in the text.
+    /// The line of the fault, from 1; 0 where it has no position in the text.
     pub line: usize,
-    /// The column, from 1, in bytes; 0 where the fault has no position in the text.
+    /// The column of the fault, from 1, in bytes; 0 where it has no position in the text.
     pub column: usize,
-    /// The reason, in words.
+    /// The reason in words, as a message.
     pub message: String,
 }
 
@@ -49,7 +49,7 @@ impl From<serde_json::Error> for FileError {
     }
 }
 
-/// Returns a plan as text.
+/// Returns a plan as the text of its JSON file, of the version that [`schema`] describes.
 ///
 /// # Errors
 /// A [`FileError`] without position for a number that is not finite, which JSON cannot hold, and for nesting deeper
@@ -110,7 +110,8 @@ pub fn digest(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Returns the JSON Schema of plan files, of the version that is written.
+/// Returns the JSON Schema of plan files, of the version that [`write()`] writes; its descriptions are the comments
+/// of the types.
 pub fn schema() -> serde_json::Value {
     let mut schema = schemars::schema_for!(PlanJson<'static>).to_value();
     if let Some(object) = schema.as_object_mut() {

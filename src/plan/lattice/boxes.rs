@@ -12,8 +12,9 @@ use super::window::{self, Window};
 /// The greatest number of pairs that are examined, for each cell: cells that move by little have a few neighbours.
 const PAIRS_MAX: usize = 500;
 
-/// Joins in `forest` the cells that are in contact during the whole stage. `before` and `after` are the cells by
-/// number at the two ends of the stage. `None` if more pairs come near each other than are examined.
+/// Joins in `forest` the cells that are in contact during the whole stage, where cells move along several axes: broad
+/// phase by separating planes and a uniform grid, narrow phase by linear inequalities. `before` and `after` are the
+/// cells by number at the two ends of the stage. `None` if more pairs come near each other than are examined.
 ///
 /// # Errors
 /// The inner result is the first [`Overlap`] of two cells that is found.
@@ -97,8 +98,9 @@ fn parts(before: &[Cube], after: &[Cube], mut cells: Vec<u32>, axis: usize) -> V
     parts
 }
 
-/// Calls `visit` with every pair of cells, by number and the lower first, whose swept bounding boxes touch or overlap.
-/// `None` if there are too many; some were visited then.
+/// Calls `visit` with every pair of cells, by number and the lower first, whose swept bounding boxes touch or
+/// overlap. `before` and `after` are the cells by number at the two ends of the stage. `None` if there are too many
+/// pairs; some were visited then.
 pub fn for_swept_pairs(before: &[Cube], after: &[Cube], mut visit: impl FnMut(usize, usize)) -> Option<()> {
     let visited = pairs_near(&swept(before, after), |i, j| {
         visit(i, j);

@@ -7,7 +7,7 @@
 
 use super::grid::Cube;
 
-/// A spanning forest of the contact graph of cells, with union and find.
+/// A spanning forest of the contact graph of cells, kept by union and find (Tarjan 1975).
 #[derive(Clone)]
 pub struct ContactForest {
     /// The union-find parent of each cell.
@@ -16,7 +16,8 @@ pub struct ContactForest {
     pub links: Vec<(u32, u32)>,
     /// Twice the greatest relative displacement of two cells in contact along an axis, in grid lines.
     pub relative: i64,
-    /// The numbers of the two cells in contact with the greatest relative displacement; (0, 0) if nothing moves.
+    /// The numbers of the two cells in contact with the greatest relative displacement, the one that
+    /// [`ContactForest::relative`] states; (0, 0) if nothing moves.
     pub fastest: (u32, u32),
 }
 
@@ -32,7 +33,7 @@ struct ForceNode {
 }
 
 impl ContactForest {
-    /// Returns the forest of `count` cells without contacts.
+    /// Returns the forest of `count` cells, numbered from 0, without contacts.
     pub fn new(count: usize) -> ContactForest {
         ContactForest {
             above: (0..count as u32).collect(),

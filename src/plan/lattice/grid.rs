@@ -8,24 +8,26 @@ use crate::plan::stages::ratio::Ratio;
 /// grid lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cube {
-    /// The coordinates of its lower faces along x, y and z, in grid lines.
+    /// The coordinates of the lower faces along x, y and z, in grid lines.
     pub lo: [i64; 3],
-    /// The coordinates of its upper faces along x, y and z, in grid lines.
+    /// The coordinates of the upper faces along x, y and z, in grid lines.
     pub hi: [i64; 3],
 }
 
 impl Cube {
-    /// Returns twice the coordinate of the centre along an axis (0 to 2), in grid lines.
+    /// Returns twice the coordinate of the cell's centre along an axis (0 to 2 for x, y, z), in grid lines. Panics
+    /// for an axis above 2.
     pub fn middle(&self, axis: usize) -> i64 {
         self.lo[axis] + self.hi[axis]
     }
 
-    /// Returns the edge length along an axis (0 to 2), in grid lines.
+    /// Returns the edge length of the cell along an axis (0 to 2 for x, y, z), in grid lines. Panics for an axis
+    /// above 2.
     pub fn size(&self, axis: usize) -> i64 {
         self.hi[axis] - self.lo[axis]
     }
 
-    /// Returns the cell translated by so many grid lines along x, y and z.
+    /// Returns the cell translated by the whole numbers `by` of grid lines along x, y and z.
     pub fn shifted(&self, by: [i64; 3]) -> Cube {
         let shifted = |face: [i64; 3]| [0, 1, 2].map(|axis| face[axis] + by[axis]);
         Cube { lo: shifted(self.lo), hi: shifted(self.hi) }
@@ -37,18 +39,17 @@ const FACE_MAX: i128 = 1 << 48;
 /// The greatest number of grid lines to a cell.
 const LINES_MAX: i128 = 1 << 40;
 
-/// A grid that all faces of one plan, or of several, lie on.
+/// The integer grid that all faces of the cells of one plan, or of several, lie on.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
-    /// The number of grid lines to the edge of a full-sized cell.
+    /// The number of grid lines to the edge of a full-sized cell, positive.
     pub lines: i64,
 }
 
 impl Grid {
-    /// Returns the coarsest grid of all configurations of a plan.
+    /// Returns the coarsest grid on which the faces of all configurations of a plan lie.
     ///
     /// # Errors
-    ///
     /// [`LatticeFault::GridTooFine`], as [`Grid::over`].
     pub fn of(stages: &Stages) -> Result<Grid, LatticeFault> {
         Grid::over(stages.start.iter().chain(stages.stages.iter().flat_map(|stage| &stage.end)))
@@ -58,7 +59,6 @@ impl Grid {
     /// denominators.
     ///
     /// # Errors
-    ///
     /// [`LatticeFault::GridTooFine`] if a cell would take more than 2⁴⁰ lines.
     pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, LatticeFault> {
         let mut lines: i128 = 2;

@@ -13,7 +13,7 @@ use super::tiles::{Section, Tile, Tiles};
 pub struct Overlap {
     /// The numbers of the two cells, from 0.
     pub cells: (u32, u32),
-    /// True if they overlap at the start of the stage, false if only later.
+    /// True if the cells overlap at the start of the stage, false if only later.
     pub at_start: bool,
 }
 
@@ -38,8 +38,9 @@ struct Lanes {
 /// The number of comparisons of lanes that a stage may take, for each cell: sound plans take a few.
 const COMPARISONS_MAX: usize = 200;
 
-/// Joins in `forest` the cells that are in contact during the whole stage. `before` and `after` are the cells by
-/// number at the two ends of the stage. All cells move along `axis` (0 to 2) only; `lines` is the number of grid lines
+/// Joins in `forest` the cells that are in contact during the whole stage, where all cells move along one axis: by a
+/// sweep along it over lanes, the rows of cells of one cross-section. `before` and `after` are the cells by number at
+/// the two ends of the stage; `axis` (0 to 2 for x, y, z) is that of the motion; `lines` is the number of grid lines
 /// to a cell. `None` if more lanes lie side by side than are compared.
 ///
 /// # Errors

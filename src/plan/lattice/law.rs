@@ -8,11 +8,11 @@ use crate::plan::stages::ratio::Ratio;
 use num_bigint::BigInt;
 use std::cmp::Ordering;
 
-/// Sums and extremes of the displacements of all cells over a stage. Displacements are counted twice, in grid lines:
-/// they are those of the sum of a cell's two faces. The default is the stage without cells.
+/// The sums and extremes of the displacements of all cells over a stage. Displacements are counted twice, in grid
+/// lines: they are those of the sum of a cell's two faces. The default is that of a stage without cells.
 #[derive(Clone, Debug, Default)]
 pub struct Change {
-    /// For x, y and z, true if some face moves along that axis.
+    /// The axes of motion: for x, y and z, true if some face moves along that axis.
     pub axes: [bool; 3],
     /// The greatest absolute displacement along an axis, in grid lines and counted twice, with the number of its cell.
     pub farthest: (i64, u32),
@@ -35,7 +35,7 @@ pub struct Change {
 }
 
 impl Change {
-    /// Returns the sums and extremes for the cells before and after a stage, by number, in one pass.
+    /// Returns the sums and extremes for the cells `before` and `after` a stage, by number, in one pass.
     pub fn of(before: &[Cube], after: &[Cube]) -> Change {
         let mut change = Change { smallest: (i64::MAX, 0), ..Change::default() };
         for (cell, (old, new)) in before.iter().zip(after).enumerate() {
@@ -105,7 +105,8 @@ pub struct TimeScaling {
 }
 
 impl TimeScaling {
-    /// Returns the time scaling of a stage. Its duration must not be zero if speeds or accelerations are asked for.
+    /// Returns the time scaling of a stage from its law and duration. The duration must not be zero if speeds or
+    /// accelerations are asked for.
     pub fn of(stage: &Stage) -> TimeScaling {
         let (first, last) = stage.law.ramps();
         // 2 / (2 - first - last)
@@ -185,29 +186,30 @@ impl TimeScaling {
         self.compare_speed_squared(distance, lines, limit).min(first).min(last)
     }
 
-    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator, not in lowest
-    /// terms.
+    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator, not in lowest terms;
+    /// without unit.
     pub fn acceleration_ratio(&self) -> (i64, i64) {
         (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)
     }
 
-    /// Returns the peak of `σ'`, per time unit.
+    /// Returns the peak of `σ'`, in 1 per unit of time of the plan
+    /// ([`Stages::time_unit`](crate::plan::Stages::time_unit)).
     pub fn peak_speed(&self) -> f64 {
         self.speed.0 as f64 / self.speed.1 as f64 / libm::sqrt(self.time_squared.to_f64())
     }
 
-    /// Returns the peak of `σ''`, per squared time unit.
+    /// Returns the peak of `σ''`, in 1 per squared unit of time of the plan
+    /// ([`Stages::time_unit`](crate::plan::Stages::time_unit)).
     pub fn peak_acceleration(&self) -> f64 {
         self.speed.0 as f64 / self.speed.1 as f64 / self.ramp.to_f64() / self.time_squared.to_f64()
     }
 }
 
-/// Checks that velocities are continuous between two stages, if the first does not end at rest or the second does
-/// not begin at rest. Each stage is given with the cells, by number, at its outer end, `between` are those at the
-/// instant between them.
+/// Checks that velocities are continuous between two stages, if the first does not end at rest or the second does not
+/// begin at rest. Each stage is given with the cells, by number, at its outer end; `between` are those at the instant
+/// between the two.
 ///
 /// # Errors
-///
 /// The number of the first cell whose velocity jumps.
 pub fn velocities_continue(
     (stage, before): (&Stage, &[Cube]),

@@ -71,7 +71,7 @@ pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -
     lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
 }
 
-/// The integer coordinates x, y, z of lattice sites, in cells.
+/// A list of lattice sites by their integer coordinates x, y, z, in cells.
 pub type Places = Vec<[i64; 3]>;
 
 /// Returns the lattice sites that the cells fill at the start and at the end of a plan, each sorted by x, then y, then
@@ -101,9 +101,10 @@ fn places(cubes: &[Cube], lines: i64) -> Result<Places, LatticeFault> {
     Ok(places)
 }
 
-/// Joins in `forest` the cells that are in contact during the whole stage; by a sweep if cells move along one axis
-/// only. `change` must be that of `before` and `after`, the cells by number; `lines` is the number of grid lines to a
-/// cell. `None` if more pairs of cells come near each other than are examined.
+/// Joins in `forest` the cells that are in contact during the whole stage: by a sweep if cells move along one axis
+/// only, else by a search of near pairs. `before` and `after` are the cells by number at the ends of the stage, and
+/// `change` must be theirs; `lines` is the number of grid lines to a cell. `None` if more pairs of cells come near
+/// each other than are examined.
 ///
 /// # Errors
 /// The inner result is the first [`Overlap`] of two cells that is found.

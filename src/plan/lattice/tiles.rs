@@ -26,7 +26,7 @@ pub(super) struct Tiles {
     /// The first lane of each tile, if there is a table.
     table: Option<Vec<u32>>,
     map: BTreeMap<Tile, u32>,
-    /// The cross-section of each lane, by its number.
+    /// The cross-section of each lane (the cells with one cross-section), by the number of the lane, in grid lines.
     pub sections: Vec<Section>,
     /// The next lane of the same tile, for each lane.
     next: Vec<u32>,

@@ -15,7 +15,7 @@ pub struct TransientContact {
     pub cells: (u32, u32),
     /// Twice the greatest relative displacement of the cells along an axis over the whole stage, in grid lines.
     pub relative: i64,
-    /// The open interval of the path parameter in which it holds.
+    /// The open interval of the path parameter in which the contact holds.
     pub window: Window,
 }
 

@@ -11,17 +11,17 @@ pub(super) fn order(a: Fraction, b: Fraction) -> Ordering {
     (a.0 * b.1).cmp(&(b.0 * a.1))
 }
 
-/// An open interval of the path parameter.
+/// An open interval of the path parameter of a stage, which goes from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// The lower end, not below 0.
+    /// The lower end of the interval, not below 0.
     pub from: Fraction,
-    /// The upper end, not above 1.
+    /// The upper end of the interval, not above 1.
     pub to: Fraction,
 }
 
 impl Window {
-    /// The whole stage, from 0 to 1.
+    /// The interval of the whole stage, from 0 to 1.
     pub const WHOLE: Window = Window { from: (0, 1), to: (1, 1) };
 
     /// Returns the part of the interval in which the linear function with the values `start` at 0 and `end` at 1 is

@@ -8,11 +8,12 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surroundings {
-    /// The solids that struts keep their clearance from, each the union of some shapes.
+    /// The solids that struts keep their clearance from, each the union of some shapes, in the world's frame (m).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub obstacles: Vec<Vec<Placed>>,
-    /// The ground that nodes stand on; `None`: flat at height 0. Nodes are taken to be balls as thick as the
-    /// clearance on each side, struts as half of it: between its nodes a strut may be half a clearance below.
+    /// The ground that nodes stand on, in the world's frame; `None`: flat at height 0. Nodes are taken to be balls as
+    /// thick as the clearance on each side, struts as half of it: between its nodes a strut may be half a clearance
+    /// below.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub terrain: Option<HeightField>,
 }
@@ -29,15 +30,15 @@ impl Surroundings {
     }
 }
 
-/// Limits of a truss beside those that every strut has.
+/// The limits of a truss beside those that every strut has.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrussLimits {
     /// The least angle between struts that share a node, rad; 0: no limit.
     #[serde(default)]
     pub angle: f64,
-    /// The limit of rigidity: at the keyframes the least singular value of the rigidity matrix (rows of unit
-    /// vectors) that belongs to no rigid motion is above it; without unit; 0: no limit.
+    /// The value above which the least singular value of the rigidity matrix (rows of unit vectors) that belongs to
+    /// no rigid motion stays at the keyframes; without unit; 0: no limit.
     #[serde(default)]
     pub rigidity: f64,
     /// Sums of lengths that stay in a range; a single strut whose length stays is one, too.
@@ -45,18 +46,18 @@ pub struct TrussLimits {
     pub sums: Vec<LengthSum>,
 }
 
-/// Struts whose lengths add up to a sum in a range: one that failed, or those of one tube.
+/// The struts whose lengths add up to a sum in a range, such as one that failed, or those of one tube.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthSum {
-    /// Indices of the struts in the plan's list, from 0.
+    /// The indices of the struts in the plan's list, from 0.
     pub struts: Vec<usize>,
-    /// The least and the greatest sum, m.
+    /// The least and the greatest sum of the lengths, m.
     pub range: (f64, f64),
 }
 
 impl TrussLimits {
-    /// Returns true if nothing is limited.
+    /// Returns true if the truss has no limits beside those of its struts.
     pub fn is_none(&self) -> bool {
         *self == TrussLimits::default()
     }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NodePaths {
-    /// Index of the strut type in [`Library::struts`](crate::robot::Library).
+    /// The index of the strut type in [`Library::struts`](crate::robot::Library).
     pub strut: usize,
     /// The names of the nodes; the index of a node here, from 0, names it in the whole plan.
     pub node_names: Vec<String>,
@@ -35,11 +35,11 @@ pub struct Keyframe {
     pub time: f64,
     /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
     pub interpolation: Interpolation,
-    /// World position of each node, by index, m.
+    /// The world position of each node, by its index in [`NodePaths::node_names`], m.
     pub nodes: Vec<[f64; 3]>,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that this keyframe comes from.
     pub cause: CauseId,
-    /// The margins from its limits at this keyframe, as the planner states them.
+    /// The margins from the limits at this keyframe, as the planner states them.
     #[serde(default, skip_serializing_if = "Margins::is_none")]
     pub margins: Margins,
 }
@@ -53,15 +53,15 @@ pub enum Interpolation {
     /// The whole truss turns as a rigid body about the line through two nodes that stay, directed from the first to
     /// the second, by the right-hand rule. No strut changes its length.
     RigidRoll {
-        /// The indices of the two nodes that stay.
+        /// The indices of the two nodes that stay, in [`NodePaths::node_names`].
         edge: (usize, usize),
-        /// The angle, rad.
+        /// The angle of the roll, rad.
         angle: f64,
     },
 }
 
 impl NodePaths {
-    /// Returns the duration, s.
+    /// Returns the duration of the plan, the time of the last keyframe, s.
     pub fn duration(&self) -> f64 {
         self.keyframes.last().map_or(0.0, |k| k.time)
     }
@@ -86,7 +86,7 @@ impl NodePaths {
         }
     }
 
-    /// Returns the length (m) of each strut, by index, at the time `t` (s).
+    /// Returns the length (m) of each strut, by its index in [`NodePaths::struts`], at the time `t` (s).
     pub fn lengths(&self, t: f64) -> Vec<f64> {
         let nodes = self.state(t);
         let at = |i: usize| Vec3::from(nodes[i]);

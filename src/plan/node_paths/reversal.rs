@@ -3,7 +3,7 @@
 use super::motion::{Interpolation, Keyframe, NodePaths};
 
 impl NodePaths {
-    /// Returns the paths from end to start: rolls turn in the opposite direction.
+    /// Returns the paths in reverse, from end to start: rolls turn in the opposite direction.
     pub fn reversed(&self) -> NodePaths {
         let d = self.duration();
         let keyframes = &self.keyframes;

@@ -9,11 +9,11 @@ use crate::plan::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A lattice in motion. Lengths are in cell sizes; times in [`Stages::time_unit`].
+/// The motion of a lattice of cells, in stages. Lengths are in cell sizes; times in [`Stages::time_unit`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stages {
-    /// Index of the cell type in [`Library::cells`](crate::robot::Library).
+    /// The index of the cell type in [`Library::cells`](crate::robot::Library).
     pub cell: usize,
     /// The number of cells, which are numbered from 0.
     pub count: u64,
@@ -48,7 +48,7 @@ impl Default for CellLimits {
     }
 }
 
-/// The conditions beside those that every plan of the family meets.
+/// The conditions on forces beside those that every plan of the family meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
@@ -73,7 +73,7 @@ pub struct Stage {
     pub law: Law,
     /// The positions of cells at the end of the stage.
     pub end: Vec<Run>,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that this stage comes from.
     pub cause: CauseId,
 }
 
@@ -84,13 +84,14 @@ pub enum Law {
     /// Speeding up at a constant rate for half the time, slowing down for the other: `σ = 2u²`, then
     /// `1 - 2(1-u)²`.
     BangBang,
-    /// The same with an interval of constant speed between; each ramp takes this fraction of the duration, at most
-    /// 1/2.
+    /// A trapezoid of speed, as the bang-bang law with an interval of constant speed between; each ramp takes this
+    /// fraction of the duration, at most 1/2.
     Trapezoid(Ratio),
     /// The motion from rest to full speed: a ramp takes this fraction of the duration, at most all of it;
     /// then the speed is kept, and the next stage continues with it.
     SpeedUp(Ratio),
-    /// The reverse: the motion from full speed to rest, with a ramp at the end.
+    /// The motion from full speed to rest, the reverse of [`Law::SpeedUp`]: the speed is kept, then a ramp takes this
+    /// fraction of the duration, at most all of it.
     SlowDown(Ratio),
 }
 
@@ -103,7 +104,7 @@ pub struct Run {
     pub first: u64,
     /// The counters, outermost first; none for a single cell.
     pub counters: Vec<Counter>,
-    /// The centre along x, y, z with all counters at 0, in cell sizes.
+    /// The centre along x, y, z of the cell with all counters at 0, in cell sizes.
     pub center: [Ratio; 3],
     /// The size along x, y, z of every cell of the run, in cell sizes.
     pub size: [Ratio; 3],
@@ -121,12 +122,12 @@ pub struct Counter {
     pub step: [Ratio; 3],
 }
 
-/// A cell at an instant; lengths in cell sizes.
+/// The box that a cell fills at an instant; lengths in cell sizes, along the axes of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellBox {
-    /// The centre along x, y, z, in cell sizes.
+    /// The centre of the cell along x, y, z, in cell sizes.
     pub center: [f64; 3],
-    /// The size along x, y, z, in cell sizes.
+    /// The edge lengths of the cell along x, y, z, in cell sizes.
     pub size: [f64; 3],
 }
 
@@ -141,7 +142,7 @@ impl Law {
         }
     }
 
-    /// Returns the same law backwards in time.
+    /// Returns the time-reversed law: `σ` becomes `1 - σ(1 - u)`.
     pub fn reversed(self) -> Law {
         match self {
             Law::BangBang | Law::Trapezoid(_) => self,
@@ -184,14 +185,14 @@ impl Law {
 }
 
 impl Stage {
-    /// Returns the duration in units of time ([`Stages::time_unit`]).
+    /// Returns the duration of the stage in units of time ([`Stages::time_unit`]): the root of `time_squared`.
     pub fn duration(&self) -> f64 {
         libm::sqrt(self.time_squared.to_f64())
     }
 }
 
 impl Run {
-    /// Returns the number of cells that it holds, with repetition.
+    /// Returns the number of cells that the run holds, with repetition: the product of the counts of its counters.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|c| c.count).product()
     }

@@ -10,9 +10,9 @@ use std::cmp::Ordering;
 pub struct Ratio(pub i64, pub i64);
 
 impl Ratio {
-    /// The number 0.
+    /// The number 0 as a fraction.
     pub const ZERO: Ratio = Ratio(0, 1);
-    /// The number 1.
+    /// The number 1 as a fraction.
     pub const ONE: Ratio = Ratio(1, 1);
 
     /// Returns `numerator / denominator` in lowest terms with a positive denominator; `None` if 64 bits do not hold

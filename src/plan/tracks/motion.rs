@@ -6,8 +6,8 @@ use crate::robot::{Assembly, JointId, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The joint trajectories of an articulated robot over time, piecewise polynomials in Bernstein form, and the
-/// bonds that hold.
+/// The joint trajectories of an articulated robot over time, piecewise polynomials in Bernstein form, and the bonds
+/// that hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// The robot, with every bond that exists at some time.
@@ -47,9 +47,10 @@ pub struct Segment {
     pub start: f64,
     /// The end of the segment from the start of the plan, s; after `start`.
     pub end: f64,
-    /// The control points, rad or m; degree = number - 1; 2 to 16 of them.
+    /// The Bernstein control points over the segment's interval of time, rad or m: one more than the degree, 2 to 16
+    /// of them.
     pub control: Vec<f64>,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that this segment comes from.
     pub cause: CauseId,
 }
 
@@ -71,9 +72,9 @@ pub struct DockingEvent {
     pub time: f64,
     /// The change of the bond.
     pub kind: DockingKind,
-    /// Index of the bond in [`Assembly::bonds`].
+    /// The index of the bond in [`Assembly::bonds`].
     pub bond: usize,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that this event comes from.
     pub cause: CauseId,
 }
 
@@ -94,12 +95,13 @@ impl Segment {
         polynomial::value(&rates, self.argument(t)) / (self.end - self.start)
     }
 
-    /// Returns the position at the end, rad or m. Panics without control points.
+    /// Returns the position of the joint at the end of the segment, rad or m. Panics without control points.
     pub fn last(&self) -> f64 {
         self.control[self.control.len() - 1]
     }
 
-    /// Returns the piece between two times (s), which are clipped to the segment; `None` if no time is left.
+    /// Returns the piece of the segment between two times (s), which are clipped to the segment; `None` if no time is
+    /// left.
     pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
         let (start, end) = (t0.max(self.start), t1.min(self.end));
         if start >= end {
@@ -181,7 +183,7 @@ impl Tracks {
         state
     }
 
-    /// Returns the state in which the plan ends.
+    /// Returns the state in which the plan ends: joint positions, bonds, and the base at its start pose.
     pub fn end(&self) -> State {
         self.state(self.duration)
     }

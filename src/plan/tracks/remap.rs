@@ -8,8 +8,8 @@ use crate::plan::world::{Exemption, ExemptionKind};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
 use std::sync::Arc;
 
-/// A map from the modules, ports, joints, bonds and causes of robot B to those of robot A. The latter is given the
-/// bonds of B that it lacks.
+/// A map from the modules, ports, joints, bonds and causes of robot B to those of robot A, by which two motions
+/// become one. Robot A is given the bonds of B that it lacks.
 #[derive(Clone, Debug)]
 pub struct Remap {
     /// Robot A with the bonds of B.

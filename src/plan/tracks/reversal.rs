@@ -10,7 +10,8 @@ impl Segment {
 }
 
 impl Tracks {
-    /// Returns the motion from end to start: what was docked is undocked. The base stays where it was at the start.
+    /// Returns the motion in reverse, from end to start: what was docked is undocked, and undocked docked. The base
+    /// stays where it was at the start.
     pub fn reversed(&self) -> Tracks {
         let d = self.duration;
         let track = |t: &Track| Track {

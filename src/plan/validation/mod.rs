@@ -22,7 +22,7 @@ use crate::robot::validation::{QUANTITY_MAX, check_library};
 /// the rules of programs.
 ///
 /// # Errors
-/// The first fault that was found.
+/// The first [`PlanFault`] that was found.
 pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
     check_library(&plan.library).map_err(PlanFault::Library)?;
     plan.provenance.check()?;
@@ -50,7 +50,7 @@ pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
 /// Checks that a plan can be judged: [`validate`], and that every number is finite and in its range.
 ///
 /// # Errors
-/// The first fault that was found.
+/// The first [`PlanFault`] that was found.
 pub fn check(plan: &Plan) -> Result<(), PlanFault> {
     // Each check may rely on those before it.
     numbers(plan)?;

@@ -3,19 +3,19 @@
 
 use serde::ser::{self, Serialize};
 
-/// A part of a value that JSON cannot hold.
+/// A part of a value that JSON cannot hold, as the serialisation of the value finds it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unwritable {
     /// A number that is not finite.
     Number {
         /// The name of the last named field that holds it; empty if there is none.
         field: &'static str,
-        /// The number.
+        /// The number that was found: infinite or NaN.
         value: f64,
     },
     /// A field that is nested more deeply than readers take.
     TooDeep {
-        /// The name of the field; empty if there is none.
+        /// The name of the field that is nested too deeply; empty if there is none.
         field: &'static str,
     },
     /// Another reason, in the words of the value's serialisation.

@@ -17,7 +17,7 @@ pub(super) struct Ledger<'a> {
     excused: Vec<CheckKind>,
     /// Failures beyond [`FAILURES_MAX`].
     unreported: usize,
-    /// The verdict so far.
+    /// The verdict as far as the checks have been made.
     pub verdict: Verdict,
 }
 

@@ -6,10 +6,10 @@ use crate::plan::tolerances::TOLERANCES;
 /// A point on the ground: x and y in the world, m.
 pub(super) type Point = [f64; 2];
 
-/// The position of a point, the projected centre of mass, relative to a support polygon.
+/// The position of a point, such as the projected centre of mass, relative to a support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
-    /// The distance to the nearest edge, m: positive inside, negative outside.
+    /// The distance of the point to the nearest edge, m: positive inside, negative outside.
     pub distance: f64,
     /// The two ends of the nearest edge, as indices in the list of points that span the polygon, from 0,
     /// counter-clockwise seen from above.

@@ -26,11 +26,11 @@ const SEGMENTS_EACH: usize = 2;
 
 /// An action that may be to blame: a candidate.
 pub(super) struct Candidate {
-    /// The joint that it moves, by the number in its [`JointId`].
+    /// The joint that the action moves, by the number in its [`JointId`].
     pub joint: usize,
-    /// The time at which its segment begins, s.
+    /// The time at which the segment of the action begins, s from the start of the plan.
     pub start: f64,
-    /// The cause of its segment: the command in the source.
+    /// The cause of the segment: the command in the source.
     pub cause: CauseId,
     /// True if it moves at the time of the failure.
     moving: bool,

@@ -8,7 +8,7 @@ use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 use std::collections::BTreeSet;
 
-/// A link whose shape can't be judged.
+/// A link whose shape can't be judged, with the fault.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnsoundLink {
     /// The name of the module type.
@@ -19,10 +19,10 @@ pub struct UnsoundLink {
     pub why: Unsound,
 }
 
-/// The convex parts of a robot's links.
+/// The convex parts of a robot's links, compiled for the checks of collisions.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    /// The bodies, ascending by the number of their link ([`Kinematics`]); links without shapes have none.
+    /// The bodies, ascending by the number of their link ([`Kinematics::link`]); links without shapes have none.
     pub bodies: Vec<Body>,
     /// Index of the first body of each module, and the number of bodies at the end.
     first: Vec<usize>,
@@ -40,12 +40,12 @@ pub struct InnerPair {
     pub a: usize,
     /// The second body, by its index among the bodies of its module; greater than `a`.
     pub b: usize,
-    /// True if they count for the clearance: two links that a joint joins do not.
+    /// True if the pair counts for the clearance: two links that a joint joins do not.
     pub counts: bool,
     /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
-    /// Their signed distance, m, if no joint can change it: wheels on an axle, and links that turn about it; `None`
-    /// if joints can.
+    /// The signed distance of the two, m, if no joint can change it: wheels on an axle, and links that turn about it;
+    /// `None` if joints can.
     pub fixed: Option<f64>,
 }
 
@@ -54,12 +54,12 @@ pub struct InnerPair {
 pub struct Body {
     /// The convex part, in the frame of the carrier.
     pub part: Part,
-    /// The link it belongs to, by the numbering of [`Kinematics`].
+    /// The number of the link that the part belongs to ([`Kinematics::link`]).
     pub link: usize,
-    /// The link that carries it, by the same numbering. A disc that turns about its own axis is carried by the link
-    /// that bears the axis: the turn changes nothing.
+    /// The number of the link that carries the part ([`Kinematics::link`]). A disc that turns about its own axis is
+    /// carried by the link that bears the axis: the turn changes nothing.
     pub carrier: usize,
-    /// The index of the module that it belongs to.
+    /// The index in the assembly of the module that the part belongs to.
     pub module: usize,
     /// An upper bound on the distance of the part's points from the carrier's origin, m.
     pub reach: f64,
@@ -71,8 +71,7 @@ impl Bodies {
     /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts.
     ///
     /// # Errors
-    ///
-    /// The first link whose shape is not sound.
+    /// [`UnsoundLink`] for the first link whose shape is not sound.
     pub fn new(robot: &Assembly, kinematics: &Kinematics) -> Result<Bodies, UnsoundLink> {
         let kinds: Vec<Kind> = robot.library.modules.iter().map(Kind::new).collect::<Result<_, _>>()?;
         let mut all = Bodies {
@@ -102,12 +101,14 @@ impl Bodies {
     }
 
     /// Returns the indices in [`Bodies::bodies`] of the bodies of a module, given by its index in the assembly.
+    /// Panics if there is no such module.
     pub fn of(&self, module: usize) -> std::ops::Range<usize> {
         self.first[module]..self.first[module + 1]
     }
 
     /// Returns the pairs of bodies within a module (its index in the assembly) that are checked for collision. Each
     /// may penetrate by `InnerPair::allowed`: `touch`, plus the overlap as drawn for two links that a joint joins.
+    /// Panics if there is no such module.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }

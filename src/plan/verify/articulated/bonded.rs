@@ -26,9 +26,9 @@ pub(super) struct BondedLinks(BTreeMap<(usize, usize), BondedPair>);
 pub(super) struct BondedPair {
     /// The index in the assembly of the first of the bonds, or of that which holds the links at its nominal pose.
     pub bond: usize,
-    /// The overlap at the nominal pose, m.
+    /// The penetration depth of the two links at the nominal pose of the bond, m.
     pub overlap: f64,
-    /// The part of it that the error of docking explains, m.
+    /// The part of that depth that the error of docking explains, m.
     pub explained: f64,
     /// True if the links keep the nominal pose as long as the bond holds.
     pub rigid: bool,

@@ -18,10 +18,10 @@ const PAIRS_MAX: usize = 4_000_000;
 /// The number of points of a curve below which no points are left out to save work.
 const POINTS_MIN: usize = 20;
 
-/// Returns the least signed distance of links that may not touch, m, at evenly spaced times from the start to `until`
-/// (s), both included, in order of time: (time, s; distance, m). There are `count` + 1 of them, or fewer for robots of
-/// more than a few hundred modules, but not fewer than 21 for that reason. Empty if there are no two such links, if
-/// `until` is not positive, for a plan that is not of an articulated robot, and for one that is not valid.
+/// Returns the clearance over time: (time, s; least signed distance of links that may not touch, m) at evenly spaced
+/// times from the start to `until` (s), both included, in order of time. There are `count` + 1 of them, or fewer for
+/// robots of more than a few hundred modules, but not fewer than 21 for that reason. Empty if there are no two such
+/// links, if `until` is not positive, for a plan that is not of an articulated robot, and for one that is not valid.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
     if until <= 0.0 || validation::check(plan).is_err() {

@@ -25,8 +25,8 @@ use crate::units::{Dimension, quantity};
 /// The collisions and the clearance of a plan, as [`judge`] finds them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
-    /// The status of the check: proved; within tolerance, if links penetrate by no more than `touch`; exempt, if every
-    /// collision is excused; failed; or the number of intervals after which it gave up.
+    /// The status of the check: proved; within tolerance, if links penetrate by no more than `touch`; exempt, if
+    /// every collision is excused; failed; or, where the judge gave up, the number of intervals examined.
     pub status: Status,
     /// The collisions, in order of time; one for each pair of modules, and one more if an earlier or later one of
     /// the pair is excused.
@@ -55,15 +55,16 @@ pub struct Collision {
     pub deepest: f64,
     /// The allowed penetration depth of the two links, m.
     pub allowed: f64,
-    /// True if an exemption excuses it.
+    /// True if an exemption of the plan excuses the collision.
     pub exempt: bool,
     /// The index in the assembly of the bond at whose nominal pose the links penetrate each other; `None` if a motion
     /// brings them there.
     pub bond: Option<usize>,
 }
 
-/// Returns the collisions and the clearance of a plan's body over all instants, by conservative advancement. `tracks`
-/// must be valid, or it panics; `exemptions`: those of the plan.
+/// Returns the collisions and the clearance of a plan's body over all instants, by exact collision checking with
+/// motion bounds (Schwarzer, Saha and Latombe 2005), a form of conservative advancement (Mirtich 1996). `tracks` must
+/// be valid, or it panics; `exemptions`: those of the plan.
 ///
 /// # Errors
 /// [`UnsoundLink`] for the first link whose shape is not sound.
@@ -89,7 +90,8 @@ pub fn judge(
 }
 
 impl Collision {
-    /// Returns the failure for the report, without blame.
+    /// Returns the collision as a failure for the verdict, with a message and without blame; `robot` is the one that
+    /// was judged. Panics if that has no such modules or links.
     pub fn failure(&self, robot: &Assembly) -> Failure {
         let module = |m: usize| robot.modules[m].name.clone();
         let link = |m: usize, l: usize| robot.module_type(m).links[l].name.as_str();
@@ -184,12 +186,12 @@ fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec
 pub struct Excuse {
     /// The index of the exemption in the plan's list.
     pub index: usize,
-    /// The two modules that it is about, by their indices in the assembly; `None`: any.
+    /// The two modules that the exemption is about, by their indices in the assembly; `None`: any.
     pub modules: Option<(usize, usize)>,
 }
 
 impl Excuse {
-    /// Returns true if it excuses these two modules, given by index in any order.
+    /// Returns true if the exemption excuses a collision of these two modules, given by index in any order.
     pub fn covers(&self, a: usize, b: usize) -> bool {
         self.modules.is_none_or(|pair| pair == (a, b) || pair == (b, a))
     }

@@ -7,20 +7,21 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon::{self, Margin};
 
-/// A point of a feature near the ground, with its normal force.
+/// A point of a ground feature near the ground, with its normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
     /// The index of the feature in [`Model::features`], from 0.
     pub feature: usize,
-    /// The number of the point of the feature, from 0, as `Feature::point` counts.
+    /// The number of the point among those of the feature, from 0, as `Feature::point` counts.
     pub k: u8,
     /// The link of the feature, by its number among all links ([`Model::bodies`]).
     pub link: usize,
-    /// The position from the centre of mass, m, in level axes of the stance's heading: x forward, y left, z up.
+    /// The position of the point from the centre of mass, m, in level axes of the stance's heading: x forward, y
+    /// left, z up.
     pub p: Vec3,
-    /// The height above the ground, m; negative below it.
+    /// The height of the point above the ground, m; negative below it.
     pub gap: f64,
-    /// The normal force as a fraction of the weight, without friction; all sum up to 1, or are 0.
+    /// The normal force as a fraction of the robot's weight, without friction; all sum up to 1, or are 0.
     pub load: f64,
 }
 
@@ -29,7 +30,7 @@ pub struct ContactPoint {
 pub struct ContactPatch {
     /// The link, by its number among all links ([`Model::bodies`]).
     pub link: usize,
-    /// The normal force as a fraction of the weight.
+    /// The normal force on the link as a fraction of the robot's weight.
     pub load: f64,
     /// The centre of pressure from the centre of mass along the stance's level forward axis, m.
     pub x: f64,

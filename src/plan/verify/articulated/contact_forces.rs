@@ -27,9 +27,9 @@ const COLUMNS_MAX: usize = 100_000;
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of the wrench that a bond that
 /// closes a loop transmits.
 pub(super) struct Column {
-    /// The wrenches of one unit of it, each on one link.
+    /// The wrenches on links, each on one, that one unit of the force makes.
     pub wrenches: Vec<Wrench>,
-    /// True if it may also act in the opposite direction.
+    /// True if the force may also act in the opposite direction.
     pub free: bool,
 }
 
@@ -38,12 +38,12 @@ pub(super) struct Column {
 pub(super) struct ContactForces {
     /// The greatest load as a fraction of its limit, with forces that balance.
     pub ratio: f64,
-    /// The index of that load in [`Structure::loads`].
+    /// The index of the load with that ratio in [`Structure::loads`].
     pub load: usize,
     /// A lower bound on the greatest load, as a fraction of its limit, under any contact forces; from the dual
     /// solution of the LP.
     pub bound: f64,
-    /// The sizes of the columns, for the next sample.
+    /// The forces found, from which the search at the next sample begins.
     pub warm_start: WarmStart,
     /// The load at every cut under these forces and the weights, in the order of [`Structure::loads`], N or N·m.
     pub held: Vec<f64>,
@@ -70,13 +70,13 @@ const EDGES: usize = 4;
 pub(super) struct ContactQuery<'a> {
     /// The robot, compiled.
     pub model: &'a Model<'a>,
-    /// The structure of the robot's loads.
+    /// The structure of the robot's loads: its cuts at joints, motors and bonds.
     pub structure: &'a Structure,
     /// The stance of the robot for which forces are sought.
     pub stance: &'a Stance,
     /// The cuts of the robot in that stance.
     pub sections: &'a [Section],
-    /// The weights of the links as wrenches.
+    /// The weights of the links as wrenches, N and N·m.
     pub gravity_wrenches: &'a [Wrench],
     /// The loads at the cuts from the weights alone, in the order of [`Structure::loads`], N or N·m.
     pub weights: &'a [f64],
@@ -88,7 +88,7 @@ pub(super) struct ContactQuery<'a> {
     pub friction: f64,
     /// True for a fixed base: then the ground does not push, and the fixture of the base balances the rest.
     pub fixed_base: bool,
-    /// The tolerances.
+    /// The tolerances of the judgement.
     pub tolerances: &'a Tolerances,
 }
 

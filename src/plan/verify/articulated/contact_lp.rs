@@ -25,7 +25,7 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 /// The LP with its rows of loads. Forces are in fractions of the weight, moments in fractions of the weight times a
 /// metre. Columns: sizes of the wrenches, then six for every node but the first, then the greatest load.
 pub(super) struct ContactLp {
-    /// The linear program for the solver.
+    /// The linear program as it is given to the solver.
     pub problem: LinearProgram,
     rows: Vec<Row>,
 }

@@ -13,23 +13,24 @@ pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 /// than one point.
 pub(super) const CIRCLE_POINTS: u8 = 8;
 
-/// A part of a link's surface that can touch the ground, in the frame of the link or in another one.
+/// A part of a link's surface that can touch the ground: a vertex, circle or sphere, in the frame of the link or in
+/// another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feature {
-    /// The vertex, or the centre of the circle or sphere, m.
+    /// The vertex, or the centre of the circle or sphere, in the frame of the feature, m.
     pub centre: Vec3,
-    /// The shape about the centre.
+    /// The form of the feature about its centre.
     pub form: Form,
 }
 
-/// The shape of a feature; vectors are in the frame of its [`Feature`].
+/// The form of a ground feature; vectors are in the frame of its [`Feature`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// A point.
+    /// A point, such as a vertex of a hull.
     Vertex,
-    /// A circle: the unit normal of its plane, and the radius, m.
+    /// A circle, such as the rim of a cylinder: the unit normal of its plane, and the radius, m.
     Circle(Vec3, f64),
-    /// A sphere: the radius, m.
+    /// A sphere: its radius, m.
     Sphere(f64),
 }
 
@@ -43,13 +44,13 @@ impl Feature {
         Feature { centre: R * self.centre + p, form }
     }
 
-    /// Returns the number of points that represent it: 8 for a circle, else 1.
+    /// Returns the number of points that represent the feature: 8 for a circle, else 1.
     pub fn points(&self) -> u8 {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }
 
-    /// Returns the height of its lowest point along the unit vector `up` (in its frame), m, from the origin of its
-    /// frame.
+    /// Returns the height of the feature's lowest point along the unit vector `up` (in the feature's frame), m, from
+    /// the origin of that frame.
     pub fn lowest(&self, up: &Vec3) -> f64 {
         let centre = up.dot(&self.centre);
         match self.form {
@@ -62,8 +63,8 @@ impl Feature {
         }
     }
 
-    /// Returns point `k` of those that represent it, in its frame, m; 0 is the lowest along the unit vector `up` (in
-    /// its frame), the others of a circle, 1 to 7, follow at eighths of a turn.
+    /// Returns point `k` of those that represent the feature, in its frame, m; 0 is the lowest along the unit vector
+    /// `up` (in that frame), the others of a circle, 1 to 7, follow at eighths of a turn.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
         match self.form {
             Form::Vertex => self.centre,
@@ -76,13 +77,13 @@ impl Feature {
         }
     }
 
-    /// Returns an upper bound on the distance of any of its points from the origin of its frame, m.
+    /// Returns an upper bound on the distance of any point of the feature from the origin of its frame, m.
     pub fn reach(&self) -> f64 {
         self.centre.norm() + self.radius()
     }
 
-    /// Returns an upper bound on the distance of any of its points from the corresponding point of `other`, m; the
-    /// two must be one feature in two poses.
+    /// Returns an upper bound on the distance of any point of the feature from the corresponding point of `other`, m;
+    /// the two must be one feature in two poses of one frame.
     pub fn moved(&self, other: &Feature) -> f64 {
         let centre = (self.centre - other.centre).norm();
         match (self.form, other.form) {

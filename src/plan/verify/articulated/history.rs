@@ -24,20 +24,21 @@ pub const CONTACTS_MAX: usize = 128;
 pub struct Moment {
     /// The time from the start of the plan, s.
     pub time: f64,
-    /// World pose of the base module's body (`X_WB`).
+    /// The world pose of the base module's body (`X_WB`), in metres.
     pub base: Pose,
     /// The centre of mass of the links connected with the base, in the world, m.
     pub centre: Vec3,
-    /// The support polygon: corners of the convex hull of the contact points, counter-clockwise from above, x and y in
-    /// the world, m; fewer than three if the contacts span no area, none without weight and for a base that is held
-    /// fixed.
+    /// The support polygon in the world, m: corners (x, y) of the convex hull of the contact points,
+    /// counter-clockwise from above; fewer than three if the contacts span no area, none without weight and for a
+    /// base that is held fixed.
     pub support: Vec<[f64; 2]>,
     /// The contact points, x and y in the world, m: at most [`CONTACTS_MAX`] of them.
     pub contacts: Vec<[f64; 2]>,
-    /// The static stability margin, the distance of the centre of mass inside that polygon, negative outside, m;
-    /// `None` if it has no area.
+    /// The static stability margin, m: the distance of the centre of mass inside the support polygon (McGhee and
+    /// Frank 1968), negative outside; `None` if the polygon has no area.
     pub margin: Option<f64>,
-    /// True if the support was lost and the base is held for the time that `unstable_for` allows.
+    /// True if the robot has lost its support and the base is held for the time that `unstable_for` of the settings
+    /// allows.
     pub held: bool,
     /// The ratio of load to limit of each joint that states one, with the ground's forces spread evenly, as (number of
     /// the joint as in its `JointId`, ratio). The judge may find better forces. Empty at most moments.

@@ -22,7 +22,7 @@ use nalgebra::Matrix3;
 #[derive(Clone, Debug)]
 pub(super) struct IntervalState {
     bounds: MotionBounds,
-    /// The interval.
+    /// The interval of time whose middle this is the state of.
     pub interval: Interval,
     /// The number of the interval: an entry of the lists below is of this interval where its mark is this number.
     epoch: u32,
@@ -55,20 +55,20 @@ pub(super) struct IntervalState {
 pub(super) struct Moving {
     /// The orientation `R_0L` of the link L in the frame 0 of the root link.
     pub R: Matrix3<f64>,
-    /// The position of the origin, m.
+    /// The position of the link's origin in the frame of the root link, m.
     pub p: Vec3,
-    /// The angular velocity of the link against the root link, rad/s.
+    /// The angular velocity of the link against the root link, in the frame of the root link, rad/s.
     pub spin: Vec3,
-    /// The velocity of the origin, m/s.
+    /// The velocity of the link's origin against the root link, in the frame of the root link, m/s.
     pub v: Vec3,
 }
 
 /// Bounds on the difference of a link's velocities, relative to a reference link, from those in the middle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deviation {
-    /// The deviation of the velocity of the link's origin, m/s.
+    /// A bound on the deviation of the velocity of the link's origin, m/s.
     pub velocity: f64,
-    /// The deviation of the velocity for each metre that a point is away from the link's origin, 1/s.
+    /// A bound on the deviation of the velocity for each metre that a point is away from the link's origin, 1/s.
     pub gradient: f64,
     /// The deviation of the angular velocity, rad/s.
     turn: f64,

@@ -16,7 +16,7 @@ pub(super) struct Overload {
     pub since: f64,
     /// The time of the last sample over the limit, s.
     pub until: f64,
-    /// The greatest load so far; N·m or N.
+    /// The greatest load so far, N·m or N.
     pub value: f64,
     /// The limit of the load, N·m or N.
     pub limit: f64,

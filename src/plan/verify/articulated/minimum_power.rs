@@ -12,19 +12,19 @@ use super::stance::Stance;
 use super::tolerances::NUMERICS;
 use crate::geometry::Vec3;
 
-/// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
+/// A pose in the plane: the horizontal position of the centre of mass, m, and the heading, rad, in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanarPose {
-    /// The position along the first world axis, m.
+    /// The position of the centre of mass along the x axis of the world, m.
     pub x: f64,
-    /// The position along the second world axis, m.
+    /// The position of the centre of mass along the y axis of the world, m.
     pub y: f64,
-    /// The heading, rad, counter-clockwise from above; 0 at the start.
+    /// The heading, rad, counter-clockwise from above in the world; 0 at the start.
     pub yaw: f64,
 }
 
 impl PlanarPose {
-    /// Returns the pose moved by a displacement in its own frame along an arc: forward (m), left (m), turn (rad,
+    /// Returns the pose moved along an arc by a displacement in its own frame: forward (m), left (m), turn (rad,
     /// counter-clockwise from above).
     pub fn moved(&self, shift: &Vec3) -> PlanarPose {
         let (s, c) = libm::sincos(shift.z);

@@ -73,8 +73,8 @@ use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
 
-/// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. The plan must have passed
-/// [`validation::check`](crate::plan::validation::check), or it panics.
+/// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. Panics unless the plan passes
+/// [`validation::check`](crate::plan::validation::check).
 pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);

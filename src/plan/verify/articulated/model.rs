@@ -10,61 +10,62 @@ use std::ops::Range;
 pub struct Model<'a> {
     /// The assembly that was compiled.
     pub robot: &'a Assembly,
-    /// Its kinematics, with the base module as the root.
+    /// The kinematics of the assembly for the bonds that hold, with the base module as the root.
     pub kinematics: Kinematics,
     /// The bodies, one for every link of the assembly by its number in `kinematics`, also for those that are not
     /// connected with the base.
     pub bodies: Vec<Body>,
-    /// The numbers of the links connected with the base, ascending.
+    /// The numbers of the links connected with the base ([`Kinematics::link`]), ascending.
     pub attached: Vec<usize>,
     /// The features of the attached links, each in the frame of its link, ascending by link.
     pub features: Vec<Feature>,
-    /// The number of the link of each feature, in the order of `features`.
+    /// The number of the link of each ground feature, in the order of `features`.
     pub link_of: Vec<usize>,
-    /// The mass of the attached links, kg.
+    /// The mass of all attached links together, kg.
     pub mass: f64,
     /// The joints that move one step of the tree each and whose range has ends.
     pub ranged: Vec<RangedJoint>,
 }
 
-/// A joint whose range has ends.
+/// A joint whose range has ends, and the step of the tree that it moves.
 #[derive(Clone, Copy, Debug)]
 pub struct RangedJoint {
-    /// The joint, by [`crate::robot::JointId`].
+    /// The joint, by the number in its [`crate::robot::JointId`].
     pub joint: usize,
-    /// The index of its step in [`Kinematics::steps`].
+    /// The index of the joint's step in [`Kinematics::steps`].
     pub step: usize,
     /// The factor of the joint in the motion of the step: 1 or -1.
     pub factor: f64,
-    /// The ends of its range, rad or m.
+    /// The lowest and the highest position of the joint, rad or m.
     pub range: (f64, f64),
 }
 
-/// A link with its mass, friction and ground features.
+/// A link with its mass, friction and ground features, as statics needs them.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// The index in the assembly of the module that it belongs to.
+    /// The index in the assembly of the module that the link belongs to.
     pub module: usize,
-    /// The mass, kg.
+    /// The mass of the link, kg.
     pub mass: f64,
     /// The centre of mass in the link's frame, m.
     pub com: Vec3,
-    /// The coefficient of friction against the ground, without the factor of the world.
+    /// The coefficient of friction of the link against the ground, without unit and without the factor of the world.
     pub friction: f64,
     /// The greatest gap at which the link counts as touching the ground, m.
     pub contact: f64,
-    /// The indices of its features in [`Model::features`].
+    /// The indices of the link's features in [`Model::features`].
     pub features: Range<usize>,
 }
 
-/// Poses of all links in the frame of the base module's body.
+/// The poses of all links in the frame of the base module's body.
 #[derive(Clone, Debug)]
 pub struct Posture {
-    /// The orientation of each link, by its number; those of links that are not connected with the base mean nothing.
+    /// The orientation of each link in the base's frame, by its number; those of links that are not connected with
+    /// the base mean nothing.
     pub R: Vec<Mat3>,
-    /// The position of each link's origin, by its number, m.
+    /// The position of each link's origin in the base's frame, by its number, m.
     pub p: Vec<Vec3>,
-    /// The centre of mass of the attached links, m; without mass the origin.
+    /// The centre of mass of the attached links in the base's frame, m; without mass the origin.
     pub centre: Vec3,
 }
 
@@ -113,8 +114,9 @@ impl<'a> Model<'a> {
         model
     }
 
-    /// Returns the poses of all links with the joints at these positions (rad or m), one for every joint of the
-    /// assembly. `poses` is a buffer, which is resized and overwritten.
+    /// Returns the poses of all links in the base's frame with the joints at these positions (rad or m), one for
+    /// every joint of the assembly by the number in its `JointId`. `poses` is a buffer, which is resized and
+    /// overwritten. Panics if `joints` is too short.
     pub fn posture(&self, joints: &[f64], poses: &mut Vec<Pose>) -> Posture {
         poses.resize(self.bodies.len(), Pose::identity());
         self.kinematics.link_poses(joints, &Pose::identity(), poses);
@@ -128,13 +130,13 @@ impl<'a> Model<'a> {
         Posture { R, p, centre }
     }
 
-    /// Returns the number of the link that is the body of the base module.
+    /// Returns the number of the link that is the body of the base module ([`Kinematics::link`]).
     pub fn base_link(&self) -> usize {
         self.kinematics.link(self.robot.base, 0)
     }
 
-    /// Returns all features, in the order of [`Model::features`], with the robot turned by `R` (from the frame of
-    /// `posture`) and the centre of mass at the origin, m.
+    /// Returns all ground features, in the order of [`Model::features`], with the robot turned by `R` (from the
+    /// base's frame, that of `posture`) and the centre of mass at the origin, m.
     pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
         let mut placed = Vec::with_capacity(self.features.len());
         for &link in &self.attached {
@@ -146,7 +148,7 @@ impl<'a> Model<'a> {
         placed
     }
 
-    /// Returns the path name of the module of a link, given by its number.
+    /// Returns the path name of the module of a link, given by its number. Panics if there is no such link.
     pub fn module_name(&self, link: usize) -> &str {
         &self.robot.modules[self.bodies[link].module].name
     }

@@ -29,9 +29,9 @@ pub(super) enum Cluster {
 /// All pairs of a module of one cluster and one of another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClusterPair {
-    /// The first cluster.
+    /// The first cluster of modules.
     pub a: Cluster,
-    /// The second cluster, which has no module of the first.
+    /// The second cluster of modules, which has no module of the first.
     pub b: Cluster,
     /// The level of the reference link that all of the pairs have, an index in [`ReferenceLinks::levels`].
     pub level: u32,
@@ -50,11 +50,11 @@ pub(super) enum Proximity {
 
 /// The robot as seen over an interval.
 pub(super) struct Scene<'a> {
-    /// The bodies, for the radii of the modules.
+    /// The bodies of the robot, for the radii of the modules.
     pub bodies: &'a Bodies,
-    /// The kinematics of the connected part.
+    /// The kinematics of the part of the robot that bonds connect.
     pub kinematics: &'a Kinematics,
-    /// Its reference links.
+    /// The reference links of that part.
     pub levels: &'a ReferenceLinks,
 }
 

@@ -30,26 +30,26 @@ struct Piece {
 /// An interval of time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Interval {
-    /// The beginning, s.
+    /// The beginning of the interval, s.
     pub from: f64,
-    /// The end, s.
+    /// The end of the interval, s.
     pub to: f64,
-    /// The middle, s.
+    /// The middle of the interval, s.
     pub middle: f64,
-    /// Half the length, s.
+    /// Half the length of the interval, s.
     pub half: f64,
-    /// True if no rate jumps within: then it deviates in proportion to the time from the middle.
+    /// True if no rate jumps within the interval: a rate then deviates in proportion to the time from the middle.
     pub smooth: bool,
 }
 
 /// A joint over an interval.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct JointMotion {
-    /// The position in the middle, rad or m.
+    /// The position of the joint in the middle of the interval, rad or m.
     pub at: f64,
-    /// The rate in the middle, rad/s or m/s.
+    /// The rate of the joint in the middle of the interval, rad/s or m/s.
     pub rate: f64,
-    /// A bound on the difference of the rate from that in the middle, rad/s or m/s.
+    /// A bound on the difference of the rate anywhere in the interval from that in the middle, rad/s or m/s.
     pub deviation: f64,
 }
 

@@ -38,13 +38,14 @@ pub(super) struct ReferenceLevel {
 /// A step to a link from a neighbour over a step of the kinematics.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkStep {
-    /// The number in the kinematics of the neighbour.
+    /// The number of the neighbour from which the step leads, in the kinematics.
     pub from: u32,
-    /// The number in the kinematics of the one of the two that is the other's child: the step between them is its.
+    /// The number, in the kinematics, of the one of the two links that is the child of the other, to which the step
+    /// between them belongs.
     pub child: u32,
-    /// The distance of the origin of `from` from the joint's axis, m.
+    /// The distance of the origin of `from` from the axis of the joint between the two links, m.
     pub out: f64,
-    /// The distance of the origin of the link from the joint's axis, m.
+    /// The distance of the origin of the link that the step leads to from the axis of the joint, m.
     pub back: f64,
 }
 

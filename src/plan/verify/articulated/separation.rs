@@ -15,7 +15,7 @@ pub(super) struct ModulePair {
     pub a: u32,
     /// The index in the assembly of the second module.
     pub b: u32,
-    /// The level of their reference link, an index in [`ReferenceLinks::levels`].
+    /// The level of the modules' reference link, an index in [`ReferenceLinks::levels`].
     pub level: u32,
 }
 
@@ -26,9 +26,9 @@ pub(super) struct BodyPair {
     pub a: u32,
     /// The index of the second body in [`Bodies::bodies`].
     pub b: u32,
-    /// The level of their reference link, an index in [`ReferenceLinks::levels`].
+    /// The level of the bodies' reference link, an index in [`ReferenceLinks::levels`].
     pub level: u32,
-    /// True if they count for the clearance: two links that a joint joins do not.
+    /// True if the pair counts for the clearance: two links that a joint joins do not.
     pub counts: bool,
     /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
@@ -39,29 +39,29 @@ pub(super) struct BodyPair {
 /// Lower bounds on the distance of a pair over an interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
-    /// A lower bound on the distance over the whole interval, m.
+    /// A lower bound on the distance of the pair over the whole interval, m.
     pub least: f64,
-    /// A lower bound on the distance in the middle, m.
+    /// A lower bound on the distance of the pair in the middle of the interval, m.
     pub middle: f64,
 }
 
 /// The state of an interval with what it refers to.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
-    /// The middle of the interval.
+    /// The state of the robot in the middle of the interval.
     pub state: &'a IntervalState,
-    /// The reference links.
+    /// The reference links of the modules.
     pub levels: &'a ReferenceLinks,
-    /// The kinematics of the connected part.
+    /// The kinematics of the part of the robot that bonds connect.
     pub kinematics: &'a Kinematics,
 }
 
 /// A point that moves: its position in the middle of the interval, and its velocity as seen from a level's origin.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Motion {
-    /// The position, m.
+    /// The position of the point in the middle of the interval, m, in the frame of the root link.
     pub p: Vec3,
-    /// The velocity, m/s.
+    /// The velocity of the point, m/s, as seen from the origin of the level's reference link.
     pub v: Vec3,
 }
 

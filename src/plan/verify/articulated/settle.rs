@@ -32,9 +32,9 @@ const SHORTENINGS_MAX: usize = 60;
 /// The attitude at which the descent ended.
 #[derive(Clone, Debug)]
 pub(super) struct SettledAttitude {
-    /// The rotation from the attitude where it began, in the world's axes.
+    /// The rotation from the attitude at which settling began to this one, in the world's axes.
     pub turn: Mat3,
-    /// The height of the centre of mass above the lowest point, m.
+    /// The height of the centre of mass above the lowest point of the robot, m.
     pub height: f64,
 }
 

@@ -28,15 +28,15 @@ pub(super) struct Monitor<'a> {
 pub(super) struct SupportLoss {
     /// The time at which the interval without support begins, s.
     pub since: f64,
-    /// The time at which it ends, s.
+    /// The time at which the interval without support ends, s.
     pub until: f64,
-    /// The fall of the centre of mass, m; `None` without a tip-over.
+    /// The fall of the centre of mass in a tip-over, m; `None` without one.
     pub drop: Option<f64>,
-    /// The least margin, m; `None` if the contacts span no area, and for a tip-over.
+    /// The least stability margin, m; `None` if the contacts span no area, and for a tip-over.
     pub margin: Option<f64>,
-    /// The parts at the edge in words, for a message; empty if there is none.
+    /// The parts at the edge of the support polygon in words, for a message; empty if there is none.
     pub edge: String,
-    /// The path names of the modules at the edge.
+    /// The path names of the modules at the edge of the support polygon.
     pub modules: Vec<String>,
 }
 

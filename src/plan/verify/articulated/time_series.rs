@@ -12,16 +12,16 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{Body, Plan, validation};
 
-/// The judge's quantities of a robot at an instant.
+/// The quantities that the judge computes of a robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// The time from the start of the plan, s.
     pub time: f64,
-    /// World pose of the base module's body (`X_WB`).
+    /// The world pose of the base module's body (`X_WB`), in metres.
     pub base: Pose,
-    /// The distance of the centre of mass inside the support, by the plan's rule of stability, m; negative outside,
-    /// 0 in a support without area. `None` without a ground or weight, and while the base is held because support is
-    /// missing.
+    /// The static stability margin, m: the distance of the centre of mass inside the support, by the plan's rule of
+    /// stability; negative outside, 0 in a support without area. `None` without a ground or weight, and while the
+    /// base is held because support is missing.
     pub margin: Option<f64>,
     /// The torque (N·m) or force (N) that a motor supplies at each joint, by the number in its
     /// [`JointId`](crate::robot::JointId), in the joint's positive direction. An entry is `None` without weight, if
@@ -32,19 +32,19 @@ pub struct Instant {
     pub forces: Option<Vec<GroundForce>>,
 }
 
-/// The quantities of an instant that are computed.
+/// The quantities of an instant that are to be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
-    /// The pose and the stability margin of the robot.
+    /// The pose of the robot and its stability margin.
     Stance,
-    /// The loads as well, which take longer to find.
+    /// The pose and the margin, and the loads as well, which take longer to find.
     Loads,
 }
 
-/// A force of the ground on a robot.
+/// A contact force of the ground on a module of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundForce {
-    /// The index in the assembly of the module that it acts on.
+    /// The index in the assembly of the module that the force acts on.
     pub module: usize,
     /// The point of application in the world, m.
     pub point: Vec3,

@@ -3,8 +3,8 @@
 /// Tolerances of the judgement of collisions: how deep, exact and early a penetration is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precision {
-    /// Penetration is proved to be no deeper than `touch` and this, m. Default 1 µm: far below any
-    /// `touch`, well above rounding.
+    /// The depth beyond `touch` up to which penetration is not excluded, m: it is proved to be no deeper. Default 1
+    /// µm: far below any `touch`, well above rounding.
     pub tol_depth: f64,
     /// The greatest error of the clearance, and of the depth of a collision, m. Default 20 µm: halving it costs √2
     /// times as many intervals.
@@ -20,72 +20,76 @@ impl Default for Precision {
     }
 }
 
-/// Tolerances of the judgement of articulated robots. Lengths in metres, angles in radians.
+/// The tolerances of the judgement of articulated robots. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// Predicted fall below which settling ends. Default 1e-9 m: rounding of coordinates.
+    /// The predicted fall of the centre of mass below which settling ends, m. Default 1e-9 m: rounding of
+    /// coordinates.
     pub fall_min: f64,
-    /// Fall up to which a change between rest attitudes counts as no tip-over. Default 1 mm: the usual contact
+    /// The fall up to which a change between rest attitudes counts as no tip-over, m. Default 1 mm: the usual contact
     /// tolerance.
     pub fall_floor: f64,
-    /// Gap up to which a contact point bears weight. Default 1 mm: real contacts yield.
+    /// The gap up to which a contact point bears weight, m. Default 1 mm: real contacts yield.
     pub gap_loaded: f64,
-    /// Least stiffness of the ground under a contact point, as a fraction of that without a gap. Default 1e-3: the
-    /// distribution of normal forces stays unique.
+    /// The least stiffness of the ground under a contact point, as a fraction of that without a gap. Default 1e-3:
+    /// the distribution of normal forces stays unique.
     pub stiffness_min: f64,
-    /// Normal force, as a fraction of the weight, below which a contact point does not steer the guess of the next
-    /// attitude. Default 1e-6: rounding of the distribution.
+    /// The normal force, as a fraction of the weight, below which a contact point does not steer the guess of the
+    /// next attitude. Default 1e-6: rounding of the distribution.
     pub load_min: f64,
-    /// Gap, m, up to which a contact point belongs to the exact support polygon. Default 10 µm.
+    /// The gap up to which a contact point belongs to the exact support polygon, m. Default 10 µm.
     pub gap_exact: f64,
-    /// Gap, m, up to which contact points keep a robot from being perturbed. Default 0.1 µm.
+    /// The gap up to which contact points keep a robot from being perturbed, m. Default 0.1 µm.
     pub gap_standing: f64,
-    /// Stability margin above which a robot is not perturbed. Default 1e-9 m: rounding.
+    /// The stability margin above which a robot is not perturbed, m. Default 1e-9 m: rounding.
     pub inside_min: f64,
-    /// Angle of the perturbation that leaves an unstable equilibrium. Default 1e-3 rad.
+    /// The angle of the perturbation that leaves an unstable equilibrium, rad. Default 1e-3 rad.
     pub perturbation: f64,
-    /// Fall that a perturbation must show. Default 2e-8 m: well above rounding.
+    /// The fall that a perturbation must show, m. Default 2e-8 m: well above rounding.
     pub perturbation_fall: f64,
-    /// Distance of the centre of mass outside the support polygon. Default 1e-9 m: rounding.
+    /// The distance of the centre of mass outside the support polygon up to which a robot counts as stable, m.
+    /// Default 1e-9 m: rounding.
     pub margin: f64,
-    /// Height above the lowest module centre up to which a centre counts as lowest, for the rule of module
-    /// centres. Default 1 mm.
+    /// The height above the lowest module centre up to which a centre counts as lowest, for the rule of module
+    /// centres, m. Default 1 mm.
     pub centres: f64,
-    /// Greatest turn of a joint between two samples, rad. Default 5°: attitudes are then followed reliably.
+    /// The greatest turn of a joint between two samples, rad. Default 5°: attitudes are then followed reliably.
     pub turn_sample: f64,
-    /// Greatest motion of a point between two samples, m; where it is greater the step is halved. Default 2 cm.
+    /// The greatest motion of a point between two samples, m; where it is greater the step is halved. Default 2 cm.
     pub motion_sample: f64,
-    /// Part of a sample by which an interval may be longer than a whole number of samples. Default 1e-6:
-    /// rounding of times.
+    /// The part of a sample by which an interval may be longer than a whole number of samples. Default 1e-6: rounding
+    /// of times.
     pub sample_count: f64,
-    /// Relative excess over a limit of range, speed or acceleration. Default 1e-9: rounding of the plan's numbers.
+    /// The relative excess over a limit of range, speed or acceleration that is no failure. Default 1e-9: rounding of
+    /// the plan's numbers.
     pub limit: f64,
-    /// Jump of a speed that counts as none, rad/s or m/s. Default 1e-6: rounding of control points over short
+    /// The jump of a speed that counts as none, rad/s or m/s. Default 1e-6: rounding of control points over short
     /// segments.
     pub speed_jump: f64,
-    /// Jump of a rate below which a motion bound takes a rate as continuous, rad/s or m/s. Default 1e-9: a jump
+    /// The jump of a rate below which a motion bound takes a rate as continuous, rad/s or m/s. Default 1e-9: a jump
     /// that is ignored is not bounded.
     pub rate_jump: f64,
-    /// Distance by which loops may be open, where the connector states no capture. Default 1 mm.
+    /// The distance by which loops may be open, where the connector states no capture, m. Default 1 mm.
     pub closure_distance: f64,
-    /// Angle, rad, by which loops may be open, where the connector states no capture. Default 1°.
+    /// The angle by which loops may be open, where the connector states no capture, rad. Default 1°.
     pub closure_angle: f64,
-    /// Part of the weight below which slip of a link is not counted. Default 0.05.
+    /// The part of the weight below which slip of a link is not counted. Default 0.05.
     pub slip_load: f64,
-    /// Slip from which on an exemption for slip is needed. Default 1 mm.
+    /// The slip from which on an exemption for slip is needed, m. Default 1 mm.
     pub slip: f64,
-    /// Precision of the time of a tip-over, s. Default 1e-9 s.
+    /// The precision of the time of a tip-over, s. Default 1e-9 s.
     pub time: f64,
-    /// Imbalance of contact forces, in parts of the weight (and of the weight times a metre). Default 1e-6:
-    /// precision of the LP solver.
+    /// The greatest imbalance of contact forces, in parts of the weight (and of the weight times a metre). Default
+    /// 1e-6: precision of the LP solver.
     pub balance: f64,
-    /// Excess of a gravity load over its limit with a fixed base, as a fraction of the limit. Default 1e-9: rounding.
+    /// The excess of a gravity load over its limit with a fixed base that is no failure, as a fraction of the limit.
+    /// Default 1e-9: rounding.
     pub load: f64,
-    /// Length of an interval below which loads with a fixed base are not decided further, s. Default 10 µs.
+    /// The length of an interval below which loads with a fixed base are not decided further, s. Default 10 µs.
     pub load_interval: f64,
-    /// Distance within which a part counts as round about a joint's axis. Default 1e-9 m: rounding of poses.
+    /// The distance within which a part counts as round about a joint's axis, m. Default 1e-9 m: rounding of poses.
     pub roundness: f64,
-    /// Tolerances of collisions.
+    /// The tolerances of the check of collisions.
     pub collision: Precision,
 }
 
@@ -128,51 +132,52 @@ impl Default for Tolerances {
 /// Thresholds of the numerical methods of the judgement: they end iterations and keep systems regular, and are
 /// far below every tolerance of [`Tolerances`]. Lengths in metres, angles in radians.
 pub(super) struct Numerics {
-    /// Weight of the orientation of a link in the alignment of two postures, m² beside its mass: a thousandth of
+    /// The weight of the orientation of a link in the alignment of two postures, m² beside its mass: a thousandth of
     /// the mass at 4 cm, against degenerate sets of centres.
     pub orientation_weight: f64,
-    /// Weight of a turn in the alignment on contacts, m²: it keeps a robot on one or two contacts from being
+    /// The weight of a turn in the alignment on contacts, m²: it keeps a robot on one or two contacts from being
     /// turned about them.
     pub turn_weight: f64,
-    /// A circle whose plane is level within this (sine of the angle) has no lowest point of its own. 1e-9: rounding.
+    /// The sine of the angle to the level within which the plane of a circle counts as level, so that no point of it
+    /// is lowest. 1e-9: rounding.
     pub level_sine: f64,
-    /// A support plane is violated when it lies above the model of the bundle method by more than this, m. 1e-12:
+    /// The height above the model of the bundle method from which on a support plane counts as violated, m. 1e-12:
     /// rounding of coordinates.
     pub plane_violation: f64,
-    /// Rounding allowed in the multipliers of the bundle method, which are without unit and sum to 1. 1e-10.
+    /// The rounding allowed in the multipliers of the bundle method, which are without unit and sum to 1. 1e-10.
     pub multiplier: f64,
-    /// Proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points are.
-    /// Without unit; 1e-8.
+    /// The proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points
+    /// are. Without unit; 1e-8.
     pub proximal_weight: f64,
-    /// Gradient at which the dual of the normal forces is solved, in parts of the weight. 1e-14: rounding.
+    /// The gradient at which the dual of the normal forces counts as solved, in parts of the weight. 1e-14: rounding.
     pub dual_gradient: f64,
-    /// Relative precision of the greatest value of a polynomial, without unit. 1e-12: well above rounding.
+    /// The relative precision of the greatest value of a polynomial, without unit. 1e-12: well above rounding.
     pub extremum: f64,
-    /// The least spread of a sliding patch, m² (0.1 mm): a point resists spinning a little.
+    /// The least spread of a sliding patch, m² (that of 0.1 mm): a point resists spinning a little.
     pub patch_spread: f64,
-    /// Slips shorter than this fraction of the greatest motion are smoothed. 1e-4: the power then has a derivative
+    /// The fraction of the greatest motion below which slips are smoothed. 1e-4: the power then has a derivative
     /// everywhere.
     pub smoothed_slip: f64,
-    /// The rounds of the displacement of least friction end when it changes by less than this fraction of the greatest
-    /// motion. 1e-10.
+    /// The fraction of the greatest motion by which the displacement of least friction changes when its rounds end.
+    /// 1e-10.
     pub power_change: f64,
-    /// Weight that keeps the normal equations of a balance regular, in parts of the weight. 1e-15.
+    /// The weight that keeps the normal equations of a balance regular, in parts of the weight. 1e-15.
     pub balance_ridge: f64,
-    /// The part of [`Tolerances::balance`] to which a balance is corrected. 1e-6.
+    /// The part of [`Tolerances::balance`] to which a balance is corrected, without unit. 1e-6.
     pub balance_spare: f64,
     /// The least size of a robot about its base, m, to which the moment of its weight is compared. 1 mm: smaller
     /// robots would divide by nothing.
     pub robot_size: f64,
-    /// Angle below which an arc is followed by the series of sine and cosine, rad. 1e-6: the series is then exact to
-    /// rounding.
+    /// The angle below which an arc is followed by the series of sine and cosine, rad. 1e-6: the series is then exact
+    /// to rounding.
     pub series_angle: f64,
-    /// Square of the angle below which the logarithm of a displacement is taken by its series, rad². 1e-6: the series
-    /// is then exact to rounding.
+    /// The square of the angle below which the logarithm of a displacement is taken by its series, rad². 1e-6: the
+    /// series is then exact to rounding.
     pub series_angle_squared: f64,
-    /// Sine of the angle below which a rotation has no axis. 1e-12: rounding.
+    /// The sine of the angle below which a rotation has no axis. 1e-12: rounding.
     pub no_rotation: f64,
-    /// Rounding of the bound from the bounding spheres of two clusters of modules, m, at a metre; it grows with the
-    /// distance. 1e-9: well above that of sums over chains, far below the tolerance of the clearance.
+    /// The rounding of the bound from the bounding spheres of two clusters of modules, m, at a metre; it grows with
+    /// the distance. 1e-9: well above that of sums over chains, far below the tolerance of the clearance.
     pub cluster_rounding: f64,
 }
 

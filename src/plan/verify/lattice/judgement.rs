@@ -8,9 +8,9 @@ use crate::robot::Cell;
 
 /// A plan under judgement.
 pub(super) struct Judgement<'a> {
-    /// The stages of the plan, with its start.
+    /// The stages of the lattice plan, with its start.
     pub stages: &'a Stages,
-    /// The cell that they are made of.
+    /// The type of cell that the lattice is made of.
     pub cell: &'a Cell,
 }
 
@@ -18,19 +18,19 @@ pub(super) struct Judgement<'a> {
 pub(super) struct Step<'a> {
     /// The stage that is judged.
     pub stage: &'a Stage,
-    /// The start of the stage, s.
+    /// The time at which the stage starts, s from the start of the plan.
     pub from: f64,
-    /// The end of the stage, s.
+    /// The time at which the stage ends, s from the start of the plan.
     pub to: f64,
-    /// The cells at its start, by number.
+    /// The cells at the start of the stage, by number.
     pub before: &'a [Cube],
-    /// The cells at its end, by number.
+    /// The cells at the end of the stage, by number.
     pub after: &'a [Cube],
-    /// Sums and extremes of the displacements.
+    /// The sums and extremes of the displacements of the cells over the stage.
     pub change: Change,
     /// The time scaling of the stage.
     pub scaling: TimeScaling,
-    /// The number of grid lines to a cell.
+    /// The number of grid lines to the edge of a full-sized cell.
     pub lines: i64,
 }
 

@@ -3,8 +3,8 @@
 /// Tolerances of the judgement of lattices. Everything else is compared exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerances {
-    /// Relative excess of the plan's units over what the library states of the cell. Default 1e-9: the units
-    /// are products and quotients of the cell's properties, rounded to `f64`.
+    /// The relative excess of the plan's units over what the library states of the cell. Default 1e-9: the units are
+    /// products and quotients of the cell's properties, rounded to `f64`.
     pub units: f64,
 }
 

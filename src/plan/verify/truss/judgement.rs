@@ -10,15 +10,15 @@ use crate::robot::Strut;
 
 /// The motion from one keyframe to the next.
 pub(super) struct Step {
-    /// The positions of the nodes at the start, by node, m.
+    /// The positions of the nodes at the start of the step, by index of the node, in the world, m.
     pub from: Vec<Vec3>,
-    /// The positions of the nodes at the end, by node, m.
+    /// The positions of the nodes at the end of the step, by index of the node, in the world, m.
     pub to: Vec<Vec3>,
-    /// The interpolation of the nodes between the two.
+    /// The interpolation of the nodes between start and end.
     pub interpolation: Interpolation,
-    /// The time of the start, s.
+    /// The time at which the step starts, s from the start of the plan.
     pub start: f64,
-    /// The duration, s; positive.
+    /// The duration of the step, s; positive.
     pub duration: f64,
 }
 

@@ -6,11 +6,11 @@ use crate::geometry::Vec3;
 
 /// Extremes of the length of one strut on a step.
 pub(super) struct Lengths {
-    /// The least length, m, and its time, s.
+    /// The least length during the step, m, and its time, s.
     pub least: (f64, f64),
-    /// The greatest length, m, and its time, s.
+    /// The greatest length during the step, m, and its time, s.
     pub most: (f64, f64),
-    /// The greatest absolute rate, m/s.
+    /// The greatest absolute rate of the length, m/s.
     pub rate: f64,
 }
 

@@ -12,11 +12,11 @@ use crate::plan::NodePaths;
 pub(super) struct NearPair {
     /// The indices of the two struts in the plan, the lesser first.
     pub struts: (usize, usize),
-    /// The least distance at any sample, m.
+    /// The least distance of the two struts at any sample, m.
     pub distance: f64,
-    /// The time of that sample, from 0 at the start of the step to 1 at its end.
+    /// The time of that sample, as a part of the step: 0 at its start, 1 at its end.
     pub part: f64,
-    /// True if they are proved to keep the clearance during the whole step.
+    /// True if the two struts are proved to keep the clearance during the whole step.
     pub holds: bool,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct StabilityMonitor<'a> {
     slid: Vec<f64>,
     /// The steepest slope that a foot stood on, without unit.
     steepest: f64,
-    /// The rolls so far: their times, s, with words, in order of time.
+    /// The rolls of the truss so far, each as (time in s, event in words), in order of time.
     pub events: Vec<(f64, String)>,
 }
 
