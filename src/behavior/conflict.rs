@@ -17,18 +17,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// A conflict: two commands to one joint, neither of which comes before the other.
+/// A conflict of a program: two commands to one joint, neither of which comes before the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Conflict {
     /// The lesser cause of the two commands, by its index; equal to `second` where a command runs beside itself.
     pub first: CauseId,
     /// The greater cause of the two commands, by its index.
     pub second: CauseId,
-    /// The joint that both command.
+    /// The joint that both commands move.
     pub joint: JointId,
 }
 
-/// The conflicts of a program, which commands one controller to hold two positions at one time (Definition IV.5).
+/// The conflicts of a program, which commands one controller to hold two positions at one time (Definition IV.5 of
+/// the compositional-design paper, Tosun, Jing, Kress-Gazit and Yim).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conflicts {
     /// The conflicts with different setpoints, each pair of causes once, with the first joint found. There is one if
@@ -37,7 +38,7 @@ pub struct Conflicts {
     /// The conflicts with equal setpoints, which are harmless, each pair of causes once; not every such pair is
     /// listed.
     pub warnings: Vec<Conflict>,
-    /// True if more than [`PAIRS_MAX`] pairs of a kind were found, of which the rest was dropped.
+    /// True if more than [`PAIRS_MAX`] pairs of one kind were found, of which the rest was dropped.
     pub more: bool,
     /// The number of nodes visited and table entries handled, a measure of the work.
     pub work: usize,

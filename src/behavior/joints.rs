@@ -26,11 +26,11 @@ pub(super) struct JointFacts {
 /// The reason why a joint can't be commanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Uncommandable {
-    /// The joint has no motor.
+    /// The joint is passive: it has no motor.
     Passive,
-    /// The joint follows other joints.
+    /// The joint is a mimic: it follows other joints.
     Mimic,
-    /// The joint does not move.
+    /// The joint is fixed: it does not move.
     Fixed,
 }
 

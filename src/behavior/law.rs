@@ -7,13 +7,13 @@ use crate::plan::time::{tick_after, tick_near};
 /// A piece of a trajectory: a polynomial over its duration whose control points are positions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// The duration, s.
+    /// The duration of the piece, s.
     pub duration: f64,
     /// The control points in Bernstein form, spread over the duration, rad or m; one more than the degree.
     pub control: Vec<f64>,
 }
 
-/// The greatest speed and acceleration of a joint, both positive.
+/// The limits of the speed and acceleration of a joint, both positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionLimits {
     /// The greatest speed, rad/s or m/s; `None`: no limit.
@@ -24,9 +24,9 @@ pub struct MotionLimits {
 
 /// The peak speed of the quintic law ([`Profile::Smooth`]) over 1 rad in 1 s, rad/s: 15/8.
 pub const SMOOTH_SPEED: f64 = 1.875;
-/// The peak acceleration of the quintic law over 1 rad in 1 s, rad/s²: 10/√3.
+/// The peak acceleration of the quintic law ([`Profile::Smooth`]) over 1 rad in 1 s, rad/s²: 10/√3.
 pub const SMOOTH_ACCELERATION: f64 = 5.773_502_691_896_258;
-/// The part of a trapezoid's duration that each ramp takes if no acceleration limit determines it.
+/// The part of a trapezoid's duration that each ramp takes if no acceleration limit determines it, without unit.
 pub const RAMP: f64 = 0.25;
 
 /// Returns the least duration, s, of a move by `distance` (rad or m, either sign) from rest to rest under the limits
@@ -61,9 +61,9 @@ fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 /// Returns the motion from rest at `from` to rest at `to` (rad or m) in `duration` seconds, which must be a whole
-/// number of ticks. The ramps of a trapezoid are as short as the acceleration in `able` allows, and [`RAMP`] of the
-/// duration each without a limit; other profiles do not depend on `able`. Limits are not checked: see
-/// [`least_duration`].
+/// number of ticks, as pieces in order of time. The ramps of a trapezoid are as short as the acceleration in `able`
+/// allows, and [`RAMP`] of the duration each without a limit; other profiles do not depend on `able`. Limits are not
+/// checked: see [`least_duration`].
 pub fn rest_to_rest(profile: Profile, from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     match profile {
         Profile::Smooth => vec![Piece { duration, control: vec![from, from, from, to, to, to] }],

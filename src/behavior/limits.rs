@@ -10,10 +10,10 @@ use crate::plan::{Action, CauseId, Command, Node, Target, polynomial};
 use crate::robot::{Assembly, JointId};
 use std::sync::Arc;
 
-/// An issue: a command asks for more than the robot can do.
+/// An issue of a program: a command that asks for more than the robot can do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Issue {
-    /// The cause of the command.
+    /// The cause of the command that asks for too much.
     pub cause: CauseId,
     /// The argument of the command that is at fault.
     pub part: Part,
@@ -24,21 +24,21 @@ pub struct Issue {
 /// An argument of a command or of its action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// The joint that is commanded.
+    /// The argument that names the joint.
     Joint,
-    /// The position at which a move ends.
+    /// The argument for the position at which a move ends.
     Target,
-    /// The speed of a spin.
+    /// The argument for the speed of a spin.
     Speed,
-    /// The duration of a move, a spin or a wait.
+    /// The argument for the duration of a move, a spin or a wait.
     Duration,
-    /// The timeout of the action.
+    /// The argument for the timeout of the action.
     Timeout,
-    /// The keyframes of the followed function.
+    /// The argument for the keyframes of a followed function.
     Keyframes,
-    /// The condition with which the action ends.
+    /// The argument for the condition with which the action ends.
     Until,
-    /// The two ports to dock.
+    /// The arguments for the two ports to dock.
     Ports,
 }
 
@@ -49,7 +49,7 @@ pub enum IssueKind {
     OutOfRange {
         /// The path name of the joint.
         joint: String,
-        /// The position, rad or m.
+        /// The position asked for, rad or m.
         position: f64,
         /// The lowest and the highest position, rad or m.
         range: (f64, f64),
@@ -60,9 +60,9 @@ pub enum IssueKind {
     TooFast {
         /// The path name of the joint.
         joint: String,
-        /// The speed, rad/s or m/s; negative towards lower positions.
+        /// The speed asked for, rad/s or m/s; negative towards lower positions.
         speed: f64,
-        /// The greatest speed, rad/s or m/s.
+        /// The greatest speed of the joint, rad/s or m/s.
         limit: f64,
         /// `true` for a joint that moves along its axis, in metres.
         prismatic: bool,
@@ -71,16 +71,16 @@ pub enum IssueKind {
     TooShort {
         /// The path name of the joint.
         joint: String,
-        /// The stated duration, s.
+        /// The duration that the command states, s.
         given: f64,
-        /// The least duration, s.
+        /// The least duration that the limits allow, s.
         needed: f64,
     },
-    /// The joint takes no commands.
+    /// The joint that is commanded takes no commands.
     NoCommands {
         /// The path name of the joint.
         joint: String,
-        /// The reason why it takes none.
+        /// The reason why the joint takes no commands.
         why: Uncommandable,
     },
     /// The connectors of the ports to dock do not mate, or both ports are of one module.
@@ -92,15 +92,15 @@ pub enum IssueKind {
     },
     /// A number is not finite or is negative where it must not be, or a condition is nested too deep.
     BadNumber {
-        /// The number, in SI units; of a condition the greatest depth that is allowed.
+        /// The number that was found, in SI units; of a condition the greatest depth that is allowed.
         value: f64,
     },
 }
 
-/// Returns the issues of every action in the order of [`Graph::actions`], each action once however often it is
-/// repeated. The durations of moves to a position are not checked, since they depend on the position before: see
-/// [`schedule`](super::schedule()). `tol` is the fraction of a limit or range by which it may be exceeded: rounding,
-/// see [`Settings`](super::Settings).
+/// Returns the issues of every action of a program on a robot, in the order of [`Graph::actions`], each action once
+/// however often it is repeated. The durations of moves to a position are not checked, since they depend on the
+/// position before: see [`schedule`](super::schedule()). `tol` is the fraction of a limit or range by which it may be
+/// exceeded: rounding, see [`Settings`](super::Settings).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     let facts = facts(robot);
     let mut found = Vec::new();

@@ -15,20 +15,20 @@ use std::sync::Arc;
 /// A mirror plane through the middle of the robot, along two axes of the base's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
-    /// The plane along x and y: left stays left, up becomes down.
+    /// The plane along the x and y axes: left stays left, up becomes down.
     XY,
-    /// The plane along y and z: front becomes back.
+    /// The plane along the y and z axes: front becomes back.
     YZ,
-    /// The plane along x and z: left becomes right.
+    /// The plane along the x and z axes: left becomes right.
     XZ,
 }
 
 /// The reason why a behaviour has no mirror image.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorError {
-    /// No joint is the mirror image of this one, given by its path name.
+    /// A joint, given by its path name, of which no joint is the mirror image.
     Joint(String),
-    /// Docking has no mirror image.
+    /// A command or condition about docking, which has no mirror image.
     Docking,
 }
 
@@ -41,8 +41,9 @@ impl std::fmt::Display for MirrorError {
     }
 }
 
-/// Returns the mirror image of a behaviour: every command and condition for the image of its joint, with the sign of
-/// its positions there. `holds`: for every bond of the robot, true if it is closed.
+/// Returns the mirror image of a behaviour in a plane of the base's frame: every command and condition for the image
+/// of its joint, with the sign of its positions there. `holds`: for every bond of the robot, by index, true if it is
+/// closed.
 ///
 /// # Errors
 /// [`MirrorError`] for a joint without an image, and for behaviours that dock, undock or test for bonds.
@@ -61,9 +62,10 @@ pub fn mirrored(
     rewritten(program, |action| mirrored_action(action, &image))
 }
 
-/// Returns the image of every joint, by the number in its `JointId`, with 1 or -1, by which its positions are
-/// multiplied; `None` for a joint without an image, which hinges of bonds and fixed joints never have. A joint may be
-/// its own image. `holds`: for every bond of the robot, by index, true if it is closed.
+/// Returns the mirror image of every joint in a plane of the base's frame, by the number in its `JointId`, with 1 or
+/// -1, by which its positions are multiplied; `None` for a joint without an image, which hinges of bonds and fixed
+/// joints never have. A joint may be its own image. `holds`: for every bond of the robot, by index, true if it is
+/// closed.
 pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
     let marks = marks(robot, holds);
     let centre =

@@ -9,18 +9,18 @@ use crate::units::{Dimension, quantity};
 pub struct Refusal {
     /// The cause of the action to blame; `None` if the behaviour as a whole is.
     pub cause: Option<CauseId>,
-    /// The reason of the refusal.
+    /// The reason for which the behaviour is refused.
     pub reason: Reason,
 }
 
 /// The reason of a refusal, in SI units; joints and ports are named by their paths, such as `leg[2].m[0].tilt`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// The joint takes no commands.
+    /// The joint that is commanded takes no commands.
     NoCommands {
         /// The path name of the joint.
         joint: String,
-        /// The reason why it takes none.
+        /// The reason why the joint takes no commands.
         why: Uncommandable,
     },
     /// No limit bounds the least duration of the move, so the action needs a stated one.
@@ -33,7 +33,7 @@ pub enum Reason {
     BadNumber {
         /// The meaning of the number, such as `a duration`.
         what: &'static str,
-        /// The number, in SI units.
+        /// The number that was found, in SI units.
         value: f64,
     },
     /// The followed function does not begin where the joint is.
@@ -54,18 +54,18 @@ pub enum Reason {
         /// The stated duration of the move, s.
         given: f64,
     },
-    /// The plan would end while the joint still turns.
+    /// The plan would end while the joint still moves.
     StillTurning {
         /// The path name of the joint.
         joint: String,
-        /// The speed at which it turns, rad/s or m/s.
+        /// The speed at which the joint moves, rad/s or m/s.
         speed: f64,
     },
     /// The condition of an action without timeout never holds in the undisturbed run.
     NeverHolds,
     /// The behaviour aborts in the undisturbed run.
     Aborted {
-        /// The message of `abort`.
+        /// The message that `abort` states.
         message: String,
         /// The time at which it aborts, s from the start of the run.
         time: f64,
@@ -105,9 +105,9 @@ pub enum Reason {
     TooShort,
     /// A limit of the schedule is exceeded.
     Limit {
-        /// The things that are counted in words, such as `actions`.
+        /// The things that are counted, in words, such as `actions`.
         what: &'static str,
-        /// The greatest number of them.
+        /// The greatest number that the settings allow.
         limit: u64,
     },
 }

@@ -33,25 +33,25 @@ pub struct Problem {
     pub settings: Settings,
 }
 
-/// The limits of [`schedule`], beyond which it refuses a behaviour, and its tolerances; the default is behind each
-/// field.
+/// The limits of [`schedule`], beyond which it refuses a behaviour, and its tolerances; each field states its
+/// default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The greatest number of actions that are executed, repetitions included, in each run of a behaviour or of a
-    /// cycle's body. 5 million.
+    /// The greatest number of actions that are carried out, repetitions included, in each run of a behaviour or of a
+    /// cycle's body. Default 5 million.
     pub actions_max: u64,
-    /// The greatest number of pieces of motion of all joints together. 10 million.
+    /// The greatest number of pieces of motion of all joints together. Default 10 million.
     pub segments_max: u64,
-    /// The greatest number of nodes that are entered, empty ones included. 50 million.
+    /// The greatest number of nodes that are entered, empty ones included. Default 50 million.
     pub steps_max: u64,
-    /// The deepest nesting of a program. 1000.
+    /// The deepest nesting of a program. Default 1000.
     pub depth_max: u64,
-    /// The deepest nesting of phases, approaches and stretches in each other. 8.
+    /// The deepest nesting of phases, approaches and stretches in each other. Default 8.
     pub cycles_max: u64,
-    /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m. 1e-6:
-    /// rounding, which can't be seen.
+    /// The greatest distance from the joint at which a followed function, or a cycle, may begin, rad or m. Default
+    /// 1e-6: rounding, which can't be seen.
     pub tol_begin: f64,
-    /// The fraction of the least duration by which a stated one may be shorter. 1e-9: rounding.
+    /// The fraction of the least duration by which a stated one may be shorter. Default 1e-9: rounding.
     pub tol_duration: f64,
 }
 
@@ -72,15 +72,15 @@ impl Default for Settings {
 /// The undisturbed run of a behaviour, as [`schedule`] records it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheduled {
-    /// The motion of every joint, and docking.
+    /// The motion of every joint, and the changes of bonds.
     pub tracks: Tracks,
     /// The behaviour itself, which a robot executes.
     pub program: Program,
     /// The intervals of the motion that are excused from a check of the judge.
     pub exemptions: Vec<Exemption>,
-    /// True if times depend on sensors or timeouts: they are those of the undisturbed run.
+    /// True if times depend on sensors or timeouts; the times are then those of the undisturbed run.
     pub nominal: bool,
-    /// The number of actions executed, repetitions included.
+    /// The number of actions that were carried out, repetitions included.
     pub actions: u64,
     /// Stated durations that are shorter than the joints' limits allow, at most one for each cause.
     pub issues: Vec<Issue>,

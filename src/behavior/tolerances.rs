@@ -3,7 +3,8 @@
 /// The tolerances with which behaviours are scheduled and transformed; those that a caller may set are in
 /// [`Settings`](super::Settings).
 pub(super) struct Tolerances {
-    /// The difference of fits, rad, below which two turns are equally near: rounding must not choose.
+    /// The difference of angle errors, rad, below which two turns of a bond fit equally well: rounding must not
+    /// choose.
     pub turn_tie: f64,
     /// The greatest distance of an image from a joint in a mirrored robot, m: parts are placed with less care
     /// than this only by mistake, and the masses of the two halves of a module may differ a little.

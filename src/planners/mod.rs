@@ -29,7 +29,7 @@ pub struct Solution<R> {
     pub body: plan::Body,
     /// The series-parallel program that `body` executes; `None` from planners that give a motion only.
     pub program: Option<plan::Program>,
-    /// Figures of the search, of the planner's own type: method, bounds, counts of steps.
+    /// The figures of the search, of the planner's own type: method, bounds, counts of steps.
     pub report: R,
 }
 

@@ -67,12 +67,12 @@ impl Default for Settings {
     }
 }
 
-/// The strength of the proof of an optimum.
+/// The strength of the proof that a layout is an optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proof {
-    /// The bound is below the energy by less than `TOLERANCES.proof` of it.
+    /// The optimum is proved: the bound is below the energy by less than `TOLERANCES.proof` of it.
     Optimal,
-    /// The search ended before that, by its budget, by 512 MiB of open nodes, or by the caller.
+    /// The optimum is not proved: the budget, 512 MiB of open nodes or the caller ended the search before.
     Open,
 }
 
@@ -82,11 +82,11 @@ pub enum Proof {
 pub struct Optimum {
     /// The best layout found that fits the settings and was not refused, rooted at its root.
     pub layout: Layout,
-    /// Its energy without the perturbations, N·m for steps of one second.
+    /// The energy of the layout without the perturbations, N·m for steps of one second.
     pub energy: f64,
-    /// A lower bound on the energy of all such layouts, N·m for steps of one second; at least 0.
+    /// A lower bound on the energy of all layouts that fit and were not refused, N·m for steps of one second; >= 0.
     pub bound: f64,
-    /// The strength of the proof.
+    /// The strength of the proof that the layout is optimal.
     pub proof: Proof,
     /// The roots (indices in [`Target::faces`], ascending) with which some layout reaches the energy up to
     /// `TOLERANCES.tie`, those that are equal by symmetry included, as far as they were found before the search ended.
@@ -95,7 +95,7 @@ pub struct Optimum {
     pub nodes: u64,
 }
 
-/// The reason why there is no optimum.
+/// The reason why branch and bound found no layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoLayout {
     /// Every layout overlaps in the plane, is too high, or was refused by the caller.
@@ -115,7 +115,7 @@ pub enum Decision {
     Stop,
 }
 
-/// Returns the layout of least energy that fits, as far as the budget reaches. Panics if the given root is no face.
+/// Returns the layout of least energy that fits, within the budget (Land and Doig 1960). Panics if the root is no face.
 ///
 /// # Errors
 /// [`NoLayout::AllOverlap`] if no layout lies flat or is low enough, else [`NoLayout::Budget`] if none was found.
@@ -123,7 +123,7 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns the layout of least energy that `accepts` accepts. It is asked about layouts that fit the settings in
+/// Returns, as [`optimum`], the layout of least energy that `accepts` accepts. It is asked about layouts that fit, in
 /// ascending order of energy, up to ties; if the budget ends before it accepts one, about one more, of any energy.
 ///
 /// # Errors
@@ -201,8 +201,8 @@ pub(crate) fn search<'a>(
     search.finish(&equals)
 }
 
-/// Returns the weights perturbed by an addition for every hinge. The additions of one layout come to no more
-/// than `slack`, since it has fewer pairs of a face and a hinge above it than the square of its faces.
+/// Returns the weights perturbed by an addition for every hinge. The additions of one layout come to no more than
+/// `slack`, since it has fewer pairs of a face and a hinge above it than the square of its faces.
 fn perturbed(target: &Target, weights: &Weights, slack: f64, seed: u64) -> Weights {
     let n = target.faces.len();
     let step = slack / (n * n) as f64;
@@ -429,8 +429,8 @@ impl<'s> Search<'s, '_, '_> {
         }
     }
 
-    /// Restricts a node to fewer arcs: only paths that lost an arc are searched again. Returns false where a face
-    /// can't be reached any more.
+    /// Restricts a node to fewer arcs: only paths that lost an arc are searched again. Returns false where a face can't
+    /// be reached any more.
     fn reroute(
         &mut self,
         routes: &mut ShortestPaths,
@@ -502,8 +502,8 @@ impl<'s> Search<'s, '_, '_> {
         flat.unwrap_or(first)
     }
 
-    /// Takes a layout of the primal heuristic, which need not be the next best: where the caller decides, it
-    /// only improves the estimate of the optimum.
+    /// Takes a layout of the primal heuristic, which need not be the next best: where the caller decides, it only
+    /// improves the estimate of the optimum.
     fn consider(&mut self, layout: Layout) {
         let root = layout.root;
         self.optimum_estimates[root] = self.optimum_estimates[root].min(layout.energy(self.perturbed));

@@ -16,8 +16,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One step: the hinges that have folded before it, and the face whose hinge folds in it.
 type FoldStep = (Vec<bool>, usize);
 
-/// The search for an order of folding of one layout. Steps that the judge refused can be forbidden; then it finds
-/// another order.
+/// The search for a collision-free order in which the hinges of one layout fold. Steps that the judge refused can be
+/// forbidden; then it finds another order.
 pub struct OrderSearch<'t> {
     layout: &'t Layout,
     target: &'t Target,

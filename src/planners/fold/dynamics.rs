@@ -11,18 +11,19 @@ use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// The position, speed and acceleration of the hinge of a face. An angle of 0 is level, positive angles are convex.
+/// The position, speed and acceleration of the hinge between a face and its parent. An angle of 0 is level, positive
+/// angles are convex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hinging {
-    /// The angle, rad.
+    /// The angle of the hinge, rad.
     pub angle: f64,
-    /// The speed, rad/s.
+    /// The speed of the hinge, rad/s.
     pub speed: f64,
-    /// The acceleration, rad/s².
+    /// The acceleration of the hinge, rad/s².
     pub acceleration: f64,
 }
 
-/// The inverse dynamics of a layout: a tree of rigid bodies on hinges whose root is held.
+/// The inverse dynamics of a layout: a tree of rigid bodies on hinges whose root is held fast.
 pub struct Dynamics<'t> {
     target: &'t Target,
     layout: &'t Layout,
@@ -71,8 +72,8 @@ impl<'t> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }
 
-    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm, Eq. 3 and 4 of the
-    /// [paper](super)) and writes them to `torques`, N·m: entry k is that of the hinge between face k and its parent,
+    /// Computes the torques of all hinges by inverse dynamics (recursive Newton-Euler algorithm, Eq. 3 and 4 of [Yao
+    /// et al.](super)) and writes them to `torques`, N·m: entry k is that of the hinge between face k and its parent,
     /// that of the root is 0. `hinging(k)`: the motion of that hinge. Positive torques turn towards positive angles.
     /// Panics if `torques` has fewer entries than there are faces.
     pub fn torques(&mut self, hinging: impl Fn(usize) -> Hinging, torques: &mut [f64]) {

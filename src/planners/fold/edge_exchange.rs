@@ -53,7 +53,8 @@ pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut 
     improved_where(target, weights, layout, steps, &|_| true)
 }
 
-/// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` returns true.
+/// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` returns true;
+/// `steps` counts down as there.
 pub fn improved_where(
     target: &Target,
     weights: &Weights,
@@ -64,7 +65,7 @@ pub fn improved_where(
     improved_by(target, weights, layout, steps, &Rules { fits: &|_, _| true, allowed })
 }
 
-/// The conditions on exchanges besides a lesser energy.
+/// The conditions on exchanges of hinges besides a lesser energy.
 pub struct Rules<'r> {
     /// A filter of every exchange that lowers the energy: called with a layout and two indices in [`Target::hinges`],
     /// it returns true if the first hinge, which folds, may be exchanged for the second.
@@ -73,7 +74,7 @@ pub struct Rules<'r> {
     pub allowed: &'r dyn Fn(&Layout) -> bool,
 }
 
-/// Returns a layout improved as by [`improved`], by exchanges that keep to the rules.
+/// Returns a layout improved as by [`improved`], by exchanges that keep to the rules; `steps` counts down as there.
 pub fn improved_by(
     target: &Target,
     weights: &Weights,

@@ -12,8 +12,8 @@ use super::target::Target;
 use super::weights::QUINTIC;
 use crate::geometry::{Pose, Vec3};
 
-/// The greatest number of hinges on a path from the root of a layout that is searched: the work grows with its
-/// factorial.
+/// The greatest number of hinges on a path from the root of a layout that [`least_energy`] searches: the work grows
+/// with its factorial.
 pub const HEIGHT_MAX: usize = 8;
 
 /// Returns an order of all faces but the root (indices in [`Target::faces`]) of least energy without gravity, with the

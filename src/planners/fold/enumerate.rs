@@ -22,9 +22,9 @@ const CHUNK: usize = 8;
 /// The result of an enumeration: the layouts of a target with their energies.
 #[derive(Clone, Debug)]
 pub struct Enumeration {
-    /// The number of layouts visited.
+    /// The number of layouts that were visited.
     pub layouts: u64,
-    /// True if these are all layouts of the target; false if the budget ended the enumeration.
+    /// True if the layouts visited are all layouts of the target; false if the budget ended the enumeration.
     pub complete: bool,
     /// The first layout found of least energy, rooted at that of the roots asked for with which it has that energy.
     pub best: Layout,
@@ -56,11 +56,12 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyFaces;
 
-/// Computes the energy of every layout with every root asked for, with the leaves folded first, within the budget.
-/// Panics if the settings name a root that is no face.
+/// Computes the energy of every layout (spanning tree) with every root asked for, with the leaves folded first,
+/// within the budget. `observer` receives progress and may end the enumeration. Panics if the settings name a root
+/// that is no face.
 ///
 /// # Errors
-/// [`TooManyFaces`] for targets of more than 64 faces.
+/// [`TooManyFaces`] for targets of more than [`FACES_MAX`] faces.
 pub fn enumerate_energies(
     target: &Target,
     weights: &Weights,
@@ -121,9 +122,9 @@ pub fn enumerate_energies(
 /// The extent of an enumeration by [`each`].
 #[derive(Clone, Copy, Debug)]
 pub struct Traversal {
-    /// The number of layouts visited.
+    /// The number of layouts that were visited.
     pub layouts: u64,
-    /// True if these are all layouts of the target; false if the budget ended the enumeration.
+    /// True if the layouts visited are all layouts of the target; false if the budget ended the enumeration.
     pub complete: bool,
 }
 

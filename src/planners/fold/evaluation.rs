@@ -35,7 +35,7 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 pub(super) struct Candidates {
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
-    /// The reason for which the first layout that was refused was refused; `None` while none was.
+    /// The reason for which the first layout that the judge refused was refused; `None` while none was.
     pub first: Option<Rejection>,
     /// The number of layouts sampled for collisions.
     sampled: usize,
@@ -47,10 +47,10 @@ pub(super) struct Candidates {
 pub(super) struct Chosen {
     /// The layout with its steps, its plan and its verdict.
     pub outcome: Outcome,
-    /// The lower bound for all that lies flat and passes the judge: on the peak torque where that is minimised,
+    /// The lower bound for all layouts that lie flat and pass the judge: on the peak torque where that is minimised,
     /// else on the energy; N·m.
     pub bound: f64,
-    /// True if it is known that nothing takes fewer steps, lies flat and passes the judge.
+    /// True if it is known that no layout that lies flat and passes the judge takes fewer steps.
     pub is_fewest: bool,
 }
 

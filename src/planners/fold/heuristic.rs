@@ -7,23 +7,26 @@ use super::layout::Layout;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 
-/// The [paper](super)'s measure χ of a layout, by the constants of Theorem 1 (Table 5).
+/// [Yao et al.](super)'s measure χ of a layout, by the constants of Theorem 1 (Table 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// λ1: the norm of a panel's inertia tensor, kg·m². The paper's 6.15e-11 amounts to none.
+    /// The constant λ1 of Theorem 1 of [Yao et al.](super), the norm of a panel's inertia tensor, kg·m². Their
+    /// 6.15e-11 amounts to none.
     pub inertia: f64,
-    /// λ2: half the side divided by the sine of 60 degrees, times the mass, kg·m.
+    /// The constant λ2 of Theorem 1 of [Yao et al.](super), half the side divided by the sine of 60 degrees, times
+    /// the mass, kg·m.
     pub arm: f64,
-    /// λ3: the mass of a panel, kg.
+    /// The constant λ3 of Theorem 1 of [Yao et al.](super), the mass of a panel, kg.
     pub mass: f64,
-    /// λ4: the distance from hinge to hinge, m; of [`Measure::of_panels`] the side.
+    /// The constant λ4 of Theorem 1 of [Yao et al.](super), the distance from hinge to hinge, m; of
+    /// [`Measure::of_panels`] the side.
     pub span: f64,
-    /// κ1, κ2, κ3: the constants of the design, without unit; 3, 1 and 2 in the paper.
+    /// The constants κ1, κ2 and κ3 of the design, without unit; 3, 1 and 2 in [Yao et al.](super).
     pub design: [f64; 3],
 }
 
 impl Measure {
-    /// Returns the [paper](super)'s constants for equal panels of a mass (kg) and side (m).
+    /// Returns [Yao et al.](super)'s constants for equal panels of a mass (kg) and side (m).
     pub fn of_panels(mass: f64, side: f64) -> Measure {
         Measure {
             inertia: 6.15e-11,
@@ -34,7 +37,8 @@ impl Measure {
         }
     }
 
-    /// Returns χ of a layout (Eq. 6, 9, 10 of the [paper](super)) with the leaves folded first, kg·m²; less is better.
+    /// Returns χ of a layout (Eq. 6, 9, 10 of [Yao et al.](super)) with the leaves folded first, kg·m²; less is
+    /// better.
     ///
     /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
     /// everything below it has folded, nothing above it has.
@@ -69,9 +73,9 @@ impl Measure {
 pub struct Preferred {
     /// The first layout found of the least measure.
     pub layout: Layout,
-    /// Its measure χ ([`Measure::of`]), kg·m²; the least is preferred.
+    /// The measure χ of the layout ([`Measure::of`]), kg·m²; the least is preferred.
     pub measure: f64,
-    /// The number of pairs of a layout and a root asked for with this measure, up to ties.
+    /// The number of pairs of a layout and a root asked for with the least measure, up to ties.
     pub ties: u64,
     /// The extent of the enumeration: the layout is the best of those visited.
     pub walked: Traversal,

@@ -7,18 +7,18 @@ use nalgebra::Matrix3;
 /// The distribution of a panel's mass, from which its centre and inertia follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inertia {
-    /// Evenly over the triangle, without thickness.
+    /// A mass spread evenly over the triangle, without thickness.
     Lamina,
-    /// Evenly over the triangle with a thickness, m, half of it on either side.
+    /// A mass spread evenly over the triangle with a thickness, m, half of it on either side.
     Prism(f64),
-    /// All at the centroid, to which the paper's numbers amount.
+    /// A mass at the centroid, to which the numbers of [Yao et al.](super) amount.
     Point,
 }
 
 /// A panel as a rigid body, in its pose in the target.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
-    /// The mass, kg.
+    /// The mass of the panel, kg.
     pub mass: f64,
     /// The centre of mass in the frame of the target, m.
     pub centre: Vec3,
@@ -27,15 +27,15 @@ pub struct Body {
 }
 
 impl Body {
-    /// Computes the rigid body of a panel from its corners (m) and mass (kg), in the frame of the corners.
+    /// Returns the rigid body of a panel from its corners (m) and mass (kg), in the frame of the corners.
     pub fn of_panel(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> Body {
         let centre = corners.iter().sum::<Vec3>() / 3.0;
         let second = second_moment(&corners.map(|c| c - centre), inertia) * mass;
         Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
     }
 
-    /// Computes the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`];
-    /// `masses`: one for each face in that order, kg.
+    /// Returns the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`];
+    /// `masses`: one for each face in that order, kg. Panics if there are too few.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()

@@ -9,15 +9,15 @@ use std::sync::Arc;
 
 /// A program of a robot, with the world and the options under which it is judged.
 pub(crate) struct Motion {
-    /// The robot that moves.
+    /// The robot that folds.
     pub robot: Assembly,
-    /// Its state at the beginning.
+    /// The state of the robot at the beginning.
     pub start: State,
-    /// The program; all its actions have cause 0.
+    /// The program of the folding; all its actions have cause 0.
     pub program: Arc<Node>,
     /// The world that the plan assumes.
     pub world: World,
-    /// The options of the judge.
+    /// The settings of the judge that the plan has to pass.
     pub judge: plan::Settings,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct Motion {
 pub(crate) struct Judged {
     /// The number of actions of the program.
     pub actions: u64,
-    /// The verdict of the judge.
+    /// The verdict of the judge on the plan.
     pub verdict: Verdict,
 }
 

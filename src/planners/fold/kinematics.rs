@@ -33,8 +33,8 @@ pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) 
     poses
 }
 
-/// Returns the rotation about the line through a point (m) along a unit axis by an angle (rad, right-handed), as a
-/// displacement in the frame of point and axis.
+/// Returns the rotation about the line through a point (m) along a unit axis by an angle (rad, by the right-hand
+/// rule), as a displacement in the frame of point and axis.
 pub fn about(point: &Vec3, axis: Vec3, angle: f64) -> Pose {
     shifted(*point) * turned(axis, angle) * shifted(-point)
 }

@@ -60,7 +60,7 @@ pub struct AscentLimits {
     pub cutoff: f64,
     /// An estimate of the optimum for Polyak's step, N·m for steps of one second.
     pub optimum_estimate: f64,
-    /// The greatest number of rounds; with 0 the bound is minus infinity.
+    /// The greatest number of rounds of the ascent; with 0 the bound is minus infinity.
     pub rounds: usize,
     /// The length of the first step, without unit: the factor of Polyak's step, which is made of the gap between bound
     /// and estimated optimum.
@@ -90,7 +90,7 @@ pub struct Lagrangian<'t> {
 }
 
 impl<'t> Lagrangian<'t> {
-    /// Sets up the relaxation of a target under its weights, with all multipliers zero.
+    /// Returns the relaxation of a target under its weights, with all multipliers zero.
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
         let arcs = 3 * faces;
@@ -124,10 +124,10 @@ impl<'t> Lagrangian<'t> {
         }
     }
 
-    /// Raises the bound of the layouts with this root (an index in [`Target::faces`]) over the arcs allowed by
-    /// subgradient ascent, from given multipliers. Arcs that no layout below the cutoff uses are removed from
-    /// `allowed` (fixing by reduced costs). `steps` counts down the faces settled on paths and the sums over
-    /// multipliers; at zero the ascent ends.
+    /// Raises the lower bound on the layouts with this root (an index in [`Target::faces`]) over the arcs allowed by
+    /// subgradient ascent from given multipliers (Held and Karp 1971), with Polyak's steps. Arcs that no layout below
+    /// the cutoff uses are removed from `allowed` (fixing by reduced costs). `steps` counts down the faces settled on
+    /// paths and the sums over multipliers; at zero the ascent ends.
     ///
     /// In the first and in every 20th round `layouts` is called with the arc (3 · face + side) chosen into each face,
     /// by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no meaning. If it returns

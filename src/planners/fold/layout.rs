@@ -6,19 +6,19 @@ use super::weights::Weights;
 /// A layout: a spanning tree of the faces of a target, rooted at a face. Its edges are the hinges that fold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// The face that keeps its pose, as an index in [`Target::faces`], like all faces here.
+    /// The face that keeps its pose, as an index in [`Target::faces`].
     pub root: usize,
-    /// For each face, in the order of [`Target::faces`], the index in [`Target::hinges`] of the hinge to its parent;
+    /// The hinge to the parent of each face, in the order of [`Target::faces`], as an index in [`Target::hinges`];
     /// `None` for the root.
     pub hinge: Vec<Option<usize>>,
-    /// For each face, in the order of [`Target::faces`], the index of its parent there; the root's is its own.
+    /// The parent of each face, in the order of [`Target::faces`], as an index there; the root's is its own.
     pub parent: Vec<usize>,
     /// The indices in [`Target::faces`] of all faces in breadth-first order: the root first, parents before their
     /// children.
     pub order: Vec<usize>,
 }
 
-/// The sides at which a face and its parent are joined.
+/// The sides of their triangles at which a face and its parent are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Across {
     /// The index in [`Target::faces`] of the parent of the face.
@@ -73,7 +73,8 @@ impl Layout {
         Across { parent, parent_side: hinge.side_of(parent), side: hinge.side_of(face) }
     }
 
-    /// Returns the fold angle of the hinge to a face's parent, rad, positive where the edge is convex; 0 for the root.
+    /// Returns the fold angle of the hinge to a face's parent, rad, positive where the edge is convex; 0 for the
+    /// root. Panics if there is no such face.
     pub fn angle(&self, target: &Target, face: usize) -> f64 {
         self.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle)
     }
@@ -93,13 +94,14 @@ impl Layout {
         Layout::of_hinges(target, &hinges, self.root).expect("it joins the two parts")
     }
 
-    /// Returns the same tree rooted at the face `root`. Panics if the target has no such face.
+    /// Returns the same tree of hinges rooted at another face (an index in [`Target::faces`]). Panics if the target
+    /// has no such face.
     pub fn rerooted(&self, target: &Target, root: usize) -> Layout {
         Layout::of_hinges(target, &self.hinges(), root).expect("a tree is one from every root")
     }
 
-    /// Returns the [paper](super)'s energy (Eq. 5) with the leaves folded first, N·m for steps of one second: the sum
-    /// over all faces of what the hinges between them and the root cost for them.
+    /// Returns [Yao et al.](super)'s energy (Eq. 5 of [Yao et al.](super)) with the leaves folded first, N·m for
+    /// steps of one second: the sum over all faces of what the hinges between them and the root cost for them.
     pub fn energy(&self, weights: &Weights) -> f64 {
         let mut sum = 0.0;
         for &face in &self.order {
@@ -133,12 +135,14 @@ impl Layout {
         heights
     }
 
-    /// Returns true if one of two faces is on the path from the root to the other, or they are the same face.
+    /// Returns true if one of two faces (indices in [`Target::faces`]) is on the path from the root to the other, or
+    /// they are the same face.
     pub fn comparable(&self, a: usize, b: usize) -> bool {
         self.is_above(a, b) || self.is_above(b, a)
     }
 
-    /// Returns true if `a` is on the path from the root to `b`, ends included.
+    /// Returns true if the face `a` is on the path from the root to the face `b` (indices in [`Target::faces`]), ends
+    /// included.
     pub fn is_above(&self, a: usize, b: usize) -> bool {
         let mut at = b;
         loop {

@@ -14,7 +14,7 @@ const SECTIONS: usize = 50;
 
 /// The points and weights of Gauss-Legendre quadrature, with the polynomials there.
 pub(super) struct Rule {
-    /// The points in -1..1, the roots of the Legendre polynomial of degree [`TERMS`].
+    /// The points of the quadrature in -1..1, the roots of the Legendre polynomial of degree [`TERMS`].
     pub points: [f64; TERMS],
     /// The contribution of a value at a point to a term, by term, then by point.
     terms: [[f64; TERMS]; TERMS],
@@ -117,8 +117,8 @@ impl Series {
     }
 }
 
-/// The mean over an interval and the peak in it of the absolute value of a function, in its own unit. For torques, in
-/// N·m, the interval is the time of a step.
+/// The mean over an interval and the peak in it of the absolute value of a function, in the function's unit. For
+/// torques, in N·m, the interval is the time of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Size {
     /// The mean of the absolute value, in the unit of the function.

@@ -12,7 +12,8 @@ use crate::geometry::{Pose, Vec3};
 /// The number of states of each step that are sampled.
 const SAMPLES: usize = 12;
 
-/// The weights of the faces and the limits of ground and hinges. The root lies on the ground with its outside down.
+/// The weights of the faces and the limits of ground and hinges, for the statics of a folding. The root lies on the
+/// ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
     /// The weight of each face, in the order of [`Target::faces`], N.
@@ -25,17 +26,17 @@ pub struct LoadLimits {
     pub touch: f64,
 }
 
-/// A limit of [`LoadLimits`] that a posture violates, with the face at which it does.
+/// A violation of a limit of [`LoadLimits`] by a posture, with the face at which it occurs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Violation {
-    /// A face reaches below the ground.
+    /// A face that reaches below the ground.
     Ground {
-        /// The index of the face.
+        /// The index of the face in [`Target::faces`].
         face: usize,
         /// The depth of its lowest corner below the root's plane, m.
         depth: f64,
     },
-    /// The hinge of a face is overloaded.
+    /// A hinge that is overloaded, named by the face that it carries.
     Overload {
         /// The index of the face in [`Target::faces`].
         face: usize,

@@ -30,14 +30,14 @@ const EXCHANGES: u64 = 1_000_000;
 pub struct Settings {
     /// The faces that may be the root, indices in [`Target::faces`]; at least one.
     pub roots: Vec<usize>,
-    /// True leaves out layouts whose patterns overlap in the plane.
+    /// True leaves out layouts whose flat patterns overlap in the plane.
     pub flat: bool,
     /// The greatest number of pairs of a layout and a root that are measured; if there are no more of them, all are
     /// enumerated. The starts of the local search, eight at most, are measured in any case.
     pub budget: u64,
     /// The greatest number of layouts that are kept, the best first; 0 counts as 1.
     pub keep: usize,
-    /// The prefilter; `None` if the objective has none.
+    /// The prefilter by bounds; `None` if the objective has none.
     pub prefilter: Option<BoundPrefilter>,
 }
 
@@ -54,15 +54,16 @@ pub struct BoundPrefilter {
 /// The result of [`search`]: the best layouts.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// The best layouts, each with its value and the value that decides ties, the best first; empty if none was found
-    /// that may be kept.
+    /// The best layouts, each with its two values (the one that is minimised and the one that decides ties, in the
+    /// units of the objective), the best first; empty if none was found that may be kept.
     pub best: Vec<(Layout, [f64; 2])>,
     /// The number of pairs of a layout and a root whose first value is that of the best, up to ties. A local search
     /// counts a pair each time that it meets it.
     pub ties: u64,
     /// The roots (indices in [`Target::faces`]) with which that value is reached, in the order of [`Settings::roots`].
     pub roots: Vec<usize>,
-    /// The least first value, in its unit, of all layouts measured, also of those that overlap; infinite if none was.
+    /// The least first value of all layouts measured, also of those that overlap, in the unit of the objective;
+    /// infinite if none was measured.
     pub least: f64,
     /// True if every pair of a layout and a root was visited, or one that is equal to it by symmetry.
     pub complete: bool,

@@ -12,12 +12,12 @@ use crate::geometry::{Pose, Vec3};
 /// A cut net of a layout in the plane: a topological disk of triangles, each a face.
 #[derive(Clone, Debug)]
 pub struct Net {
-    /// The vertices, m; the root's first corner is the origin, its first side goes along x.
+    /// The positions of the vertices in the plane, m; the root's first corner is the origin, its first side goes
+    /// along x.
     pub vertices: Vec<Point>,
     /// A face with which each vertex moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
-    /// For each face of the target, in its order, its corners as indices in `vertices`, in the order of
-    /// [`Target::faces`].
+    /// The corners of each face of the target, in the order of [`Target::faces`], as indices in `vertices`.
     pub faces: Vec<[usize; 3]>,
     /// The edges: first the hinges that fold, in the order of the layout's faces without the root, then the outline,
     /// face by face.
@@ -32,7 +32,7 @@ pub struct Edge {
     /// The indices in [`Target::faces`] of the faces at the edge: the one on its left, which for a hinge is the
     /// parent; for a hinge then the child, on its right.
     pub faces: Vec<usize>,
-    /// The fold angle of a hinge of the layout in the target, rad; `None` for outline.
+    /// The fold angle of a hinge of the layout in the target, rad; `None` for an edge of the outline.
     pub angle: Option<f64>,
     /// The index in [`Net::edges`] of the edge of the outline that coincides with this one in the target; `None` for a
     /// hinge of the layout and at the boundary of the target.
@@ -40,7 +40,7 @@ pub struct Edge {
 }
 
 impl Net {
-    /// Cuts the net of a layout; faces of it may overlap in the plane.
+    /// Returns the cut net of a layout of a target; faces of it may overlap in the plane.
     pub fn of(target: &Target, layout: &Layout) -> Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();

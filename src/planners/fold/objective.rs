@@ -36,7 +36,8 @@ const SIMULATED_MAX: u64 = 40_000;
 /// The quantity that a folding is to minimise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Minimise {
-    /// The sum of the hinges' mean torques over all steps (Eq. 5), N·m; of equal ones the fewest steps.
+    /// The sum of the hinges' mean torques over all steps (Eq. 5 of [Yao et al.](super)), N·m; of equal ones the
+    /// fewest steps.
     #[default]
     Energy,
     /// The greatest torque of a hinge, N·m; of equal ones the least energy.
@@ -55,16 +56,16 @@ impl Minimise {
     }
 }
 
-/// The conventions under which torques and energy are computed, as far as the [paper](super) leaves them open.
+/// The conventions under which torques and energy are computed, as far as [Yao et al.](super) leaves them open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conventions {
     /// The model of how the mass of a panel is spread.
     pub inertia: Inertia,
-    /// The joints whose torques count.
+    /// The joints whose torques count: those that move, or all.
     pub count: Count,
-    /// Gravity, m/s², towards the ground on which the root lies with its outside down; 0 for no gravity.
+    /// The gravity, m/s², towards the ground on which the root lies with its outside down; 0 for no gravity.
     pub gravity: f64,
-    /// The time of a step, s.
+    /// The duration of a step, s.
     pub step: f64,
 }
 
@@ -76,10 +77,11 @@ impl Conventions {
     }
 }
 
-/// The energy and the peak torque of a folding, N·m.
+/// The effort of a folding: its energy and its peak torque, N·m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// The energy (Eq. 5): the sum of the mean absolute torques of the joints that count, over all steps, N·m.
+    /// The energy (Eq. 5 of [Yao et al.](super)): the sum of the mean absolute torques of the joints that count, over
+    /// all steps, N·m.
     pub energy: f64,
     /// The greatest absolute torque of a joint that counts, N·m.
     pub peak: f64,
@@ -96,14 +98,14 @@ impl Effort {
     }
 }
 
-/// The objective function on the layouts and orders of a target.
+/// The objective function on the layouts and orders of a target, with its conventions.
 pub struct Objective<'t> {
     target: &'t Target,
     /// The mass of each face, kg.
     masses: Vec<f64>,
-    /// The conventions of measuring.
+    /// The conventions under which torques and energy are computed.
     pub conventions: Conventions,
-    /// The quantity that is minimised.
+    /// The quantity that is minimised: energy, peak torque, or steps.
     pub minimise: Minimise,
     bodies: Vec<Body>,
     /// The weights of the closed form, N·m for steps of one second.
@@ -111,7 +113,7 @@ pub struct Objective<'t> {
 }
 
 impl<'t> Objective<'t> {
-    /// Sets up the objective of a target; `masses`: by face, kg, one for each face of the target.
+    /// Returns the objective of a target; `masses`: one for each face in the order of [`Target::faces`], kg.
     pub fn new(
         target: &'t Target,
         masses: Vec<f64>,

@@ -21,7 +21,8 @@ impl<'p> Observer<'p> {
         Observer { progress: RefCell::new(None), ended: Cell::new(false) }
     }
 
-    /// Forwards the state of a search; `how_far` builds its line of text, and is called only if the text is read.
+    /// Forwards the state of a search to the [`Progress`]; `how_far` builds its line of text, and is called only if
+    /// the text is read.
     pub fn report(&self, how_far: impl Fn() -> String) {
         if let Some(progress) = &mut *self.progress.borrow_mut() {
             progress.report(&how_far);

@@ -23,11 +23,11 @@ const POSES_MAX: usize = 1 << 20;
 /// The orders of folding for which a lower bound holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orders {
-    /// Orders in which a hinge folds after all hinges that it carries.
+    /// The orders in which a hinge folds after all hinges that it carries.
     LeavesFirst,
-    /// Orders in which a hinge folds before all hinges that it carries.
+    /// The orders in which a hinge folds before all hinges that it carries.
     RootFirst,
-    /// Every order.
+    /// All orders of the hinges, without restriction.
     Any,
 }
 

@@ -19,7 +19,7 @@ const STEP_UNLIMITED: f64 = 1.0;
 /// A triangular panel in numbers: geometry, mass, and the limits of the hinges at its edges.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// The mass, kg.
+    /// The mass of the panel, kg.
     pub mass: f64,
     /// The lengths of the sides in the order of the module's ports, counterclockwise seen from the front, m.
     pub sides: [f64; 3],
@@ -28,7 +28,7 @@ pub struct Panel {
     /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s²; each `None` where no limit is
     /// stated.
     pub able: law::MotionLimits,
-    /// The torque that its hinges hold, N·m; `None` where no limit is stated.
+    /// The greatest torque that the panel's hinges hold, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
     /// The depth to which a panel may enter another panel or the ground before that is a collision, m.
     pub touch: f64,
@@ -38,18 +38,18 @@ pub struct Panel {
     pub parts: Vec<Part>,
 }
 
-/// The reason why a module type is no panel.
+/// The reason why a module type is no panel: the first property of a panel that it has not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotAPanel {
-    /// It does not have three ports.
+    /// The module type has another number of ports than three.
     Ports,
-    /// It does not have exactly one link.
+    /// The module type has another number of links than one.
     Links,
-    /// Its ports are not at the middles of the edges of a triangle, facing outwards.
+    /// The ports of the module type are not at the middles of the edges of a triangle, facing outwards.
     PortPoses,
-    /// The connector of its ports has no hinge.
+    /// The connector of the ports of the module type has no hinge.
     NoHinge,
-    /// Its collision shape is no solid.
+    /// The collision shape of the module type is no solid.
     Shape,
 }
 
@@ -71,10 +71,11 @@ impl fmt::Display for NotAPanel {
 impl std::error::Error for NotAPanel {}
 
 impl Panel {
-    /// Reads module type `kind` (an index) of a library as a panel. Panics if the library has no such type.
+    /// Returns the module type `kind` (an index in [`Library::modules`]) of a library as a panel. Panics if the
+    /// library has no such type.
     ///
     /// # Errors
-    /// The first property that a panel has and this module type has not.
+    /// The first property of a panel that this module type has not, as [`NotAPanel`].
     pub fn of(library: &Library, kind: usize) -> Result<Panel, NotAPanel> {
         let module = &library.modules[kind];
         let [a, b, c] = &module.ports[..] else { return Err(NotAPanel::Ports) };
@@ -95,8 +96,8 @@ impl Panel {
         })
     }
 
-    /// Returns true if its second and its third side each differ from the first by at most `TOLERANCES.side` of the
-    /// longest.
+    /// Returns true if the second and the third side of the panel each differ from the first by at most
+    /// `TOLERANCES.side` of the longest.
     pub fn is_equilateral(&self) -> bool {
         equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
     }
@@ -179,24 +180,25 @@ fn thickness(link: &Link, normal: Vec3) -> f64 {
 pub struct Panels {
     /// The module types and connectors that the panels are made of.
     pub library: Arc<Library>,
-    /// For each face, in the order of the target's, the index of its module type in the modules of the library.
+    /// The module type of each face's panel, in the order of [`Target::faces`](super::Target::faces), as an index in
+    /// [`Library::modules`].
     pub kinds: Vec<usize>,
-    /// The mass of each face, kg.
+    /// The mass of each face's panel, in the order of the target's faces, kg.
     pub masses: Vec<f64>,
-    /// The thickness of each face's panel, m.
+    /// The thickness of each face's panel, in the order of the target's faces, m.
     pub thickness: Vec<f64>,
-    /// The collision parts of each face's panel.
+    /// The convex collision parts of each face's panel.
     pub solids: Solids,
     /// The first face's panel with the least limits and the greatest thickness and `touch` of all ([`Panel::weaker`]).
     pub weakest: Panel,
 }
 
 impl Panels {
-    /// Reads the panels of all faces; `kinds`: for each face, in the order of the target's, the index of its module
-    /// type in the modules of the library. Panics if `kinds` is empty, or an index is none of the library.
+    /// Returns the panels of all faces; `kinds`: for each face, in the order of the target's, the index of its module
+    /// type in [`Library::modules`]. Panics if `kinds` is empty, or an index is none of the library.
     ///
     /// # Errors
-    /// The reason for which a module type is no panel, that of the first such face.
+    /// [`NotAPanel`] for the first face whose module type is no panel.
     pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
         let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
         for &kind in &kinds {

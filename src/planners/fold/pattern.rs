@@ -5,16 +5,16 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use robust::{Coord, orient2d};
 
-/// A point of the plane, m.
+/// A point (x, y) of the plane of the flat pattern, m.
 pub type Point = [f64; 2];
 
 /// The flat pattern of a layout: its faces laid side by side in the plane, the root with its first corner at the origin
 /// and its first side along x; counterclockwise as seen from outside.
 #[derive(Clone, Debug)]
 pub struct Pattern {
-    /// For each face of the target, in its order, the corners in the order of [`Target::faces`], m.
+    /// The corners of each face of the target in the plane, m: faces and corners in the order of [`Target::faces`].
     pub corners: Vec<[Point; 3]>,
-    /// For each face, its cell on the triangular lattice, as the sum of its three [`lattice_corners`], which no two
+    /// The cell of each face on the triangular lattice, as the sum of its three [`lattice_corners`], which no two
     /// cells share; `None` if the sides are not all equal.
     pub cells: Option<Vec<[i64; 2]>>,
 }
@@ -27,7 +27,7 @@ pub fn has_equal_sides(target: &Target) -> bool {
 }
 
 impl Pattern {
-    /// Lays the faces of a layout in the plane: on the triangular lattice, exactly, if all sides are equal.
+    /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if all sides are equal.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
         if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }

@@ -28,7 +28,7 @@ pub(super) struct Least {
     /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second; `None` if none
     /// better than the known one was found.
     pub layout: Option<(Layout, f64)>,
-    /// The lower bound for layouts with this root, N·m for steps of one second.
+    /// The lower bound on the greatest mean torque of layouts with this root, N·m for steps of one second.
     pub bound: f64,
 }
 

@@ -18,7 +18,7 @@ const FOLD_MAX: f64 = 2.0 * PI / 3.0;
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate {
-    /// The thickness, m.
+    /// The thickness of the plate, m.
     pub thickness: f64,
     /// The distance by which the plate ends inside the sides of its face, so that plates side by side do not meet, m.
     pub gap: f64,
@@ -26,7 +26,8 @@ pub struct Plate {
     pub motors: f64,
     /// The mass of the plate by its area, kg/m².
     pub density: f64,
-    /// The limits of the hinges at its edges: rad, rad/s, rad/s², N·m.
+    /// The limits of the hinges at the plate's edges: range (rad), speed (rad/s), acceleration (rad/s²) and torque
+    /// (N·m).
     pub limits: Limits,
 }
 
@@ -45,7 +46,7 @@ impl Default for Plate {
 }
 
 impl Plate {
-    /// Makes a panel to measure for each face of a target; faces with equal sides share a module type.
+    /// Returns a panel made to measure for each face of a target; faces with equal sides share a module type.
     ///
     /// # Errors
     /// [`NotAPanel::Shape`] if a face is too small for the thickness, so that the bevels meet.

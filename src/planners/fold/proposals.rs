@@ -24,7 +24,7 @@ const NEXT_BEST: u64 = 4;
 pub(super) struct Proposals {
     /// The layouts proposed, the best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
-    /// The settings of a search for the next best; `None` where there is no such search.
+    /// The settings of a branch and bound search for the next best layout; `None` where there is no such search.
     pub next: Option<branch_and_bound::Settings>,
     /// The lower bound for all layouts that lie flat, with the leaves first: on the peak torque where that is
     /// minimised, else on the energy; N·m. If branch and bound minimises the steps, it holds for the layouts that
@@ -32,10 +32,10 @@ pub(super) struct Proposals {
     pub bound: f64,
     /// The least value of any layout, also of those whose patterns overlap; N·m, or steps if these are minimised.
     pub least: f64,
-    /// For each layout of `layouts`, its value and the one that decides ties; `None` unless the list is complete, so
-    /// that no layout that lies flat is left out before its last.
+    /// The values of each layout of `layouts`: the one that is minimised, and the one that decides ties; `None`
+    /// unless the list is complete, so that no layout that lies flat is left out before its last.
     pub values: Option<Vec<[f64; 2]>>,
-    /// The roots that are equally good, indices in the target's faces, ascending.
+    /// The roots that are equally good, as indices in [`Target::faces`](super::Target::faces), ascending.
     pub ties: Vec<usize>,
     /// The number of pairs of a layout and a root that are known to be equally good.
     pub tied: u64,

@@ -7,10 +7,11 @@ use super::steps;
 use super::tolerances::TOLERANCES;
 use crate::planners::random::SplitMix64;
 
-/// The costs of random orders, compared with a reference, in the unit of the compared quantity: N·m for energies.
+/// The costs of random orders of folding, compared with a reference, in the unit of the compared quantity: N·m for
+/// energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The number of orders.
+    /// The number of random orders.
     pub orders: u64,
     /// The number of orders that cost more than the reference by more than `TOLERANCES.tie` of it.
     pub worse: u64,

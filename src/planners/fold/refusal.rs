@@ -8,19 +8,21 @@ use crate::plan::Failure;
 use crate::units::{Dimension, quantity};
 use std::fmt;
 
-/// The reason why there is no plan. Faces are indices in [`Target::faces`](super::Target::faces), from 0.
+/// The reason why [`plan`](super::plan()) gives no folding. Faces are indices in
+/// [`Target::faces`](super::Target::faces), from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The root is no face of the target.
     NoSuchRoot {
-        /// The number of faces.
+        /// The number of faces of the target.
         faces: usize,
     },
     /// The shape reaches farther below the ground on which its root would lie than a panel is thick.
     OffGround {
         /// True if the problem names the root; false if it names none and no face can be the root.
         is_root_given: bool,
-        /// The root, or the first face that was tried as the root.
+        /// The root, or the first face that was tried as the root, as an index in
+        /// [`Target::faces`](super::Target::faces).
         root: usize,
         /// The face that reaches the deepest below the ground, and its depth.
         protrusion: Protrusion,
@@ -39,10 +41,10 @@ pub enum Refusal {
     SequenceTooHigh,
     /// Two panels penetrate each other in the folded shape.
     Interpenetrating {
-        /// The two panels.
+        /// The indices of the two panels, those of their faces in [`Target::faces`](super::Target::faces).
         faces: [usize; 2],
-        /// The angle between them at their hinge in the folded shape, rad, π where they are level; `None` where no
-        /// hinge joins them.
+        /// The angle between the two panels at their hinge in the folded shape, rad, π where they are level; `None`
+        /// where no hinge joins them.
         opening: Option<f64>,
     },
     /// The pattern of every layout overlaps itself in the plane.
@@ -51,42 +53,42 @@ pub enum Refusal {
     NothingFlat,
     /// The target has too many faces for enumeration.
     TooManyFaces {
-        /// The greatest number of faces.
+        /// The greatest number of faces that can be enumerated.
         limit: usize,
     },
     /// The target has too many pairs of a layout and a root for enumeration under this objective.
     TooManyLayouts {
-        /// The greatest number of pairs.
+        /// The greatest number of pairs of a layout and a root that can be enumerated.
         limit: u64,
     },
     /// Two faces of the given layout share no hinge.
     NoSuchHinge {
-        /// The two faces.
+        /// The indices of the two faces in [`Target::faces`](super::Target::faces).
         faces: [usize; 2],
     },
     /// The given hinges are no spanning tree of the faces.
     NotSpanning {
-        /// The number of hinges given.
+        /// The number of hinges that the problem gives.
         hinges: usize,
-        /// The number of faces.
+        /// The number of faces of the target.
         faces: usize,
     },
     /// The connectors of panels that are joined have no hinge.
     NoHinge,
     /// The time of a step is shorter than the limits of the hinges allow.
     StepTooShort {
-        /// The least time that is long enough, s.
+        /// The least time of a step that is long enough, s.
         least: f64,
     },
-    /// The folding program can't be scheduled.
+    /// The folding program can't be scheduled, for the reason given.
     Schedule(behavior::Refusal),
-    /// The judge refuses the layout that the problem gives, in the order asked for.
+    /// The judge refuses the layout that the problem gives, in the order asked for, for the reason given.
     GivenLayout(Rejection),
-    /// The judge refuses every layout and order that was found.
+    /// The judge refuses every layout and order that was found, as the facts given show.
     NoFolding(Box<NoFolding>),
 }
 
-/// The facts found by a search in which no folding passed the judge.
+/// The facts found by a search for a folding in which none passed the judge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoFolding {
     /// The reason why the first layout was refused; `None` if the search ended before any was evaluated.
@@ -102,24 +104,24 @@ pub struct NoFolding {
     pub is_under_gravity: bool,
 }
 
-/// The reason why one layout, in one order of folding, was refused.
+/// The reason why a layout was refused in one order of folding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rejection {
     /// Two panels, taken without thickness, collide in a sample of a step.
     Meet {
-        /// The two panels.
+        /// The indices of the two panels, those of their faces in [`Target::faces`](super::Target::faces).
         faces: [usize; 2],
         /// The index of the step, from 0.
         step: usize,
     },
-    /// The judge's first failure.
+    /// A failure found by the judge, the first in time.
     Judged(Failure),
 }
 
 /// The cost of a layout that lies flat, with the leaves folded first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BestPattern {
-    /// The quantity that was minimised.
+    /// The quantity that was minimised: energy, peak torque, or steps.
     pub minimise: Minimise,
     /// The value of the minimised quantity for this pattern: its peak torque, else its energy; N·m.
     pub reached: f64,

@@ -10,7 +10,7 @@ use crate::plan::{Verdict, World};
 use crate::planners::Progress;
 use num_bigint::BigInt;
 
-/// The figures of a folding and of its search.
+/// The figures of a folding and of the search for it.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The surface that is folded, as the problem states it.
@@ -25,15 +25,15 @@ pub struct Report {
     /// The energy and the peak torque of the folding, N·m.
     pub effort: Effort,
     /// The lower bound on what was minimised, never above it, for all foldings that the answer was chosen from: the
-    /// peak torque, the energy, or the energy of as few steps, N·m; 0 where none is known. These are all layouts
-    /// with the roots allowed that lie flat and pass the judge, in the order that the settings ask for, or in any
-    /// order where none passed in that one.
+    /// peak torque, the energy, or the energy of as few steps, N·m; 0 where none is known. The answer was chosen from
+    /// all layouts with the roots allowed that lie flat and pass the judge, in the order that the settings ask for,
+    /// or in any order where none passed in that one.
     pub bound: f64,
     /// The least number of steps of any layout with the root that the problem names, or with any root if it names none;
     /// layouts that overlap or collide count, too.
     pub fewest_steps: usize,
-    /// True if it is proved that none of these foldings is better: the bound is below what was minimised by less
-    /// than `TOLERANCES.proof` of it, and where the steps are minimised, none takes fewer.
+    /// True if it is proved that no folding that the answer was chosen from is better: the bound is below what was
+    /// minimised by less than `TOLERANCES.proof` of it, and where the steps are minimised, none takes fewer.
     pub optimal: bool,
     /// The minimised quantity divided by the least value found for any layout with the leaves first: 1 if nothing was
     /// given up, less if another order is better.
@@ -41,22 +41,22 @@ pub struct Report {
     /// The roots with which the best layouts proposed to the judge reach the least value, as indices in
     /// [`Target::faces`], ascending.
     pub ties: Vec<usize>,
-    /// The number of pairs of a layout and a root that are known to reach that value; after a local search, a pair
-    /// counts each time that it was met.
+    /// The number of pairs of a layout and a root that are known to reach the least value; after a local search, a
+    /// pair counts each time that it was met.
     pub tied: u64,
-    /// The work against standard gravity (Eq. 17) in the order of the folding, also where the problem has no gravity,
-    /// J.
+    /// The work against standard gravity (Eq. 17 of [Yao et al.](super)) in the order of the folding, also where the
+    /// problem has no gravity, J.
     pub lifting: f64,
-    /// The lower bound on that work for all orders of the layout, at most `lifting`, J.
+    /// The lower bound on the work against standard gravity for all orders of the layout, at most `lifting`, J.
     pub lifting_bound: f64,
-    /// The faces whose hinges to their parents do not close (Eq. 1), as indices in [`Target::faces`], ascending; empty
-    /// if no hinge radius was given.
+    /// The faces whose hinges to their parents do not close (Eq. 1 of [Yao et al.](super)), as indices in
+    /// [`Target::faces`], ascending; empty if no hinge radius was given.
     pub too_thick: Vec<usize>,
     /// The mass of each face, in the order of [`Target::faces`], kg.
     pub masses: Vec<f64>,
     /// The conventions under which the folding was measured.
     pub conventions: Conventions,
-    /// The quantity that was minimised.
+    /// The quantity that was minimised: energy, peak torque, or steps.
     pub minimise: Minimise,
     /// The world that the plan assumes: weightless, or the root held on the ground.
     pub world: World,
@@ -74,7 +74,7 @@ impl Report {
     }
 
     /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under
-    /// the same conventions (Sec. 5.3.2 of the [paper](super)). The same `seed` gives the same orders; `progress` is
+    /// the same conventions (Sec. 5.3.2 of [Yao et al.](super)). The same `seed` gives the same orders; `progress` is
     /// told, but can't end it.
     pub fn random_orders(&self, orders: u64, seed: u64, progress: &mut dyn Progress) -> Sample {
         let objective = Objective::new(&self.target, self.masses.clone(), self.conventions, self.minimise);

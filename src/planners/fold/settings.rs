@@ -7,16 +7,16 @@ use super::simulation::Count;
 use super::target::Target;
 use crate::plan;
 
-/// A folding problem: the surface, the panels that it is folded of, and gravity.
+/// A folding problem: the surface, the panels that it is made of, and gravity.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    /// The surface that is folded, m.
+    /// The surface that is folded, a mesh in m.
     pub target: Target,
     /// The panels, one for each face of `target` in its order.
     pub panels: Panels,
     /// The face that keeps its pose, the root, as an index in [`Target::faces`]; `None` lets the planner choose.
     pub root: Option<usize>,
-    /// Gravity towards the ground on which the root lies with its outside down, m/s²; 0 without gravity and
+    /// The gravity towards the ground on which the root lies with its outside down, m/s²; 0 without gravity and
     /// ground.
     pub gravity: f64,
     /// The layout as pairs of faces (indices in [`Target::faces`]) that share a hinge, a spanning tree in any order;
@@ -40,22 +40,23 @@ pub enum Method {
     /// local search among many.
     #[default]
     Exact,
-    /// The layout that the paper's own measure prefers (Theorem 1), for targets of at most 64 faces. For energy
-    /// without gravity and panels of equal masses and sides only.
+    /// The layout that the measure of [Yao et al.](super) prefers (their Theorem 1), for targets of at most 64 faces.
+    /// For energy without gravity and panels of equal masses and sides only.
     Heuristic,
-    /// Every layout with every root, one after the other, for targets of at most 64 faces.
+    /// The enumeration of every layout with every root, for targets of at most 64 faces.
     Enumerate,
 }
 
 /// The order in which the hinges of a layout fold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sequence {
-    /// Leaves first (the paper's Alg. 2): as many steps as the tree is high.
+    /// Leaves first (Alg. 2 of [Yao et al.](super)): as many steps as the tree is high.
     #[default]
     LeavesFirst,
     /// The root's children first, then theirs; as many steps as the tree is high.
     RootFirst,
-    /// The order of least work against standard gravity, also where the problem has none (Eq. 15 to 17).
+    /// The order of least work against standard gravity, also where the problem has none (Eq. 15 to 17 of [Yao et
+    /// al.](super)).
     LeastWork,
     /// The order of least energy for the layout; without gravity, with moving joints counted, and for trees of at
     /// most 8 hinges on a path only.
@@ -65,12 +66,12 @@ pub enum Sequence {
 /// The model of the distribution of a panel's mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MassModel {
-    /// Uniform triangles without thickness.
+    /// Triangles of evenly spread mass without thickness.
     #[default]
     Lamina,
-    /// Uniform triangles with the panels' thickness.
+    /// Triangles of evenly spread mass with the panels' thickness.
     Prism,
-    /// All mass at the centroid, to which the paper's numbers amount.
+    /// All mass at the centroid, to which the numbers of [Yao et al.](super) amount.
     Point,
 }
 
@@ -79,25 +80,26 @@ pub enum MassModel {
 pub struct Settings {
     /// The method by which layouts are searched.
     pub method: Method,
-    /// The quantity to minimise.
+    /// The quantity to minimise: energy, peak torque, or steps.
     pub minimise: Minimise,
     /// The order of folding that is tried first.
     pub sequence: Sequence,
-    /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle.
+    /// The duration of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold
+    /// angle.
     pub step: Option<f64>,
     /// The model of the distribution of a panel's mass.
     pub inertia: MassModel,
-    /// The joints whose torques count.
+    /// The joints whose torques count: those that move, or all.
     pub count: Count,
-    /// The radius of the hinges, m, for the report of panels that are too thick (Eq. 1); `None` leaves that report
-    /// empty.
+    /// The radius of the hinges, m, for the report of panels that are too thick (Eq. 1 of [Yao et al.](super));
+    /// `None` leaves that report empty.
     pub hinge_radius: Option<f64>,
     /// The seed of choices among equal layouts and of random searches.
     pub seed: u64,
-    /// The greatest number of search steps: faces settled on paths, layouts measured, exchanges weighed.
-    /// 100 million take 5 to 8 s.
+    /// The greatest number of search steps: faces settled on paths, layouts measured, exchanges weighed. The search
+    /// of 100 million takes 5 to 8 s.
     pub budget: u64,
-    /// The options of the judge before which every plan goes.
+    /// The settings of the judge that every plan has to pass.
     pub judge: plan::Settings,
 }
 

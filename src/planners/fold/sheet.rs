@@ -8,10 +8,11 @@ use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as 
 use crate::robot::{Assembly, Bond, JointId, Kinematics, ModuleInstance, PortRef, State};
 use std::sync::Arc;
 
-/// A layout as an assembly of panels joined by hinges.
+/// A layout as an assembly of panels that are joined by hinges.
 #[derive(Clone, Debug)]
 pub struct Sheet {
-    /// The assembly: module k is the panel of face k; bond i joins face `layout.order[i + 1]` to its parent.
+    /// The assembly: module k is the panel of face k of the target; bond i joins face `layout.order[i + 1]` to its
+    /// parent.
     pub assembly: Assembly,
     /// For each bond of the assembly, in their order, the joint of its hinge.
     pub joints: Vec<JointId>,
@@ -19,12 +20,12 @@ pub struct Sheet {
     pub flat: State,
 }
 
-/// The reason why panels are no sheet: the connector of a bond has no hinge.
+/// The reason why panels are no sheet: the connector of a bond of the layout has no hinge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoHinge;
 
 impl Sheet {
-    /// Joins the panels of a target by the hinges of a layout.
+    /// Returns the panels of a target joined by the hinges of a layout.
     ///
     /// # Errors
     /// [`NoHinge`] if the connector of a bond of the layout has no hinge.

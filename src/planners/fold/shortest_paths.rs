@@ -82,7 +82,7 @@ pub struct ShortestPaths<'t> {
     distance: Vec<f64>,
     entered: Vec<Arc>,
     queue: BinaryHeap<QueueEntry>,
-    /// The greatest number of hinges on a path of [`route`](Self::route); no limit at first.
+    /// The greatest number of hinges on a path that [`route`](Self::route) returns; no limit at first.
     pub longest: usize,
 }
 
@@ -118,8 +118,8 @@ impl Eq for QueueEntry {}
 const UNREACHED: Arc = Arc::MAX;
 
 impl<'t> ShortestPaths<'t> {
-    /// Computes the costs of the shortest paths between all pairs of faces over all arcs by Dijkstra's algorithm; they
-    /// are the heuristic of A*.
+    /// Returns the search with the costs of the shortest paths between all pairs of faces over all arcs, computed by
+    /// Dijkstra's algorithm; they are the heuristic of A*.
     pub fn new(target: &'t Target, weights: &'t Weights) -> ShortestPaths<'t> {
         let n = target.faces.len();
         let mut routes = ShortestPaths {
@@ -140,7 +140,7 @@ impl<'t> ShortestPaths<'t> {
 
     /// Returns the lower bound on the energy of layouts with the root `root` (an index in [`Target::faces`]): the sum
     /// of the costs of the shortest paths to all faces over all arcs, of any number of hinges; N·m for steps of one
-    /// second.
+    /// second. Panics if there is no such face.
     pub fn bound(&self, root: usize) -> f64 {
         self.toward.iter().map(|toward| toward[root]).sum()
     }
@@ -167,10 +167,11 @@ impl<'t> ShortestPaths<'t> {
         }
     }
 
-    /// Returns the cheapest path from the root to `goal` (both indices in [`Target::faces`]) over allowed arcs with at
-    /// most `longest` hinges, with its cost (N·m for steps of one second); `None` if there is none. The path is the
-    /// list of its arcs from the goal back to the root. The method is A*, whose heuristic is the cost over all arcs,
-    /// or the Bellman-Ford algorithm where `longest` is less than the number of faces.
+    /// Returns the cheapest path from the root to `goal` (both indices in [`Target::faces`]) over allowed arcs with
+    /// at most `longest` hinges, with its cost (N·m for steps of one second); `None` if there is none. The path is
+    /// the list of its arcs from the goal back to the root. The method is A*, whose heuristic is the cost over all
+    /// arcs, or the Bellman-Ford algorithm where `longest` is less than the number of faces. Panics if there is no
+    /// such face.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);

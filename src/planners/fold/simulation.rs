@@ -11,13 +11,14 @@ use crate::geometry::Vec3;
 /// The time of steps and the gravity of a simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Circumstances {
-    /// The time of a step, s.
+    /// The duration of a step, s.
     pub step: f64,
-    /// Gravity, m/s², along the root's outward normal: the root lies on the ground with its outside down. 0 for none.
+    /// The gravity, m/s², along the root's outward normal: the root lies on the ground with its outside down. 0 for
+    /// none.
     pub gravity: f64,
 }
 
-/// The torques of all hinges in a folding, as [`simulate`] computes them.
+/// The torques of all hinges in a folding, step by step, as [`simulate`] computes them.
 #[derive(Clone, Debug)]
 pub struct Torques {
     /// The mean and the peak of the absolute torque of each hinge, N·m: an entry for each step, in their order, with
@@ -28,7 +29,7 @@ pub struct Torques {
 /// The joints whose torques count in energy and peak torque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Count {
-    /// The joints that move in a step; the others, which are locked, do not count.
+    /// The joints that move in a step; those that are locked do not count.
     #[default]
     Moving,
     /// All joints, also those that are locked in a step.
@@ -39,7 +40,7 @@ pub enum Count {
 /// sign.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Simulates a folding in steps by inverse dynamics (Alg. 1 of the [paper](super)): in each step the hinges of its
+/// Simulates a folding in steps by inverse dynamics (Alg. 1 of [Yao et al.](super)): in each step the hinges of its
 /// faces go from level to folded by the quintic law, and all others are locked. `bodies`: one for each face, in the
 /// order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold.
 pub fn simulate(
@@ -104,8 +105,8 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Returns the energy (Eq. 5 of the [paper](super)), N·m: the sum over all steps of the mean torques of the joints
-    /// that count. `steps`: those that were simulated.
+    /// Returns the energy (Eq. 5 of [Yao et al.](super)), N·m: the sum over all steps of the mean torques of the
+    /// joints that count. `steps`: those that were simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }

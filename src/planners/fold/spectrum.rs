@@ -11,13 +11,13 @@ const DIFFERENT_MAX: usize = 4_000_000;
 pub struct Spectrum {
     unit: f64,
     counts: BTreeMap<u64, u64>,
-    /// The number of energies that were not counted, because they would have needed more than four million bins.
+    /// The number of energies that were not counted because they would have needed more than four million bins.
     pub uncounted: u64,
 }
 
 impl Spectrum {
-    /// Makes an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted, in
-    /// their unit; a bin is `TOLERANCES.energy_grain` of it wide.
+    /// Returns an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted,
+    /// in their unit; a bin is `TOLERANCES.energy_grain` of it wide.
     pub fn new(unit: f64) -> Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }

@@ -2,9 +2,9 @@
 
 use super::layout::Layout;
 
-/// Returns the leaves-first order (Alg. 2 of the [paper](super)): the hinges of the leaves fold first, then those of
-/// the faces that are leaves without them. The result has one list of faces (indices in the target) for each step, each
-/// ascending; there are as many steps as the tree is high.
+/// Returns the leaves-first order (Alg. 2 of [Yao et al.](super)): the hinges of the leaves fold first, then those of
+/// the faces that are leaves without them. The result has one list of faces (indices in the target) for each step,
+/// each ascending; there are as many steps as the tree is high.
 pub fn leaves_first(layout: &Layout) -> Vec<Vec<usize>> {
     let heights = layout.heights();
     layered(layout, |face| heights[face])
@@ -35,8 +35,8 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
 /// and is above or below it in the tree: one step after the last of these. `order`: indices of faces in the target,
 /// each at most once, without the root. The result has one list of faces for each step, each ascending.
 ///
-/// This is the purpose of Alg. 3 of the [paper](super), which as printed puts all faces into one step, loses the last,
-/// and may let a face overtake another on its path.
+/// This is the purpose of Alg. 3 of [Yao et al.](super), which as printed puts all faces into one step, loses the
+/// last, and may let a face overtake another on its path.
 pub fn of_order(layout: &Layout, order: &[usize]) -> Vec<Vec<usize>> {
     let mut step = vec![0; layout.parent.len()];
     let mut steps: Vec<Vec<usize>> = Vec::new();

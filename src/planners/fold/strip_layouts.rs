@@ -69,19 +69,20 @@ const IMPROVED_MAX: usize = 3;
 /// The remaining budget divided by this is that of each improvement of such a layout, and is kept for them.
 const IMPROVEMENT_SHARE: usize = 4;
 
-/// A search for layouts that lie flat and fold with the leaves first without collision.
+/// A search for layouts made of strips of faces, which lie flat and fold with the leaves first without collision.
 pub struct StripSearch<'t> {
-    /// The surface that is folded.
+    /// The surface that is folded, with its faces and hinges.
     pub target: &'t Target,
-    /// The costs of its hinges for the faces that they carry; the energy of a layout is a sum of them.
+    /// The costs of the target's hinges for the faces that they carry, N·m for steps of one second; the energy of a
+    /// layout is a sum of them.
     pub weights: &'t Weights,
-    /// The panels with their thickness.
+    /// The panels as solids with their thickness.
     pub solids: &'t Solids,
     /// The faces that may be the root, indices in [`Target::faces`]; at least one.
     pub roots: &'t [usize],
     /// Layouts of little energy as further starts, the best first; two of them are used.
     pub cheap: &'t [Layout],
-    /// The seed of random exchanges.
+    /// The seed of the random exchanges of hinges.
     pub seed: u64,
     /// The number of states of pairs of panels that may still be sampled; one of panels with thickness counts as four.
     /// It goes down as [`StripSearch::layouts`] works.

@@ -48,7 +48,7 @@ pub fn first_collision(
 /// triangle, with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
-    /// The convex parts of each face's panel.
+    /// The convex parts of each face's panel, in the order of the target's faces, in the panel frame.
     pub parts: Vec<Vec<Part>>,
     /// The depth to which two panels may enter each other without a collision, m.
     pub touch: f64,
@@ -101,8 +101,8 @@ enum Form {
 }
 
 impl<'t> SweepCheck<'t> {
-    /// Sets up the check for panels without thickness: triangles shrunk towards their centroids by the
-    /// fraction `shrunk`, so that neighbours do not collide.
+    /// Returns the check for panels without thickness: triangles shrunk towards their centroids by the fraction
+    /// `shrunk` (0 to 1), so that neighbours do not collide.
     pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);
@@ -116,8 +116,8 @@ impl<'t> SweepCheck<'t> {
         SweepCheck { target, layout, form: Form::Triangles(small), reach }
     }
 
-    /// Sets up the check for panels with thickness; panels that a hinge of the layout joins are built to touch, and are
-    /// not checked against each other.
+    /// Returns the check for panels with thickness; panels that a hinge of the layout joins are built to touch, and
+    /// are not checked against each other.
     pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> SweepCheck<'t> {
         let parts = placed(target, solids);
         let reach = reach(target, &parts);

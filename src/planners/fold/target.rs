@@ -26,15 +26,15 @@ pub struct Target {
     pub sides: Vec<[Option<usize>; 3]>,
 }
 
-/// A common edge of two faces, at which they can fold.
+/// A hinge of the target: a common edge of two faces, at which they can fold.
 #[derive(Clone, Copy, Debug)]
 pub struct Hinge {
     /// The indices of the two faces in [`Target::faces`].
     pub faces: [usize; 2],
     /// The side (0 to 2) of each of the two faces at which the hinge lies.
     pub sides: [usize; 2],
-    /// Signed fold angle, rad: 0 where the faces are level, positive where the edge is convex. It is
-    /// π less the interior dihedral angle.
+    /// The signed fold angle, rad: 0 where the faces are level, positive where the edge is convex. It is π less the
+    /// interior dihedral angle.
     pub angle: f64,
     /// A point of the edge in the frame of the target, m.
     pub point: Vec3,
@@ -45,8 +45,8 @@ pub struct Hinge {
 }
 
 impl Hinge {
-    /// Returns the face across the hinge from `face`, which must be one of its two faces; of any other index, the
-    /// first.
+    /// Returns the face (an index in [`Target::faces`]) across the hinge from `face`, which must be one of its two
+    /// faces; of any other index, the first.
     #[inline]
     pub fn other(&self, face: usize) -> usize {
         if self.faces[0] == face { self.faces[1] } else { self.faces[0] }
@@ -66,12 +66,12 @@ impl Hinge {
 }
 
 impl Target {
-    /// Checks a mesh and finds its hinges. `vertices`: in m; `faces`: the corners of each face as indices in
-    /// `vertices`, counterclockwise seen from outside.
+    /// Returns the target that a mesh makes, checked and with its hinges. `vertices`: in m; `faces`: the corners of
+    /// each face as indices in `vertices`, counterclockwise seen from outside.
     ///
     /// # Errors
-    /// The first reason found why the mesh is no target; [`Unfoldable::Undriven`] and [`Unfoldable::UnequalSides`] are
-    /// not among them.
+    /// The first reason found why the mesh is no target; [`Unfoldable::Undriven`] and [`Unfoldable::UnequalSides`]
+    /// are not among them.
     pub fn new(vertices: Vec<Vec3>, faces: &[Vec<usize>]) -> Result<Target, Unfoldable> {
         if faces.is_empty() {
             return Err(Unfoldable::Empty);
@@ -117,7 +117,8 @@ impl Target {
         }
     }
 
-    /// Returns the lengths of a face's sides, m; entry k is that of side k, from corner k to the next.
+    /// Returns the lengths of the sides of a face (an index in [`Target::faces`]), m; entry k is that of side k, from
+    /// corner k to the next. Panics if there is no such face.
     pub fn side_lengths(&self, face: usize) -> [f64; 3] {
         let corners = self.corners(face);
         [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
@@ -138,25 +139,28 @@ impl Target {
         Ok(self)
     }
 
-    /// Returns the corners of a face in the frame of the target, m, counterclockwise seen from outside.
+    /// Returns the corners of a face (an index in [`Target::faces`]) in the frame of the target, m, counterclockwise
+    /// seen from outside. Panics if there is no such face.
     pub fn corners(&self, face: usize) -> [Vec3; 3] {
         self.faces[face].map(|v| self.vertices[v])
     }
 
-    /// Returns the centroid of a face in the frame of the target, m.
+    /// Returns the centroid of a face (an index in [`Target::faces`]) in the frame of the target, m. Panics if there
+    /// is no such face.
     pub fn centroid(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (a + b + c) / 3.0
     }
 
-    /// Returns the outward unit normal of a face in the frame of the target.
+    /// Returns the outward unit normal of a face (an index in [`Target::faces`]) in the frame of the target. Panics
+    /// if there is no such face.
     pub fn normal(&self, face: usize) -> Vec3 {
         let [a, b, c] = self.corners(face);
         (b - a).cross(&(c - a)).normalize()
     }
 
     /// Returns the hinges of a face in order of its sides, each as its index in [`Target::hinges`] with the index of
-    /// the face across it; sides without a hinge are left out.
+    /// the face across it; sides without a hinge are left out. Panics if there is no such face.
     #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))

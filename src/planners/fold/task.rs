@@ -29,25 +29,25 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 pub(super) struct Task<'p> {
     /// The problem that the call states.
     pub problem: &'p Problem,
-    /// The settings of the planner.
+    /// The settings of the fold planner.
     pub settings: &'p Settings,
     /// The observer, which gets the reports of the search and may end it.
     pub observer: &'p Observer<'p>,
-    /// The surface that is folded.
+    /// The surface that is folded, with its faces and hinges.
     pub target: &'p Target,
-    /// The panels of its faces.
+    /// The panels of the target's faces.
     pub panels: &'p Panels,
-    /// The conventions of torques and energy.
+    /// The conventions under which torques and energy are computed.
     pub conventions: Conventions,
     /// The faces that may be the root, indices in [`Target::faces`], ascending.
     pub roots: Vec<usize>,
-    /// The quantity that is minimised.
+    /// The objective with the quantity that is minimised.
     pub objective: Objective<'p>,
 }
 
 /// A layout with an order that the judge lets through.
 pub(super) struct Outcome {
-    /// The plan and its verdict.
+    /// The plan with its verdict.
     pub solution: Solution<Judged>,
     /// The layout that folds.
     pub layout: Layout,

@@ -3,65 +3,65 @@
 use crate::plan::listed;
 use std::fmt;
 
-/// The reason why a mesh is no target. Faces are indices in the mesh, from 0.
+/// The reason why a mesh is no target of a folding. Faces are indices in the mesh, from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfoldable {
-    /// The mesh has no faces.
+    /// The mesh has no faces at all.
     Empty,
-    /// The mesh has more faces than can be planned.
+    /// The mesh has more faces than can be planned for.
     TooLarge {
-        /// The number of faces.
+        /// The number of faces of the mesh.
         faces: usize,
-        /// The greatest number of faces.
+        /// The greatest number of faces that is allowed.
         limit: usize,
     },
     /// A face has another number of corners than three.
     NotTriangle {
-        /// The index of the face.
+        /// The index of the face in the mesh, from 0.
         face: usize,
-        /// The number of its corners.
+        /// The number of corners of the face.
         corners: usize,
     },
     /// A face has no area, a coordinate that is not a number, or a corner that is no vertex, or names a vertex twice.
     Degenerate {
-        /// The index of the face.
+        /// The index of the face in the mesh, from 0.
         face: usize,
     },
     /// A coordinate of a face's corner is farther from 0 than [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX).
     TooFar {
-        /// The index of the face.
+        /// The index of the face in the mesh, from 0.
         face: usize,
     },
     /// More than two faces meet at one edge.
     NonManifold {
-        /// The indices of all faces at the edge.
+        /// The indices in the mesh of all faces at the edge.
         faces: Vec<usize>,
     },
     /// Two faces run along their common edge in the same direction, so that one of them is turned over.
     Orientation {
-        /// The indices of the two faces.
+        /// The indices of the two faces in the mesh.
         faces: [usize; 2],
     },
     /// Two faces with a common edge lie on each other, back to back: their fold angle is half a turn.
     FoldedFlat {
-        /// The indices of the two faces.
+        /// The indices of the two faces in the mesh.
         faces: [usize; 2],
     },
     /// No chain of hinges joins all faces.
     Disconnected {
-        /// The indices of two faces of different pieces.
+        /// The indices in the mesh of two faces that no chain joins.
         faces: [usize; 2],
     },
     /// No chain of hinges joins all faces if each hinge needs a face with motors.
     Undriven {
-        /// The indices of two faces of different pieces.
+        /// The indices in the mesh of two faces that no chain joins.
         faces: [usize; 2],
     },
     /// The length of a face's side is not that of the panels.
     UnequalSides {
-        /// The index of the face.
+        /// The index of the face in the mesh, from 0.
         face: usize,
-        /// The length of its side, m.
+        /// The length of the face's side, m.
         side: f64,
         /// The length of the panels' sides, m.
         wanted: f64,
@@ -69,7 +69,7 @@ pub enum Unfoldable {
 }
 
 impl Unfoldable {
-    /// Returns a hint to mend the mesh, in words for a message.
+    /// Returns a hint to mend the mesh, as words for a message.
     pub fn remedy(&self) -> &'static str {
         match self {
             Unfoldable::Empty => "a target has at least one triangle",

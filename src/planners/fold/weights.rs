@@ -24,7 +24,8 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Computes the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg.
+    /// Returns the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg. Panics if
+    /// there are too few.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());
@@ -38,7 +39,7 @@ impl Weights {
         Weights { faces, table }
     }
 
-    /// Computes the weights of a target whose panels have one mass each (kg), spread evenly without thickness.
+    /// Returns the weights of a target whose panels have one mass each (kg), spread evenly without thickness.
     pub fn uniform(target: &Target, mass: f64) -> Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }

@@ -13,7 +13,7 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::Pose;
 
-/// The greatest number of hinges of a branch of the root whose subsets are all visited.
+/// The greatest number of hinges of a branch of the root for which [`least_work`] visits all subsets.
 pub const BRANCH_MAX: usize = 18;
 
 /// An order of folding, one hinge after the other, with its work against gravity.
@@ -21,7 +21,7 @@ pub const BRANCH_MAX: usize = 18;
 pub struct WorkOrder {
     /// All faces but the root, as indices in [`Target::faces`], in the order in which their hinges fold.
     pub order: Vec<usize>,
-    /// The work of the order (Eq. 17), J.
+    /// The work of the order (Eq. 17 of [Yao et al.](super)), J.
     pub work: f64,
     /// The lower bound on the work of all orders of the layout, J.
     pub bound: f64,
@@ -30,9 +30,9 @@ pub struct WorkOrder {
     pub optimal: bool,
 }
 
-/// Returns the order of least work of a layout whose root lies on the ground with its outside down, branch by branch of
-/// the root; `weights`: by face, N. Of a branch too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves
-/// first and root first.
+/// Returns the order of least work against gravity of a layout whose root lies on the ground with its outside down,
+/// by dynamic programming over subsets of hinges, branch by branch of the root; `weights`: by face, N. Of a branch
+/// too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and root first.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
     let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
@@ -62,7 +62,7 @@ pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     branches.into_iter().map(of_branch).sum()
 }
 
-/// Returns the work of Eq. 17 of the [paper](super) for an order of all faces but the root (indices in
+/// Returns the work of Eq. 17 of [Yao et al.](super) for an order of all faces but the root (indices in
 /// [`Target::faces`]), J, computed step by step from the poses of all faces; `weights`: by face, N.
 pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
     let mut folded = vec![false; target.faces.len()];

@@ -47,7 +47,7 @@ use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::plan::Body;
 use std::fmt;
 
-/// A truss and the path that it has to follow.
+/// A problem of locomotion: a truss, and the path that its centre of mass has to follow.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The truss, in the world's frame; it is put down on the ground and falls to where it rests.
@@ -63,7 +63,7 @@ pub struct Report {
     pub end: End,
     /// The reason why the motion ends in words, for a message.
     pub ended: String,
-    /// The number of points of the path that were reached, of which it went to one after another.
+    /// The number of points of the path that the centre of mass reached, one after another.
     pub reached: usize,
     /// The length of the path of the centre of mass over the ground, m.
     pub distance: f64,
@@ -82,9 +82,9 @@ pub struct Report {
 /// The reason why [`plan`] gives no motion at all.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The truss can't be planned for.
+    /// The truss can't be planned for, for the reason given.
     Truss(InvalidTruss),
-    /// The path has no point.
+    /// The path that the problem gives has no point.
     EmptyPath,
     /// A coordinate of a point of the path is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar,

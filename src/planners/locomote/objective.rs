@@ -10,26 +10,27 @@ const DAMPING: f64 = 1.0;
 /// The damping of `FEWEST`, 1/m: just enough that there is one best step.
 const DAMPING_FEWEST: f64 = 1e-3;
 
-/// The objective of locomotion. `damping` is the weight of the squared displacements of the nodes, relative to that
-/// of the changes of length, not negative: without it, motion that hardly changes lengths costs nothing, and the robot
-/// collapses to the ground.
+/// The objective of locomotion, which each step minimises (Eq. 14 and 17 of [Usevitch et
+/// al.](crate::planners::truss)). `damping` is the weight of the squared displacements of the nodes, relative to that
+/// of the changes of length, not negative: without it, motion that hardly changes lengths costs nothing, and the
+/// robot collapses to the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Objective {
-    /// Equation (17): every node moves where its struts, as springs whose rest length is the mean length at the start,
-    /// pull it.
+    /// Eq. 17 of [Usevitch et al.](crate::planners::truss): every node moves where its struts, as springs whose rest
+    /// length is the mean length at the start, pull it.
     Springs,
-    /// Equation (14): the squared rates of length are least.
+    /// Eq. 14 of [Usevitch et al.](crate::planners::truss): the squared rates of length are least.
     Lengths {
         /// The weight of the squared displacements, without unit.
         damping: f64,
     },
-    /// Equation (14) about rates that bring the struts back to their mean length at the start.
+    /// Eq. 14 of [Usevitch et al.](crate::planners::truss) about rates that bring the struts back to their mean
+    /// length at the start.
     Restoring {
         /// The weight of the squared displacements, without unit.
         damping: f64,
     },
-    /// The sum of the absolute rates of length is least, so that few struts move (a linear program but for
-    /// the damping).
+    /// The least sum of the absolute rates of length, so that few struts move (a linear program but for the damping).
     Fewest {
         /// The weight of the squared displacements, 1/m.
         damping: f64,
@@ -37,16 +38,17 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// [`Objective::Lengths`] with the default damping, 1, without unit.
+    /// The objective [`Objective::Lengths`] with the default damping, 1, without unit.
     pub const LENGTHS: Objective = Objective::Lengths { damping: DAMPING };
-    /// [`Objective::Restoring`] with the default damping, 1, without unit.
+    /// The objective [`Objective::Restoring`] with the default damping, 1, without unit.
     pub const RESTORING: Objective = Objective::Restoring { damping: DAMPING };
-    /// [`Objective::Fewest`] with the default damping, 1e-3 per metre.
+    /// The objective [`Objective::Fewest`] with the default damping, 1e-3 per metre.
     pub const FEWEST: Objective = Objective::Fewest { damping: DAMPING_FEWEST };
 }
 
-/// Returns the cost of the displacements of the nodes at `x`, m, in one step. `pace`: the displacement in the step,
-/// m, for a speed of 1 m/s, by which the velocities of `Springs` and the rates of `Restoring` are scaled.
+/// Returns the quadratic cost of the displacements of the nodes at `x` (m, in the world's frame, by index) in one
+/// step. `pace`: the displacement in the step, m, for a speed of 1 m/s, by which the velocities of `Springs` and the
+/// rates of `Restoring` are scaled.
 pub fn cost(objective: Objective, truss: &Structure, x: &[Vec3], pace: f64) -> QuadraticCost {
     match objective {
         Objective::Springs => springs(truss, x, pace),

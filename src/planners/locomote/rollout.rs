@@ -28,51 +28,54 @@ pub enum Hold {
     /// slide or lift off.
     #[default]
     Three,
-    /// All nodes on the ground.
+    /// All nodes on the ground keep their positions.
     All,
 }
 
 /// The settings of `locomote`. Lengths in "units" are multiples of the mean strut length at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The distance of the centre of mass, units, below which a point of the path is reached. 0.25: a path
+    /// The distance of the centre of mass, units, below which a point of the path is reached. Default 0.25: a path
     /// need not be met exactly, and a robot moves in jumps as it rolls over an edge.
     pub arrival_distance: f64,
-    /// The distance that the centre of mass moves in one step, units. 0.05: the paper's step.
+    /// The distance that the centre of mass moves in one step, units. Default 0.05: the step of [Usevitch et
+    /// al.](crate::planners::truss).
     pub stride: f64,
-    /// The cost that each step minimises. Springs, (17): the most robust.
+    /// The cost that each step minimises. Default [`Objective::Springs`], Eq. 17 of [Usevitch et
+    /// al.](crate::planners::truss): the most robust.
     pub objective: Objective,
     /// The contacts that keep their positions during a step. Default [`Hold::Three`].
     pub hold: Hold,
-    /// True if the truss may fall over an edge onto other nodes; false if it places a node beyond the edge
-    /// first, where it can, as variable topology trusses roll without impact. True, as in the paper.
+    /// True if the truss may fall over an edge onto other nodes; false if it places a node beyond the edge first,
+    /// where it can, as variable topology trusses roll without impact. Default true, as in [Usevitch et
+    /// al.](crate::planners::truss).
     pub impact: bool,
-    /// The number of steps for which each policy is tried before the best is taken; 0 for no lookahead. 0: lookahead
-    /// takes five times the work.
+    /// The number of steps for which each policy is tried before the best is taken; 0 for no lookahead. Default 0:
+    /// lookahead takes five times the work.
     pub lookahead: usize,
-    /// True if relaxed steps are tried where no step is found. True.
+    /// True if relaxed steps are tried where no step is found. Default true.
     pub fallbacks: bool,
-    /// The greatest number of steps. 100 000: a distance of five thousand units.
+    /// The greatest number of steps. Default 100 000: a distance of five thousand units.
     pub steps_max: usize,
     /// The settings of placing nodes without impact.
     pub foothold: Foothold,
-    /// The time law of the plan.
+    /// The time law by which the moves of the plan are timed.
     pub time_law: TimeLaw,
-    /// The tolerances of the truss kernel.
+    /// The tolerances of the steps of trusses.
     pub tolerances: Tolerances,
 }
 
 /// The settings of placing a node on the ground beyond an edge of the support polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foothold {
-    /// The distance of the centre of mass to an edge, units, below which a node is placed beyond it before
-    /// the next step. 0.1: two steps.
+    /// The distance of the centre of mass to an edge, units, below which a node is placed beyond it before the next
+    /// step. Default 0.1: two steps.
     pub trigger: f64,
-    /// The least distance of the placed node beyond the edge, units. 0.2.
+    /// The least distance of the placed node beyond the edge, units. Default 0.2.
     pub beyond: f64,
-    /// The weight of the placed node's distance to the ground in the cost of a step, without unit. 100.
+    /// The weight of the placed node's distance to the ground in the cost of a step, without unit. Default 100.
     pub weight: f64,
-    /// The number of steps after which another node is tried. 60: a distance of three units.
+    /// The number of steps after which another node is tried. Default 60: a distance of three units.
     pub steps_max: usize,
 }
 
@@ -106,9 +109,9 @@ pub enum End {
     Falls,
     /// The truss would topple over an edge, and violate this constraint while it rolls.
     Blocked(Constraint),
-    /// The greatest number of steps was made before the path ended.
+    /// The greatest number of steps was made before the end of the path was reached.
     Steps,
-    /// The observer ended the search.
+    /// The observer of the search ended it.
     Cancelled,
 }
 
@@ -119,13 +122,13 @@ pub struct Travel {
     pub moves: Vec<Move>,
     /// The reason why there are no more moves.
     pub end: End,
-    /// The number of points of the path that were reached.
+    /// The number of points of the path that the centre of mass reached.
     pub reached: usize,
     /// The number of steps made, those included that were taken back because a roll after them was blocked.
     pub steps: usize,
     /// The number of rolls made, those included that were taken back.
     pub rolls: usize,
-    /// The number of steps among them that were relaxed.
+    /// The number of steps that were relaxed, among those made.
     pub relaxed_steps: usize,
     /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,
@@ -161,9 +164,9 @@ const RELAXATIONS: [Relaxation; 8] = [
 ];
 
 /// Returns the motion of a truss whose centre of mass follows a path of points (x, y), m, after sections IV.A to IV.C
-/// of the [paper](crate::planners::truss); the first point may be where it is, and an empty path is at its end.
-/// `start`: the positions of the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it, the
-/// result is the motion found so far, and [`Travel::end`] gives the reason.
+/// of [Usevitch et al.](crate::planners::truss); the first point may be where it is, and an empty path is at its end.
+/// `start`: the positions of the nodes, m, resting on the ground. If the search gets stuck, or `progress` ends it,
+/// the result is the motion found so far, and [`Travel::end`] gives the reason.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own. The points of
 /// the path must be finite, which `plan` checks and this does not.
@@ -236,30 +239,30 @@ impl Travel {
 /// The choices that lookahead varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepPolicy {
-    /// The objective of the steps.
+    /// The objective that the steps minimise.
     pub objective: Objective,
-    /// True if the truss may fall over an edge.
+    /// True if the truss may fall over an edge onto other nodes.
     pub impact: bool,
 }
 
 /// A truss that moves along the path; lengths in m.
 #[derive(Clone)]
 pub(super) struct Rollout<'a> {
-    /// The truss with its limits.
+    /// The truss with its limits and surroundings.
     pub truss: &'a Structure,
-    /// The points (x, y) that the centre of mass has to reach, m.
+    /// The points (x, y) in the world's frame that the centre of mass has to reach, m.
     pub path: &'a [[f64; 2]],
-    /// The settings of the planner.
+    /// The settings with which the planner was called.
     pub settings: &'a Settings,
     /// The distance of the centre of mass in one step, m.
     pub stride: f64,
     /// The policy of the present steps.
     pub policy: StepPolicy,
-    /// The positions of the nodes, m.
+    /// The positions of the nodes in the world's frame, by index, m.
     pub x: Vec<Vec3>,
     warm_start: WarmStart,
     relaxed_in_a_row: usize,
-    /// True if it continues with relaxed steps as long as it can.
+    /// True if the search continues with relaxed steps as long as it can.
     pub allow_fallbacks: bool,
     /// True if a constraint blocks the next roll, so that a node has to be placed first.
     place_node_first: bool,
@@ -267,7 +270,7 @@ pub(super) struct Rollout<'a> {
     placing: Option<(usize, usize)>,
     /// Nodes that could not be placed from where the truss stands.
     out_of_reach: Vec<usize>,
-    /// The motion so far.
+    /// The motion found so far.
     pub travel: Travel,
 }
 

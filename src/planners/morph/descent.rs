@@ -20,36 +20,36 @@ const ATTEMPTS: usize = 4;
 /// The settings of `morph`. Lengths in "units" are multiples of the mean strut length at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The greatest number of steps. 300: fits improve little beyond.
+    /// The greatest number of steps. Default 300: fits improve little beyond.
     pub steps_max: usize,
-    /// The root mean square distance, of the target from the surface and of the surface from the target, m, up to which
-    /// both have to come for the descent to be done. 20 mm.
+    /// The root mean square distance, of the target from the surface and of the surface from the target, m, up to
+    /// which both have to come for the descent to be done. Default 20 mm.
     pub tolerance: f64,
-    /// The number of random orientations of the target that are screened besides its own. 0: the orientation is the
-    /// user's.
+    /// The number of random orientations of the target that are screened besides its own. Default 0: the orientation
+    /// is the user's.
     pub orientations: usize,
-    /// The number of steps for which an orientation is screened. 60: the order of fits rarely changes later.
+    /// The number of steps for which an orientation is screened. Default 60: the order of fits rarely changes later.
     pub screening_steps: usize,
     /// The seed of the random orientations.
     pub seed: u64,
-    /// The spacing of sample points on a target mesh, units. 0.125: the root mean square changes by
-    /// 1.5 percent from 0.25 to 0.0625.
+    /// The spacing of sample points on a target mesh, units. Default 0.125: the root mean square changes by 1.5
+    /// percent from 0.25 to 0.0625.
     pub sample_spacing: f64,
-    /// The greatest displacement of a node in a step, units. 0.05: longer steps gain nothing.
+    /// The greatest displacement of a node in a step, units. Default 0.05: longer steps gain nothing.
     pub displacement_max: f64,
     /// The weight of the mean squared strut length, relative to that of the mean squared distances, without unit: at
-    /// the start, and from four fifths of the steps on; it falls geometrically in between. 3e-2 to 1e-6; both
+    /// the start, and from four fifths of the steps on; it falls geometrically in between. Default 3e-2 to 1e-6; both
     /// positive.
     pub springs: (f64, f64),
     /// The weight of the mean squared displacement, relative to that of the mean squared distances, without unit
-    /// (Levenberg's damping). 1e-3.
+    /// (damping after Levenberg 1944). Default 1e-3.
     pub damping: f64,
-    /// The fraction of a squared distance that counts only across the surface (point to plane), so that
-    /// points may slide along it. 0.9.
+    /// The fraction, 0 to 1, of a squared distance that counts only across the surface (point to plane), so that
+    /// points may slide along it. Default 0.9.
     pub point_to_plane: f64,
-    /// The time law of the plan.
+    /// The time law by which the steps of the plan are timed.
     pub time_law: TimeLaw,
-    /// The tolerances of the truss kernel.
+    /// The tolerances of the steps of trusses.
     pub tolerances: Tolerances,
 }
 
@@ -77,11 +77,11 @@ impl Default for Settings {
 pub enum End {
     /// The target is reached: both distances are within the tolerance.
     Done,
-    /// The steps allowed were made, and the target is not reached.
+    /// The steps that the settings allow were made, and the target is not reached.
     Steps,
     /// No step was found, not even a shortened one; the error is that of the longest.
     Stuck(StepError),
-    /// The observer ended the search.
+    /// The observer of the search ended it.
     Cancelled,
 }
 
@@ -91,11 +91,11 @@ pub struct Descent {
     /// The positions of all nodes after every step, m: one list for each step, in order, each by node, up to the step
     /// that fits best by [`Distance::both`]; empty if none fits better than the start.
     pub steps: Vec<Vec<Vec3>>,
-    /// The distances at the start, with the target in its final orientation.
+    /// The distances between surface and target at the start, with the target in its final orientation.
     pub start: Distance,
-    /// The distances after the last of `steps`.
+    /// The distances between surface and target after the last of `steps`.
     pub distance: Distance,
-    /// The reason why the search ended, which may be some steps after the last of `steps`.
+    /// The reason why the search ended, which it may have done some steps after the last of `steps`.
     pub end: End,
 }
 

@@ -53,30 +53,30 @@ use std::fmt;
 /// The least number of points of a cloud that is a target.
 const POINTS_MIN: usize = 4;
 
-/// A truss and the shape that it has to take on.
+/// A problem of shape morphing: a truss, and the shape that it has to take on.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The truss, in the world's frame.
     pub truss: TrussProblem,
-    /// The shape, m; it is moved so that its centroid is the mean of the nodes at the start.
+    /// The shape, m, in the world's frame; it is moved so that its centroid is the mean of the nodes at the start.
     pub target: TargetShape,
 }
 
 /// A shape that a truss has to take on, given as a surface or as points.
 #[derive(Clone, Debug)]
 pub enum TargetShape {
-    /// Triangles of a surface, m.
+    /// A surface, given by the corners of its triangles, m.
     Mesh(Vec<[Vec3; 3]>),
-    /// Points on a surface, m, of equal weight.
+    /// A cloud of points on a surface, m, of equal weight.
     Cloud(Vec<Vec3>),
 }
 
-/// The figures of a morph: the fit at its start and end.
+/// The figures of a morph: the fit at its start and at its end, and why it ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The distances between the outer surface and the target at the end.
     pub distance: Distance,
-    /// The distances at the start, with the target in its final orientation.
+    /// The distances between the outer surface and the target at the start, with the target in its final orientation.
     pub start: Distance,
     /// The reason why the motion ends; unless it is [`End::Done`], short of the tolerance.
     pub end: End,
@@ -87,21 +87,21 @@ pub struct Report {
 /// The reason why [`plan`] gives no motion at all.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The truss can't be planned for.
+    /// The truss can't be planned for, for the reason given.
     Truss(InvalidTruss),
     /// A coordinate of a corner or point of the target is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar,
     /// The triangles of the target have no area.
     NoArea,
-    /// The cloud has fewer than four points.
+    /// The cloud of points has fewer than four.
     FewPoints {
-        /// The number of points.
+        /// The number of points of the cloud.
         points: usize,
     },
     /// The truss has no outer surface of triangles of struts.
     NoSurface {
-        /// The edges of its hull that do not lie between two triangles, as pairs of indices of nodes, the lesser
-        /// first.
+        /// The edges of the truss's convex hull that do not lie between two triangles of struts, as pairs of indices
+        /// of nodes, the lesser first.
         edges: Vec<(usize, usize)>,
     },
 }

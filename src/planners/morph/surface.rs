@@ -100,13 +100,13 @@ fn open_edges(triangles: &[[usize; 3]]) -> Vec<(usize, usize)> {
 /// The point of a surface that is closest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub struct ClosestPoint {
-    /// The index in [`Surface::triangles`] of the triangle that it lies on.
+    /// The index in [`Surface::triangles`] of the triangle that the point lies on.
     pub triangle: usize,
-    /// Its barycentric coordinates over the triangle's corners in their order, which sum to 1.
+    /// The barycentric coordinates of the point over the triangle's corners in their order, which sum to 1.
     pub weights: [f64; 3],
-    /// Its position, m.
+    /// The position of the point, m, in the frame of the surface.
     pub at: Vec3,
-    /// Its distance from the point that was asked for, m.
+    /// The distance of the point from the one that was asked for, m.
     pub distance: f64,
 }
 
@@ -130,7 +130,8 @@ struct Ball {
 }
 
 impl Surface {
-    /// Builds the tree over triangles, given by their corners, m, in any orientation; there may be none.
+    /// Returns the surface with a bounding sphere tree over its triangles, given by their corners, m, in any
+    /// orientation; there may be none.
     pub fn new(corners: Vec<[Vec3; 3]>) -> Surface {
         let mut order: Vec<usize> = (0..corners.len()).collect();
         let plane = |[a, b, c]: &[Vec3; 3]| {

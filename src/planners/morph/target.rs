@@ -8,11 +8,11 @@ const POINTS_MAX: usize = 20_000;
 
 /// A shape that a truss has to take on, as weighted sample points, and as a surface where one is known.
 pub struct Target {
-    /// The sample points, m.
+    /// The sample points of the shape, m.
     pub points: Vec<Vec3>,
     /// The fraction of the surface that each point stands for, in the order of `points`; they add up to 1.
     pub fractions: Vec<f64>,
-    /// The surface; `None` for a cloud of points.
+    /// The surface of the shape; `None` for a cloud of points.
     pub surface: Option<Surface>,
 }
 
@@ -47,7 +47,7 @@ impl Target {
         self.points.iter().zip(&self.fractions).map(|(p, fraction)| p * *fraction).sum()
     }
 
-    /// Returns the target with every point moved by `motion`, which has to be rigid.
+    /// Returns the target with every point (m) moved by `motion`, which has to be rigid.
     pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Target {
         let surface = self.surface.as_ref();
         let surface =

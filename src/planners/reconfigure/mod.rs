@@ -16,9 +16,9 @@ use std::fmt;
 /// A configuration of RoFI modules: a robot in a state.
 #[derive(Clone, Copy, Debug)]
 pub struct Configuration<'a> {
-    /// An assembly of RoFI modules of one pitch.
+    /// The robot: an assembly of RoFI modules of one pitch.
     pub robot: &'a Assembly,
-    /// Its state: joint positions (rad), closed bonds, pose of the base in the world frame.
+    /// The state of the robot: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub state: &'a State,
 }
 
@@ -41,19 +41,19 @@ pub struct Problem<'a> {
     pub world: World,
 }
 
-/// The settings of [`plan`](plan()): those of both searches and of the judge.
+/// The settings of [`plan`](plan()): those of the searches for both halves, and of the judge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
-    /// Settings of either search.
+    /// The settings of the search for either half.
     pub search: tosnake::Settings,
-    /// Settings of the judge, which chooses among the shoes that may hold the goal under gravity.
+    /// The settings of the judge, which chooses among the shoes that may hold the goal under gravity.
     pub judge: plan::Settings,
 }
 
-/// The figures of a reconfiguration and of its search.
+/// The figures of a reconfiguration and of the search for it.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// Figures of both halves together, without those of attempts under gravity that were not used.
+    /// The figures of both halves together, without those of attempts under gravity that were not used.
     pub both: tosnake::Report,
     /// The operations on plans by which the halves were joined, in order, for the plan's provenance: with names of
     /// modules of the goal that the start has otherwise, and a program that was dropped.
@@ -63,7 +63,7 @@ pub struct Report {
     pub verdict: Option<Verdict>,
 }
 
-/// The reason why there is no plan.
+/// The reason why [`plan`](plan()) gives no reconfiguration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The start and the goal have different numbers of modules.
@@ -73,9 +73,9 @@ pub enum Refusal {
         /// The number of modules of the goal.
         to: usize,
     },
-    /// The start can't be unwound.
+    /// The start can't be unwound into a snake, for the reason given.
     From(tosnake::Refusal),
-    /// The goal can't be unwound.
+    /// The goal can't be unwound into a snake, for the reason given.
     To(tosnake::Refusal),
     /// The two configurations unwind to different snakes.
     DifferentSnakes(OperationError),

@@ -12,11 +12,11 @@ use crate::planners::fold::kinematics::about;
 use crate::planners::fold::sweep_collision::{Solids, panel_pose};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A point of the triangular lattice, in whole numbers of its two steps, which have the length of a side and enclose
-/// 60°.
+/// A point of the triangular lattice, in whole numbers of its two steps, which have the length of a panel's side and
+/// enclose 60°.
 pub type Point = [i64; 2];
 
-/// The corners of a panel, counterclockwise: its side k runs from corner k to the next.
+/// The corners of a panel on the lattice, counterclockwise: its side k runs from corner k to the next.
 pub type Corners = [Point; 3];
 
 /// A side of a panel: the index of the panel, from 0, and the number of the side, 0 to 2.
@@ -28,7 +28,7 @@ const SAMPLES: usize = 12;
 /// The numbers of panels of a fan: fewer do not close, and more need not fold.
 const FAN: [usize; 3] = [3, 4, 5];
 
-/// A stroke: the change of one connection, with the fan that folds for it.
+/// A stroke of a sheet: the change of one connection of panels, with the fan of panels that folds for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// The connections that fold from level to `angle` before the change, and open again after it; the one that is
@@ -36,21 +36,22 @@ pub struct Stroke {
     pub fold: Vec<[Side; 2]>,
     /// The fold angle, rad, positive or negative for the side to which the fan folds; 0 if nothing folds.
     pub angle: f64,
-    /// The connection that is made.
+    /// The connection that the stroke makes.
     pub make: [Side; 2],
-    /// The connection that is undone.
+    /// The connection that the stroke undoes.
     pub cut: [Side; 2],
-    /// The panels (indices) that lie elsewhere after it, with their corners there.
+    /// The panels, by index, that lie elsewhere after the stroke, with their corners there.
     pub moved: Vec<(usize, Corners)>,
 }
 
-/// Returns the name of a cell of the lattice by the corners of a panel on it: the sum of the corners, which no two
+/// Returns the name of the lattice cell that a panel with these corners covers: the sum of the corners, which no two
 /// cells share.
 pub fn cell(corners: &Corners) -> Point {
     [0, 1].map(|k| corners.iter().map(|c| c[k]).sum())
 }
 
-/// Returns the corners of the cell across side `k` (0 to 2), counterclockwise, so that its side 0 is the common one.
+/// Returns the corners of the lattice cell across side `k` (0 to 2) of a panel with these corners, counterclockwise,
+/// so that its side 0 is the common one. Panics for a side above 2.
 pub fn across(corners: &Corners, k: usize) -> Corners {
     let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
     [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
@@ -63,25 +64,25 @@ fn turned(point: Point, about: Point, sixths: usize) -> Point {
     [about[0] + i, about[1] + j]
 }
 
-/// Returns the connection of two sides, the lesser first.
+/// Returns the connection of two sides of panels, the lesser side first.
 pub fn bond(a: Side, b: Side) -> [Side; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// A sheet of panels on the triangular lattice, joined as a tree.
+/// A flat sheet of panels on the triangular lattice, joined as a tree.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
-    /// The corners of each panel, by its index.
+    /// The corners of each panel on the lattice, by its index.
     pub corners: Vec<Corners>,
     /// The index of the panel on each cell that is covered, by the cell's name ([`cell`]).
     pub cells: BTreeMap<Point, usize>,
-    /// The connections as by [`bond`]: a tree of the panels.
+    /// The connections of sides, as by [`bond`], which make a tree of the panels.
     pub bonds: BTreeSet<[Side; 2]>,
 }
 
 impl LatticeSheet {
-    /// Makes a sheet of panels with these corners, by their index, which must be on different cells, joined by `bonds`
-    /// (as by [`bond`]), which must be a tree of neighbours.
+    /// Returns the sheet of panels with these corners, by their index, which must be on different cells, joined by
+    /// `bonds` (as by [`bond`]), which must be a tree of neighbours.
     pub fn new(corners: Vec<Corners>, bonds: BTreeSet<[Side; 2]>) -> LatticeSheet {
         let cells = corners.iter().enumerate().map(|(panel, corners)| (cell(corners), panel)).collect();
         LatticeSheet { corners, cells, bonds }
@@ -106,7 +107,7 @@ impl LatticeSheet {
     }
 
     /// Returns the connections on the path between two panels, given by index, that at `to` first; empty for the same
-    /// panel.
+    /// panel. Panics if there is no such panel.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
         let mut queue = std::collections::VecDeque::from([from]);

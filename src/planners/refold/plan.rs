@@ -25,7 +25,7 @@ const SAMPLES_PER_PANEL: usize = 32;
 /// The number of orders that are put before the judge for either shape.
 const ORDERS_TRIED: usize = 2;
 
-/// A refolding problem: two shapes of as many equal panels.
+/// A refolding problem: two shapes of as many equal panels, and the panels.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// The shape at the beginning, m: face k is panel k.
@@ -36,17 +36,17 @@ pub struct Problem {
     pub panels: Panels,
 }
 
-/// The options of [`plan()`]. The defaults are those of the function `refold` of the language.
+/// The settings of [`plan()`]. The defaults are those of the function `refold` of the language.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle of
     /// both shapes. Steps that close or open a fan in the plane take longer if their hinges need it.
     pub step: Option<f64>,
-    /// The seed of choices among equals.
+    /// The seed of random choices among equals.
     pub seed: u64,
     /// The greatest number of cells weighed in the search for sheets, half of it for the lower bound.
     pub budget: u64,
-    /// The options of the judge before which every plan goes.
+    /// The settings of the judge that every plan has to pass.
     pub judge: plan::Settings,
 }
 
@@ -56,20 +56,19 @@ impl Default for Settings {
     }
 }
 
-/// The figures of a refolding and of its search.
+/// The figures of a refolding and of the search for it.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// The number of connections that are made, and as many undone.
+    /// The number of connections of panels that are made, which is also the number of those undone.
     pub changes: usize,
-    /// The lower bound on that number for all motions between the shapes.
+    /// The lower bound on the number of connections that any motion between the shapes makes.
     pub bound: usize,
-    /// For each panel, in the order of the first shape's faces, the index of the face of the second shape that it
-    /// becomes.
+    /// The face of the second shape that each panel becomes, as an index, in the order of the first shape's faces.
     pub becomes: Vec<usize>,
-    /// The energy of unfolding and folding with the leaves first, whatever the orders taken, without the changes in the
-    /// plane, N·m.
+    /// The energy of unfolding and folding with the leaves first, whatever the orders taken, without the changes in
+    /// the plane: the sum of mean torques, N·m.
     pub energy: f64,
-    /// The layout of the first shape, rooted at its root.
+    /// The layout by which the first shape unfolds, rooted at its root.
     pub layout: Layout,
     /// The number of actions of the program.
     pub actions: u64,
@@ -87,22 +86,22 @@ pub enum Refusal {
     },
     /// No motion between sheets of the two shapes was found.
     NoWay {
-        /// The number of cells and connections in which the nearest two sheets differ; `None` where no two
+        /// The number of lattice cells and connections in which the nearest two sheets differ; `None` where no two
         /// sheets were found.
         apart: Option<usize>,
-        /// The lower bound on the number of changes of any motion.
+        /// The lower bound on the number of connections that any motion makes.
         bound: usize,
     },
     /// Every sheet that was found collides in the samples of its orders, or is refused by the judge.
     Collides,
-    /// The connectors of panels that are joined have no hinge.
+    /// The connectors of panels that have to be joined have no hinge.
     NoHinge,
     /// The time of a step is shorter than the limits of the hinges allow.
     StepTooShort {
-        /// The least time that is long enough, s.
+        /// The least time of a step that is long enough, s.
         least: f64,
     },
-    /// The program can't be scheduled.
+    /// The program can't be scheduled, for the reason given.
     Schedule(behavior::Refusal),
 }
 

@@ -13,21 +13,21 @@ use std::collections::{BTreeSet, BinaryHeap};
 /// The weight of a panel's distance to its cell (steps of the lattice): with more the search is greedier.
 const DISTANCE_WEIGHT: i64 = 2;
 
-/// The sheet to be reached, on the lattice of the start.
+/// The goal of a rearrangement: the sheet to be reached, on the lattice of the start.
 #[derive(Clone, Debug)]
 pub struct Goal {
-    /// The cells that it covers, each written as the sum of its corners ([`cell`]).
+    /// The lattice cells that the sheet covers, each named by the sum of its corners ([`cell`]).
     pub cells: BTreeSet<Point>,
-    /// The pairs of such cells whose panels are joined, as by [`pair`]: a tree.
+    /// The pairs of cells whose panels are joined, as by [`pair`], which make a tree.
     pub bonds: BTreeSet<[Point; 2]>,
 }
 
-/// The panels as solids, for collision samples.
+/// The panels of a sheet as solids, for samples of collisions.
 #[derive(Clone, Copy)]
 pub struct PanelSolids<'p> {
     /// The collision parts of each panel, by its index.
     pub solids: &'p Solids,
-    /// The length of their sides, m.
+    /// The length of the panels' sides, m.
     pub side: f64,
 }
 
@@ -44,9 +44,9 @@ struct Node {
     strokes: i64,
 }
 
-/// Searches fewer than `most` strokes, free of collisions in their samples, that change one sheet into the other, by
-/// best-first search over at most `steps` states taken from the queue. Returns the strokes in order and the sheet
-/// after them; `None` if none were found. No strokes are needed from a sheet that is the goal.
+/// Searches for fewer than `most` strokes, free of collisions in their samples, that change the sheet `start` into
+/// `goal`, by best-first search over at most `steps` states taken from the queue. Returns the strokes in order and
+/// the sheet after them; `None` if none were found. No strokes are needed from a sheet that is the goal.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,

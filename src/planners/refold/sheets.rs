@@ -30,25 +30,25 @@ const STEPS_MAX: usize = 400;
 /// The greatest number of such states in all, times the number of panels.
 const STEPS_IN_ALL_MAX: usize = 100_000;
 
-/// Two layouts, and the strokes by which the flat sheet of the one becomes that of the other.
+/// A refolding: two layouts, and the strokes by which the flat sheet of the first becomes that of the second.
 #[derive(Clone, Debug)]
 pub struct Refolding {
     /// The layout of the first shape. Panels are numbered as its faces; both layouts are rooted at one panel.
     pub from: Layout,
     /// The layout of the second shape, numbered as its own faces.
     pub to: Layout,
-    /// For each panel, in the order of the first shape's faces, the index of the face of the second shape that it
-    /// becomes.
+    /// The face of the second shape that each panel becomes, as an index, in the order of the first shape's faces.
     pub becomes: Vec<usize>,
-    /// For each panel, in the same order, its turn (0 to 2): its side k becomes side (k + turn) mod 3 of that face.
+    /// The turn (0 to 2) of each panel, in the order of the first shape's faces: its side k becomes side (k + turn) mod
+    /// 3 of the face that it becomes.
     pub turns: Vec<usize>,
     /// The strokes in order; each makes a connection and undoes one.
     pub strokes: Vec<Stroke>,
 }
 
 impl Refolding {
-    /// Returns the same sheets and strokes with both layouts rooted at another panel, given by its index; `from` and
-    /// `to`: the two shapes. Panics if there is no such panel.
+    /// Returns the same sheets and strokes with both layouts rooted at another panel, given by its index in the first
+    /// shape's faces; `from` and `to`: the two shapes. Panics if there is no such panel.
     pub fn rerooted(&self, from: &Target, to: &Target, panel: usize) -> Refolding {
         Refolding {
             from: self.from.rerooted(from, panel),
@@ -57,13 +57,13 @@ impl Refolding {
         }
     }
 
-    /// Returns the side (0 to 2) of a panel that becomes the side `side` of its face of the second shape.
+    /// Returns the side of a panel (0 to 2) that becomes `side` of its face of the second shape. No such panel: a panic.
     pub fn side(&self, panel: usize, side: usize) -> usize {
         (side + 3 - self.turns[panel]) % 3
     }
 }
 
-/// The result of [`sheets`]: the best sheets, with a lower bound.
+/// The result of [`sheets`]: the best sheets found, with a lower bound.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The sheets found, at least one, all different: the fewest changes first, then the least cost.
@@ -72,33 +72,33 @@ pub struct Found {
     pub bound: usize,
 }
 
-/// The options of [`sheets`].
+/// The settings of [`sheets`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The greatest number of cells weighed, half of it for sheets and half for the bound.
+    /// The greatest number of lattice cells weighed, half of it for sheets and half for the bound.
     pub budget: u64,
-    /// The seed of choices among equals.
+    /// The seed of random choices among equals.
     pub seed: u64,
     /// The greatest number of sheets that are kept.
     pub kept: usize,
 }
 
-/// The reason why no sheet was found.
+/// The reason why [`sheets`] found no sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRefolding {
     /// The shapes have different numbers of faces.
     Counts,
-    /// No series of strokes between sheets of the two was found within the budget, or before the observer ended the
-    /// search.
+    /// No series of strokes between sheets of the two shapes was found within the budget, or before the observer ended
+    /// the search.
     Budget {
-        /// The number of cells and connections that only one of the two nearest sheets has; `None` without two.
+        /// The number of lattice cells and connections that only one of the two nearest sheets has; `None` without two.
         apart: Option<usize>,
-        /// The lower bound on the number of changes.
+        /// The lower bound on the number of connections that any motion makes.
         bound: usize,
     },
 }
 
-/// Searches sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those with
+/// Returns sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those with
 /// equally many changes, least first; `solids`: by panel. All sides of both shapes must have one length.
 ///
 /// # Errors
@@ -430,8 +430,8 @@ impl<'t> Sheet<'t> {
         found
     }
 
-    /// Returns the panel across a side in the first shape, on the cell ahead, joined in the second shape to
-    /// another neighbour of that cell.
+    /// Returns the panel across a side in the first shape, on the cell ahead, joined in the second shape to another
+    /// neighbour of that cell.
     fn changed(&self, face: usize, next: [usize; 3], ahead: Corners) -> Vec<Choice> {
         let mut found = Vec::new();
         for shift in 1..3 {
@@ -483,9 +483,9 @@ impl<'t> Sheet<'t> {
     }
 }
 
-/// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both
-/// shapes have join panels to pieces, each a part of a layout of either; the other connections of the second
-/// shape are made. The search for so few pieces is exhaustive, as far as the steps reach.
+/// Returns the lower bound on the number of connections that have to be made, at most `most`. Those that both shapes
+/// have join panels to pieces, each a part of a layout of either; the other connections of the second shape are made.
+/// The search for so few pieces is exhaustive, as far as the steps reach.
 fn bound(from: &Target, to: &Target, most: usize, budget: u64) -> usize {
     let mut left = budget;
     (0..most).find(|more| can_do_with(from, to, more + 1, &mut left)).unwrap_or(most)
@@ -507,8 +507,8 @@ struct PieceSearch<'t, 'l> {
 }
 
 impl PieceSearch<'_, '_> {
-    /// Begins a piece with the first face that is in none; returns true if all faces get into pieces. The recursion
-    /// is as deep as there are sides.
+    /// Begins a piece with the first face that is in none; returns true if all faces get into pieces. The recursion is
+    /// as deep as there are sides.
     fn begun(&mut self, missing: usize, pieces: usize) -> bool {
         if missing == 0 || *self.left == 0 {
             return true;
@@ -545,8 +545,8 @@ impl PieceSearch<'_, '_> {
         self.sheet.joined(face, next, ahead, face, side, 0)
     }
 
-    /// Returns true if the faces that no panel can be continued to are no more groups than pieces are left, in
-    /// either shape.
+    /// Returns true if the faces that no panel can be continued to are no more groups than pieces are left, in either
+    /// shape.
     fn can_reach(&self, pieces: usize) -> bool {
         let Sheet { from, to, placed, taken, .. } = &self.sheet;
         let sides = (0..placed.len()).flat_map(|face| (0..3).map(move |side| (face, side)));

@@ -5,8 +5,9 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i, 0,
-/// 0), to a column of them along y; all cells keep their size.
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i,
+/// 0, 0), to a column of them along y, in which the row folds up and unrolls like an accordion; all cells keep their
+/// size.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -16,9 +16,9 @@ use super::{Method, Refusal};
 
 /// A motion with the method that it stands for.
 pub(super) struct Candidate {
-    /// The method that the motion stands for.
+    /// The method by which the motion was constructed.
     pub method: Method,
-    /// The motion between the shapes, or to the row.
+    /// The motion between the shapes, or from a shape to the row.
     pub motion: Motion,
 }
 

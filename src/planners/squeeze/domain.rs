@@ -1,12 +1,12 @@
 //! Sets of cells in closed form: arithmetic progressions of cell numbers with nested counters, on which
 //! positions are affine.
 
-/// The state of a cell at an instant, in quarters of its full size, the grid of all constructions.
+/// The state of a cell at an instant, in quarters of its full size, which is the grid of all constructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CellState {
-    /// The centre, in quarters of the full size.
+    /// The centre of the cell along x, y, z, in quarters of the full size.
     pub center: [i64; 3],
-    /// The lengths of the sides, in quarters of the full size.
+    /// The lengths of the sides along x, y, z, in quarters of the full size.
     pub size: [i64; 3],
 }
 
@@ -21,12 +21,12 @@ impl CellState {
     }
 }
 
-/// The set of the cells with the numbers `first + Σ stride·k`, for each counter `k` in 0..count.
+/// An arithmetic set of cells: those with the numbers `first + Σ stride·k`, for each counter `k` in 0..count.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Domain {
-    /// The number of the first cell.
+    /// The number of the first cell, from 0.
     pub first: u64,
-    /// The counters as (count, stride), outermost first; cells are numbered from 0.
+    /// The counters as (count, stride of the cell's number), outermost first.
     pub counters: Vec<(u64, i64)>,
 }
 

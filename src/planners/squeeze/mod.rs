@@ -60,23 +60,25 @@ use crate::plan::Ratio;
 use crate::robot::Cell;
 use std::fmt;
 
-/// A method: a construction of motions between shapes.
+/// A method of `squeeze`: a construction of motions between shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Any of the others: the fastest that the model allows.
+    /// The fastest of the other methods that the model allows.
     #[default]
     Auto,
-    /// Rows fold up and unroll, boxes unroll: cells keep their size.
+    /// The accordion: rows fold up and unroll, boxes unroll; cells keep their size.
     Accordion,
-    /// The paper's, mended: boxes whose sides differ by powers of two, and rows of any length to columns.
+    /// The folds of [Reif and Slee](self), mended: between boxes whose sides differ by powers of two, and from rows
+    /// of any length to columns.
     Fold,
-    /// A row shears to a column in one go.
+    /// The shear: a row shears to a column in one stage.
     Shear,
-    /// A row of at least four cells to a column: its halves turn up, and merge.
+    /// The arms: a row of at least four cells becomes a column as its halves turn up and merge.
     Arms,
-    /// Any connected sets of cells in planes, whose rows merge two by two.
+    /// The merging of rows, two by two, for any connected sets of cells in planes.
     Merge,
-    /// Any connected sets of at most 400 cells, in space too, one cell after another.
+    /// The melting of one cell after another (Rus and Vona 2001), for any connected sets of at most 400 cells, in
+    /// space too.
     Melt,
 }
 
@@ -90,45 +92,46 @@ pub enum ModelChoice {
     /// Zero angular momentum at all times: a free robot does not turn. [`Refusal::Unbalanced`] if no such motion is
     /// known.
     Balanced,
-    /// The paper's model: translational forces only, and any angular momentum.
+    /// The model of [Reif and Slee](self): translational forces only, and any angular momentum.
     Paper,
 }
 
 /// The norm of a cell's acceleration that its force bounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Norm {
-    /// The greatest component along an axis.
+    /// The maximum norm: the greatest component along an axis.
     #[default]
     EachAxis,
-    /// The Euclidean norm.
+    /// The Euclidean norm: the length of the acceleration.
     Euclidean,
 }
 
 /// A reconfiguration problem: two shapes of lattice cells of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
-    /// The kind of all cells; index 0 in the plan's library.
+    /// The kind of all cells: size, mass, force, speed; it has the index 0 in the plan's library.
     pub cell: Cell,
     /// The lattice sites of the cells at the start, in cell sizes, in any order: all different, and connected over
     /// faces.
     pub start: Vec<[i64; 3]>,
-    /// The lattice sites of the cells at the end, in cell sizes, in any order: all different, connected over faces, as
-    /// many as at the start, and up to a translation.
+    /// The lattice sites of the cells at the end, in cell sizes, in any order: all different, connected over faces,
+    /// as many as at the start; a translation of all makes no difference.
     pub goal: Vec<[i64; 3]>,
 }
 
-/// The settings of `squeeze`, whose defaults are those of the [paper](self).
+/// The settings of `squeeze`, whose defaults are those of [Reif and Slee](self).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// The method. Auto: the fastest that the model allows.
+    /// The method. Default [`Method::Auto`], the fastest that the model allows.
     pub method: Method,
-    /// The model of angular momentum. Auto.
+    /// The model of angular momentum. Default [`ModelChoice::Auto`].
     pub model: ModelChoice,
-    /// The velocity profile of stages. Bang-bang, as in the paper.
+    /// The velocity profile of stages. Default bang-bang, as in [Reif and Slee](self).
     pub profile: Profile,
-    /// The greatest contact force, N; `None`, the default, for no limit, as in the paper.
+    /// The greatest contact force, N; `None`, the default, for no limit, as in [Reif and Slee](self).
     pub max_force: Option<f64>,
-    /// The norm of a cell's acceleration that its force bounds. Each axis, as in the paper.
+    /// The norm of a cell's acceleration that its force bounds. Default that of each axis, as in [Reif and
+    /// Slee](self).
     pub norm: Norm,
 }
 
@@ -139,7 +142,7 @@ pub struct Report {
     pub lower_bound: f64,
     /// The method that was taken; never [`Method::Auto`].
     pub method: Method,
-    /// True if the angular momentum stays zero throughout.
+    /// True if the angular momentum stays zero during the whole motion.
     pub balanced: bool,
     /// The reason for the method in words, for a message.
     pub why: String,
@@ -147,7 +150,7 @@ pub struct Report {
     pub stages: Vec<(String, f64)>,
 }
 
-/// The reason why [`plan`] finds no motion.
+/// The reason why [`plan`] gives no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
     /// The shapes differ in their number of cells.
@@ -166,7 +169,7 @@ pub enum Refusal {
     Solid {
         /// True if the start is such a shape; false if only the goal is.
         first: bool,
-        /// The greatest number of cells that melt.
+        /// The greatest number of cells that the method melt takes.
         most: usize,
     },
     /// The method that was asked for does not apply to these shapes.

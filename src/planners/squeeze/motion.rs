@@ -4,11 +4,12 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
 
-/// A motion (trajectory) of a lattice robot: configurations of all cells with the transitions between them. Lengths are
-/// in cell sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1.
+/// A motion (trajectory) of a lattice robot: configurations of all cells with the transitions between them. Lengths
+/// are in cell sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1
+/// cell size per squared unit.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// The number of cells.
+    /// The number of cells of the robot.
     pub count: u64,
     /// The configurations in order of time as arithmetic runs, in cell sizes relative to the centre of mass, which
     /// rests; one more than there are transitions.
@@ -20,20 +21,21 @@ pub struct Motion {
 /// A stage of a motion, from one configuration to the next: every cell moves along a line, all by the same time law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// The name of the stage.
+    /// The name of the stage that the transition becomes.
     pub name: &'static str,
-    /// The square of its duration, in squared units of time.
+    /// The square of the transition's duration, in squared units of time ([`Motion`]).
     pub time_squared: Ratio,
     /// The time law of the progress of all cells.
     pub law: Law,
-    /// True if the angular momentum stays zero.
+    /// True if the angular momentum stays zero during the transition.
     pub balanced: bool,
 }
 
-/// The velocity profile of a stage.
+/// The velocity profile of a stage: how its progress speeds up and slows down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Profile {
-    /// Constant acceleration for half the time, constant deceleration for the other half, as in the paper.
+    /// Constant acceleration for half the time, constant deceleration for the other half, as in [Reif and
+    /// Slee](super).
     #[default]
     BangBang,
     /// A ramp, an interval of constant speed if the speed limit is active, and a ramp: the least time.
@@ -43,7 +45,7 @@ pub enum Profile {
 /// The limits under which motions are planned.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanLimits {
-    /// The limits of a cell, in cell sizes and units of time ([`Motion`]).
+    /// The limits of a cell: least size and greatest speed, in cell sizes and units of time ([`Motion`]).
     pub cell: CellLimits,
     /// The velocity profile of all stages.
     pub profile: Profile,
@@ -54,13 +56,13 @@ pub struct PlanLimits {
 /// The data that a motion needs to become the body of a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanHeader {
-    /// The index of the kind of cell in the plan's library.
+    /// The index of the kind of cell in [`Library::cells`](crate::robot::Library) of the plan.
     pub cell: usize,
-    /// The unit of time, s.
+    /// The unit of time ([`Motion`]), s.
     pub time_unit: f64,
-    /// The limits of a cell, in cell sizes and units of time.
+    /// The limits of a cell: least size and greatest speed, in cell sizes and units of time.
     pub limits: CellLimits,
-    /// The model that the plan is judged under.
+    /// The model of forces that the plan is judged under.
     pub model: Model,
 }
 
@@ -361,7 +363,7 @@ impl Motion {
         Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
     }
 
-    /// Returns the motion from the end to the start, with the time laws reversed.
+    /// Returns the motion in reverse, from the end to the start, with the time laws reversed.
     pub fn reversed(mut self) -> Motion {
         self.configurations.reverse();
         self.transitions.reverse();
@@ -422,7 +424,7 @@ impl Motion {
             .fold(0.0, |time, transition| time + libm::sqrt(transition.time_squared.to_f64()))
     }
 
-    /// Returns true if the angular momentum stays zero throughout.
+    /// Returns true if the angular momentum stays zero during the whole motion.
     pub fn is_balanced(&self) -> bool {
         self.transitions.iter().all(|transition| transition.balanced)
     }

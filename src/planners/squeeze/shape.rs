@@ -2,7 +2,7 @@
 
 /// The positions of cells, translated so that the lowest along each axis is 0, in order.
 pub(super) struct Shape {
-    /// The lattice sites, in cell sizes, in ascending order of x, then y, then z.
+    /// The lattice sites of the cells, in cell sizes, in ascending order of x, then y, then z.
     pub positions: Vec<[i64; 3]>,
     /// The sides of the bounding box along x, y, z, in cells.
     pub sides: [u64; 3],

@@ -2,7 +2,8 @@
 
 /// The tolerances with which `squeeze` computes.
 pub(super) struct Tolerances {
-    /// The relative error to which limits are rounded, to the safe side, so that they are short rational numbers.
+    /// The relative error to which limits are rounded, to the safe side, so that they are short rational numbers;
+    /// without unit.
     pub limits: f64,
 }
 

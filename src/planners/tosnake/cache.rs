@@ -25,7 +25,7 @@ impl SearchKey {
     }
 }
 
-/// The step sequences of the last 100 searches that found one. Clones share the sequences, not the list.
+/// A cache of the step sequences of the last 100 searches that found one. Clones share the sequences, not the list.
 #[derive(Clone, Default)]
 pub struct SearchCache(Vec<(Rc<SearchKey>, Rc<StepSequence>)>);
 

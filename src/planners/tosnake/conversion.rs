@@ -6,7 +6,7 @@ use super::tolerances::TOLERANCES;
 use crate::robot::rofi;
 use crate::robot::{Assembly, Kinematics, PortRef, State};
 
-/// The names of alpha, beta and gamma in the library's module, in the order of [`Robot::joints`].
+/// The names of the joints alpha, beta and gamma in the library's module, in the order of [`Robot::joints`].
 pub const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
 
 /// Returns the configuration of a RoFI file, with joints in radians and all bonds closed; modules and bonds keep their

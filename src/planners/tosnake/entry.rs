@@ -15,26 +15,26 @@ use crate::planners::{Progress, Solution};
 use crate::robot::{Assembly, State};
 use std::rc::Rc;
 
-/// A robot that is to be unwound into a snake, with its start and its world.
+/// A problem of unwinding: a robot that is to become a snake, with its start and its world.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
-    /// An assembly of RoFI modules of one pitch.
+    /// The robot: an assembly of RoFI modules of one pitch.
     pub robot: &'a Assembly,
-    /// Its start: joint positions (rad), closed bonds, pose of the base in the world frame.
+    /// The state at the start: joint positions (rad), closed bonds, pose of the base in the world frame.
     pub start: &'a State,
-    /// The world. With gravity the base module is held fixed, and no joint may exceed its torque limit; without
-    /// gravity the robot floats.
+    /// The world of the plan. With gravity the base module is held fixed, and no joint may exceed its torque limit;
+    /// without gravity the robot floats.
     pub world: World,
 }
 
 /// The figures of a plan to the snake and of the search for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
-    /// The number of docking actions.
+    /// The number of docking actions of the plan.
     pub docks: usize,
-    /// The number of undocking actions.
+    /// The number of undocking actions of the plan.
     pub undocks: usize,
-    /// Joint travel: the sum of the absolute angles of all turns of all joints, rad.
+    /// The joint travel of the plan: the sum of the absolute angles of all turns of all joints, rad.
     pub joint_travel: f64,
     /// The number of attempts to bring a pair of ends together; if the steps come from the cache, those of the search
     /// that found them.
@@ -42,7 +42,7 @@ pub struct Report {
     /// The number of forward kinematics of the whole robot that were evaluated; if the steps come from the cache,
     /// those of the search that found them.
     pub work: u64,
-    /// The number of actions of the program.
+    /// The number of actions of the plan's program.
     pub actions: u64,
 }
 
@@ -55,7 +55,7 @@ pub struct Report {
 ///
 /// # Errors
 /// [`Refusal`]: the assembly is none of RoFI modules, the start is invalid, the docks of a bond that closes a loop do
-/// not meet, torque limits or the budget do not suffice, the [paper](super)'s method fails or is asked for under
+/// not meet, torque limits or the budget do not suffice, [Mrázek et al.](super)'s method fails or is asked for under
 /// gravity, the steps can't be scheduled, or `progress` ended the search.
 ///
 /// # Examples

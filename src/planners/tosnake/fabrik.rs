@@ -12,16 +12,19 @@ use super::tolerances::TOLERANCES;
 use crate::geometry::{RigidTransform, Vec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// The settings of FABRIK: when [`Chain::solve`] counts a chain as closed, and when it gives up.
+/// The settings of FABRIK (Aristidou and Lasenby 2011): when [`Chain::solve`] counts a chain as closed, and when it
+/// gives up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Greatest number of iterations, each a backward and a forward pass. Default 1000, as the paper's program.
+    /// The greatest number of iterations, each a backward and a forward pass. Default 1000, as in the program of
+    /// [Mrázek et al.](super).
     pub iterations_max: usize,
-    /// Deviation of the entries of the last shoe's pose from the goal below which the chain is closed, in pitches for
-    /// positions and without unit for the rotation matrix. Default 0.02, as the paper's program.
+    /// The deviation of the entries of the last shoe's pose from the goal below which the chain is closed, in pitches
+    /// for positions and without unit for the rotation matrix. Default 0.02, as in the program of [Mrázek et
+    /// al.](super).
     pub tol_closed: f64,
-    /// Number of iterations without a hundredth of progress after which the chain is given up. Default 100; the paper's
-    /// program goes on.
+    /// The number of iterations without a hundredth of progress after which the chain is given up. Default 100; the
+    /// program of [Mrázek et al.](super) goes on.
     pub patience: usize,
 }
 
@@ -31,7 +34,7 @@ impl Default for Settings {
     }
 }
 
-/// The chain of two tentacles joined at their tips, for FABRIK.
+/// The chain of two tentacles joined at their tips, which FABRIK closes.
 pub struct Chain {
     segments: Vec<Segment>,
     /// Pose of the first shoe.
@@ -74,10 +77,10 @@ impl Chain {
         }
     }
 
-    /// Closes the chain from given joint positions (rad, by module). Returns the positions of all joints of the robot,
-    /// rad, by module, or `None` if it does not converge; and the number of iterations in either case. With `avoid`,
-    /// tilts keep out of positions in which a ball would overlap one that does not move, where they can. `work` counts
-    /// forward kinematics.
+    /// Closes the chain by FABRIK (Aristidou and Lasenby 2011) from given joint positions (rad, by module). Returns
+    /// the positions of all joints of the robot, rad, by module, or `None` if it does not converge; and the number of
+    /// iterations in either case. With `avoid`, tilts keep out of positions in which a ball would overlap one that
+    /// does not move, where they can. `work` counts forward kinematics.
     pub fn solve(
         &self,
         from: &Joints,
@@ -250,6 +253,6 @@ fn nearest_free_tilt(wanted: f64, here: &RigidTransform, obstacles: &[Vec3]) -> 
     near.unwrap_or(wanted)
 }
 
-/// Distance of centres, in pitches, below which balls overlap for the program of the [paper](super), which rounds
-/// squared distances to three decimals.
+/// The distance of centres, in pitches, below which balls overlap for the program of [Mrázek et al.](super), which
+/// rounds squared distances to three decimals.
 pub const TOUCHING: f64 = 0.99975;

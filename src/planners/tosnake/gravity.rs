@@ -7,11 +7,11 @@ use crate::geometry::{RigidTransform, Vec3};
 /// A gravity model: the shoe by which the robot is held, its weights, and the torque limits of its joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GravityModel {
-    /// The shoe that is held fixed: twice the index of its module, plus one for shoe B.
+    /// The number of the shoe that is held fixed: twice the index of its module, plus one for shoe B.
     pub held: usize,
     /// The index of the module near which loops stay closed: they are opened far from it.
     pub root: usize,
-    /// Unit vector of gravity in the frame of the shoe that is held.
+    /// The unit vector of gravity in the frame of the shoe that is held.
     pub down: Vec3,
     /// The weight of each shoe at its centre, N; at index `2 * module`, plus one for shoe B.
     pub shoes: Vec<f64>,
@@ -42,17 +42,17 @@ impl JointLoad {
 }
 
 impl GravityModel {
-    /// Returns the greatest load of a joint, that of joint 0 of module 0 with ratio 0 if no joint bears anything.
-    /// `poses`: of the shoes, in the tree's order ([`Tree::shoe`]), in pitches. Bonds that close loops are taken to
-    /// carry nothing.
+    /// Returns the greatest load of a joint under gravity, that of joint 0 of module 0 with ratio 0 if no joint bears
+    /// anything. `poses`: of the shoes, in the tree's order ([`Tree::shoe`]), in pitches. Bonds that close loops are
+    /// taken to carry nothing.
     pub fn greatest(&self, tree: &Tree, poses: &[RigidTransform]) -> JointLoad {
         self.loads(tree, poses).into_iter().fold(JointLoad::NONE, JointLoad::greater)
     }
 
-    /// Returns the loads of all joints, in the order of [`Tree::all_joints`]. `poses`: of the shoes, in the tree's
-    /// order ([`Tree::shoe`]), in pitches. The torque of a joint is `axis · ((m - w · point) × down)`, with the weight
-    /// w and its first moment m of all shoes that the joint carries. Both are differences of prefix sums, for subtrees
-    /// are ranges of indices.
+    /// Returns the loads of all joints under gravity, in the order of [`Tree::all_joints`]. `poses`: of the shoes, in
+    /// the tree's order ([`Tree::shoe`]), in pitches. The torque of a joint is `axis · ((m - w · point) × down)`,
+    /// with the weight w and its first moment m of all shoes that the joint carries. Both are differences of prefix
+    /// sums, for subtrees are ranges of indices.
     pub fn loads(&self, tree: &Tree, poses: &[RigidTransform]) -> Vec<JointLoad> {
         let held = tree.index[self.held];
         let down = poses[held].rotation * self.down;

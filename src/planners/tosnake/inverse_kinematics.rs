@@ -29,7 +29,7 @@ pub enum IkMode {
     CollisionFree,
 }
 
-/// The settings of the descent. Lengths are in pitches, angles in radians.
+/// The settings of the descent of inverse kinematics. Lengths are in pitches, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Greatest number of iterations, before [`Settings::loop_scale`]. Default 200; most loops close in 20.
@@ -90,13 +90,14 @@ pub struct Loop {
     pub from: usize,
     /// Index in the tree's order ([`Tree::shoe`]) of the shoe of the second dock.
     pub to: usize,
-    /// The joints between them, from the first dock to the second, each with the sign (1 or -1) with which its turn
+    /// The joints of the loop, from the first dock to the second, each with the sign (1 or -1) with which its turn
     /// moves the second dock relative to the first.
     pub joints: Vec<(JointRef, f64)>,
 }
 
 impl Loop {
-    /// Returns the loop that closes when the docks -Z of the shoes of `a` and `b` meet.
+    /// Returns the loop that closes when the docks -Z of the shoes that carry `a` and `b` meet; `tree`: that of the
+    /// robot.
     pub fn new(tree: &Tree, a: Dock, b: Dock) -> Loop {
         let (from, to) = (tree.index[a.shoe()], tree.index[b.shoe()]);
         Loop { from, to, joints: joints_between(tree, from, to) }
@@ -124,7 +125,7 @@ fn joints_between(tree: &Tree, from: usize, to: usize) -> Vec<(JointRef, f64)> {
 
 /// The problem of closing a loop by damped least-squares inverse kinematics.
 pub struct LoopClosure<'a> {
-    /// The robot as collision checks see it.
+    /// The robot as checks of collisions and loads see it.
     pub scene: &'a Scene<'a>,
     /// The loop that is to be closed.
     pub lp: &'a Loop,
@@ -193,8 +194,8 @@ fn range(joint: usize) -> (f64, f64) {
     if joint == GAMMA { (f64::NEG_INFINITY, f64::INFINITY) } else { (-FRAC_PI_2, FRAC_PI_2) }
 }
 
-/// Returns the position nearest to `q` (rad) in the range of a joint: ±π/2 for tilts, any for gamma. `joint`: 0 to 2
-/// as in [`Robot::joints`](super::robot::Robot::joints).
+/// Returns the position nearest to `q` (rad) in the range of a joint: ±π/2 for the tilts alpha and beta, any for
+/// gamma. `joint`: 0 to 2 as in [`Robot::joints`](super::robot::Robot::joints).
 pub fn clamped(joint: usize, q: f64) -> f64 {
     let (low, high) = range(joint);
     q.clamp(low, high)

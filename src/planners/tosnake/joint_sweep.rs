@@ -16,10 +16,10 @@ struct Ball {
 }
 
 /// Returns the angle by which a joint can turn before the centres of two balls come nearer than `min_distance`
-/// (pitches): all of `angle` (rad, either sign), or a part of it with the same sign. Balls that are nearer than that at
-/// the start may only move apart, but pairs that are nearer through the whole turn do not bound it. `poses`: of the
-/// shoes at the start, in the tree's order ([`Tree::shoe`]), in pitches. Loops that the turn would break are not looked
-/// for.
+/// (pitches): all of `angle` (rad, either sign), or a part of it with the same sign. Balls that are nearer than that
+/// at the start may only move apart, but pairs that are nearer through the whole turn do not bound it. `poses`: of
+/// the shoes at the start, in the tree's order ([`Tree::shoe`]), in pitches. Loops that the turn would break are not
+/// searched for.
 pub fn free_angle(
     tree: &Tree,
     joint: JointRef,

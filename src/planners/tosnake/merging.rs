@@ -11,17 +11,17 @@ use super::tree::{JointRef, Tree};
 use crate::planners::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Two free docks -Z at the ends of different chains.
+/// Two free docks -Z at the ends of different chains, which may be brought together.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// The dock -Z of the shoe with the smaller number ([`Dock::shoe`]).
     pub a: Dock,
     /// The dock -Z of the shoe with the greater number ([`Dock::shoe`]).
     pub b: Dock,
-    /// Number of modules between them whose joints can bend the loop.
+    /// The number of modules between the two docks whose joints can bend the loop.
     pub length: usize,
-    /// Estimated cost, smaller is more promising: the logit of failure, up to a constant, for a floating robot; a
-    /// number of modules under gravity.
+    /// The estimated cost of bringing the docks together, less is more promising: the logit of failure, up to a
+    /// constant, for a floating robot; a number of modules under gravity.
     pub cost: f64,
 }
 
@@ -129,22 +129,22 @@ fn bending(state: &State, a: Dock, b: Dock) -> (usize, usize) {
 
 /// The options of one attempt to bring the docks of a pair together.
 pub struct Attempt<'a> {
-    /// The pair whose docks are to meet.
+    /// The pair whose docks are to be brought together.
     pub pair: &'a Pair,
     /// The mode of the inverse kinematics.
     pub mode: IkMode,
     /// True if, in the endpoint mode, RRT-Connect looks for a detour where the straight motion is not free.
     pub detour: bool,
-    /// Spread of the random start (endpoint mode) as a fraction, 0 to 1, of half the joints' ranges, or of the random
-    /// initial bias (collision-free mode) as a fraction, 0 to 1, of the greatest.
+    /// The spread of the random start (endpoint mode) as a fraction, 0 to 1, of half the joints' ranges, or of the
+    /// random initial bias (collision-free mode) as a fraction, 0 to 1, of the greatest.
     pub spread: f64,
-    /// The side whose joints move.
+    /// The side of the loop whose joints move.
     pub side: MovingSide,
     /// Settings of the inverse kinematics.
     pub settings: &'a inverse_kinematics::Settings,
 }
 
-/// The joints of a loop that move.
+/// The side of a loop whose joints move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MovingSide {
     /// All joints between the two docks.

@@ -23,11 +23,12 @@ const SKIN: f64 = 1.5;
 /// about eight in ten, all three more than nine in ten.
 const PRECHECK_INSTANTS: [f64; 3] = [0.5, 0.25, 0.75];
 
-/// The robot as collision and load checks see it.
+/// The robot as checks of collisions and loads see it: its tree, its docked shoes and its limit of loads.
 pub struct Scene<'a> {
-    /// The kinematic tree.
+    /// The kinematic tree over the closed bonds of the robot.
     pub tree: &'a Tree,
-    /// Pairs of shoes docked to each other, as indices in the tree's order, ascending; see [`broad_phase::docked`].
+    /// The pairs of shoes docked to each other, as indices in the tree's order, ascending; see
+    /// [`broad_phase::docked`].
     pub docked: Vec<(usize, usize)>,
     /// The limit on loads of joints; `None` if the robot floats.
     pub load_limit: Option<LoadLimit<'a>>,
@@ -36,10 +37,10 @@ pub struct Scene<'a> {
 /// A limit on the static loads that joints bear under gravity during a motion.
 #[derive(Clone, Copy)]
 pub struct LoadLimit<'a> {
-    /// The gravity model.
+    /// The gravity model that loads are computed by.
     pub gravity: &'a GravityModel,
-    /// Greatest load, as a fraction of the joint's torque limit, less [`load_spare`](super::Tolerances::load_spare)
-    /// of it.
+    /// The greatest load that is allowed, as a fraction of the joint's torque limit, less
+    /// [`load_spare`](super::Tolerances::load_spare) of it.
     pub share: f64,
     /// The smallest overload so far, which checks of motions write; `None` without any. Of each overloaded motion the
     /// greatest load found counts.
@@ -71,7 +72,8 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns true if two balls, given by their indices in the tree's order ([`Tree::shoe`]), are of different rigid
-    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`].
+    /// parts and do not touch by design. `parts`: the part of each ball, as by [`Tree::parts`]. Panics if an index is
+    /// none of the tree.
     pub fn may_meet(&self, parts: &[usize], a: usize, b: usize) -> bool {
         parts[a] != parts[b] && !always_touch(self.tree, a, b, &self.docked)
     }

@@ -9,13 +9,13 @@ use crate::geometry::{RigidTransform, Vec3};
 /// A pair of balls (the spheres of two shoes, which are halves of modules) whose centres are near each other, from
 /// [`NeighbourList::within`].
 pub struct Neighbours {
-    /// Index in the tree's order ([`Tree::shoe`](super::tree::Tree::shoe)) of the one ball's shoe, the smaller.
+    /// The index of the first ball's shoe in the tree's order ([`Tree::shoe`](super::tree::Tree::shoe)), the smaller.
     pub a: usize,
-    /// Index in the tree's order of the other ball's shoe.
+    /// The index of the second ball's shoe in the tree's order ([`Tree::shoe`](super::tree::Tree::shoe)).
     pub b: usize,
-    /// Distance of their centres, in pitches.
+    /// The distance of the centres of the two balls, in pitches.
     pub distance: f64,
-    /// Unit vector from the centre of a to that of b, in the frame of the `poses` given to
+    /// The unit vector from the centre of a to that of b, in the frame of the `poses` given to
     /// [`NeighbourList::within`]; x if the centres coincide.
     pub normal: Vec3,
 }
@@ -43,8 +43,9 @@ pub struct NeighbourList<'a> {
 }
 
 impl<'a> NeighbourList<'a> {
-    /// Returns an empty list. `docking_pair`: the indices in the tree's order, the smaller first, of two shoes whose
-    /// docks are to meet; `parts`: the rigid part of each shoe, see [`Tree::parts`](super::tree::Tree::parts).
+    /// Returns an empty neighbour list. `docking_pair`: the indices in the tree's order, the smaller first, of two
+    /// shoes whose docks are to meet; `parts`: the rigid part of each shoe, see
+    /// [`Tree::parts`](super::tree::Tree::parts).
     pub fn new(scene: &'a Scene<'a>, docking_pair: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
         let (list, listed, before) = (Vec::new(), Vec::new(), Vec::new());
         NeighbourList { scene, docking_pair, parts, list, reach: 0.0, listed, before }

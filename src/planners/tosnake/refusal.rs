@@ -10,30 +10,35 @@ use std::fmt;
 /// The reason why there is no plan to the snake. Modules and bonds are named by their indices in the assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The assembly is none of RoFI modules of one pitch.
+    /// The assembly is none of RoFI modules of one pitch, for the reason given.
     NotRofi(NotRofi),
-    /// The start is no valid configuration.
+    /// The start is no valid configuration, for the reason given.
     InvalidStart(InvalidStart),
     /// The docks of a bond that closes a loop do not meet.
     OpenLoop {
-        /// The index of the bond.
+        /// The index of the bond in the assembly.
         bond: usize,
-        /// Greatest deviation: of positions in pitches, of entries of the rotation matrix without unit.
+        /// The greatest deviation of the docks from meeting: of positions in pitches, of entries of the rotation
+        /// matrix without unit.
         residual: f64,
     },
-    /// The world has gravity, which the paper's method, chosen by [`Collisions`](super::Collisions), does not know.
+    /// The world has gravity, which the method of [Mrázek et al.](super), chosen by
+    /// [`Collisions`](super::Collisions), does not know.
     GravityUnsupported,
-    /// The budget of forward kinematics is spent, and no joint was overloaded on the way.
+    /// The budget of forward kinematics is spent, and no joint was overloaded on the way; the status is that at the
+    /// end.
     BudgetSpent(SearchStatus),
-    /// The observer ended the search.
+    /// The observer ended the search; the status is that at the end.
     Stopped(SearchStatus),
-    /// The paper's method tried all pairs in every order that it came to.
+    /// The method of [Mrázek et al.](super) tried all pairs in every order that it came to; the status is that at the
+    /// end.
     Exhausted(SearchStatus),
-    /// The paper's method found no two free ends of different chains.
+    /// The method of [Mrázek et al.](super) found no two free ends of different chains; the status is that at the
+    /// end.
     NoFreeTips(SearchStatus),
     /// Joints would have to hold more than their torque limits in all that was tried.
     Overload(Overload),
-    /// The steps can't be scheduled.
+    /// The steps can't be scheduled as a program, for the reason given.
     Schedule(behavior::Refusal),
 }
 
@@ -51,11 +56,11 @@ pub enum NotRofi {
 pub enum InvalidStart {
     /// The module of this index, from 0, is not connected to the first by closed bonds.
     Disconnected(usize),
-    /// Two modules overlap.
+    /// Two modules of the robot overlap.
     Overlap {
-        /// The two modules, the smaller index first.
+        /// The indices of the two modules, from 0, the smaller first.
         modules: [usize; 2],
-        /// Distance of the centres of two of their balls, in pitches; below
+        /// The distance of the centres of two of their balls, in pitches; below
         /// [`min_distance`](super::Tolerances::min_distance).
         distance: f64,
     },
@@ -69,22 +74,22 @@ pub struct Overload {
     pub load: JointLoad,
     /// The operation that the overload ruled out.
     pub operation: Operation,
-    /// The progress of that search; attempts and work are those of all searches.
+    /// The progress of the search that met the overload; attempts and work are those of all searches.
     pub status: SearchStatus,
 }
 
 /// The operation in which a joint of a robot that is held by one module would have been overloaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// Holding the start configuration.
+    /// The start configuration is held.
     HoldingStart,
-    /// Undocking the bonds that close loops.
+    /// The bonds that close loops are undocked.
     OpeningLoops,
-    /// Bringing these docks together, and undocking the bond that the new one replaces.
+    /// The two docks are brought together, and the bond is undocked that the new one replaces.
     Joining(Dock, Dock),
-    /// Straightening the snake.
+    /// The snake is straightened.
     Straightening,
-    /// Holding the straight snake.
+    /// The straight snake is held.
     HoldingSnake,
 }
 

@@ -6,83 +6,86 @@ use crate::geometry::{RigidTransform, Vec3};
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Index in a module's entry of [`Robot::joints`] of the tilt of shoe A against its body, within ±π/2.
+/// The index in a module's entry of [`Robot::joints`] of the tilt of shoe A against its body, within ±π/2 rad.
 pub const ALPHA: usize = 0;
-/// Index in a module's entry of [`Robot::joints`] of the tilt of shoe B against its body, within ±π/2.
+/// The index in a module's entry of [`Robot::joints`] of the tilt of shoe B against its body, within ±π/2 rad.
 pub const BETA: usize = 1;
-/// Index in a module's entry of [`Robot::joints`] of the twist of the two bodies against each other, without limits.
+/// The index in a module's entry of [`Robot::joints`] of the twist of the two bodies against each other, rad, without
+/// limits.
 pub const GAMMA: usize = 2;
 
-/// Number of docks of a module: those of shoe A at indices 0 to 2, then those of shoe B.
+/// The number of docks of a module: those of shoe A at indices 0 to 2, then those of shoe B.
 pub const DOCKS: usize = 6;
-/// Number of docks of a shoe: +X, -X and -Z, in that order.
+/// The number of docks of a shoe: +X, -X and -Z, in that order.
 pub const FACES: usize = 3;
-/// Index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the red connector of the [paper](super).
+/// The index among the docks of a shoe, 0 to 2, of the dock -Z at its end: the red connector of [Mrázek et
+/// al.](super).
 pub const RED: usize = 2;
 
 /// A dock of a module, numbered through both of its shoes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dock {
-    /// Index of the module in [`Robot::joints`], from 0.
+    /// The index of the module in [`Robot::joints`], from 0.
     pub module: usize,
-    /// 0 to 5: [`FACES`] times 0 for shoe A or 1 for shoe B, plus 0 for +X, 1 for -X, [`RED`] for -Z.
+    /// The number of the dock, 0 to 5: [`FACES`] times 0 for shoe A or 1 for shoe B, plus 0 for +X, 1 for -X, [`RED`]
+    /// for -Z.
     pub dock: usize,
 }
 
 /// A bond: two docks that are docked to each other, or were.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bond {
-    /// The one dock.
+    /// The first dock of the bond.
     pub a: Dock,
-    /// The other dock.
+    /// The second dock of the bond.
     pub b: Dock,
-    /// Turn about the common normal in quarter turns: 0 is N, 1 E, 2 S, 3 W.
+    /// The turn about the common normal in quarter turns: 0 is north (N), 1 east (E), 2 south (S), 3 west (W).
     pub turn: u32,
 }
 
 /// A configuration of RoFI modules: joint positions and bonds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
-    /// Positions of alpha, beta and gamma of each module, rad; the index of a module here, from 0, names it in the
-    /// whole planner.
+    /// The positions of alpha, beta and gamma of each module, rad; the index of a module here, from 0, names it in
+    /// the whole planner.
     pub joints: Vec<[f64; 3]>,
-    /// All bonds, closed and open ones.
+    /// The bonds of the robot, closed and open ones.
     pub bonds: Vec<Bond>,
-    /// For each of `bonds`, true if it is closed.
+    /// The flag of each bond of [`Robot::bonds`]: true if it is closed.
     pub holds: Vec<bool>,
 }
 
 impl Dock {
-    /// Returns the shoe that carries the dock: twice the module, plus one for shoe B.
+    /// Returns the number of the shoe that carries the dock: twice the module's index, plus one for shoe B.
     pub fn shoe(self) -> usize {
         2 * self.module + self.dock / FACES
     }
 
-    /// Returns the dock's face on its shoe: 0 for +X, 1 for -X, [`RED`] for -Z.
+    /// Returns the face of the shoe that carries the dock: 0 for +X, 1 for -X, [`RED`] for -Z.
     pub fn face(self) -> usize {
         self.dock % FACES
     }
 
-    /// Returns true for a dock -Z, one of the two by which modules form a snake.
+    /// Returns true for a dock -Z, one of the two of each module by which modules form a snake.
     pub fn is_red(self) -> bool {
         self.face() == RED
     }
 
-    /// Returns the dock -Z of a shoe, given by its number as of [`Dock::shoe`].
+    /// Returns the dock -Z of a shoe, given by the number of the shoe ([`Dock::shoe`]).
     pub fn red(shoe: usize) -> Dock {
         Dock { module: shoe / 2, dock: shoe % 2 * FACES + RED }
     }
 }
 
 impl Bond {
-    /// Returns true if a snake may have this bond: between two docks -Z, in orientation N.
+    /// Returns true if a snake may have this bond: it is between two docks -Z, without a turn (orientation N).
     pub fn is_snake_bond(&self) -> bool {
         self.a.is_red() && self.b.is_red() && self.turn == 0
     }
 }
 
 impl Robot {
-    /// Returns the number of modules.
+    /// Returns the number of modules of the robot.
     pub fn modules(&self) -> usize {
         self.joints.len()
     }
@@ -105,7 +108,7 @@ impl Robot {
 
     /// Returns the number of balls of the chain that is docked to the dock -Z of a shoe, given by its number
     /// ([`Dock::shoe`]): two for each module. The chain goes on from the dock -Z of each module's other shoe. For a
-    /// ring the number is greater than that of all balls of the robot.
+    /// ring the number is greater than that of all balls of the robot. Panics if there is no such shoe.
     pub fn beyond(&self, shoe: usize) -> usize {
         let at = self.bond_at();
         let (mut shoe, mut count) = (shoe, 0);

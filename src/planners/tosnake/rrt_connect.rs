@@ -19,9 +19,9 @@ const STEP_MAX: f64 = 0.5;
 /// A posture with the index of its parent; the root is its own.
 type Node = (Joints, usize);
 
-/// RRT-Connect in the space of some joints.
+/// RRT-Connect (Kuffner and LaValle 2000) in the space of some joints of the robot.
 pub struct RrtConnect<'a> {
-    /// The robot as collision and load checks see it.
+    /// The robot as checks of collisions and loads see it.
     pub scene: &'a Scene<'a>,
     /// The joints that turn; the others keep their positions at the start of the path.
     pub joints: &'a [JointRef],

@@ -68,7 +68,7 @@ const LOAD_COST: f64 = 8.0;
 /// number of modules bends between the ends.
 const FAILED_ATTEMPT_COST: f64 = 0.7;
 
-/// A sequence of steps to the snake.
+/// A sequence of steps from a start to the snake, as a search found it.
 #[derive(Clone, Debug)]
 pub struct StepSequence {
     /// The configuration in the end: alpha and beta are 0, gamma is a multiple of a whole turn. Its list
@@ -81,8 +81,8 @@ pub struct StepSequence {
 }
 
 /// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its torque limit
-/// during the motion, as far as the planner checks; without one the robot floats. The method of the [paper](super),
-/// chosen by [`Settings::collisions`], ignores the gravity model.
+/// during the motion, as far as the planner checks; without one the robot floats. The method of [Mrázek et
+/// al.](super), chosen by [`Settings::collisions`], ignores the gravity model.
 ///
 /// # Errors
 /// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, the paper's method has tried all

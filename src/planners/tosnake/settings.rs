@@ -3,10 +3,10 @@
 use super::fabrik;
 use super::inverse_kinematics;
 
-/// The settings of the whole search. The defaults are those of the language.
+/// The settings of the whole search of `tosnake`. The defaults are those of the language.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Seed of all random numbers; the same seed gives the same plan. Default 0.
+    /// The seed of all random numbers; the same seed gives the same plan. Default 0.
     pub seed: u64,
     /// Greatest number of forward kinematics of the whole robot, a measure of work that does not depend
     /// on the machine; it is compared between attempts, which may exceed it a little. Default [`BUDGET`].
@@ -25,9 +25,10 @@ pub struct Settings {
     pub detour_pairs_max: usize,
     /// Settings of the inverse kinematics that closes loops.
     pub inverse_kinematics: inverse_kinematics::Settings,
-    /// The states in which collisions are checked; everything but the default is the paper's own method.
+    /// The states in which collisions are checked; everything but the default is the method of [Mrázek et al.](super)
+    /// itself.
     pub collisions: Collisions,
-    /// Settings of FABRIK, the paper's own inverse kinematics.
+    /// The settings of FABRIK, the inverse kinematics of [Mrázek et al.](super).
     pub fabrik: fabrik::Settings,
     /// Number of threads that may work at once, on floating robots of 16 modules or more; the plan does not depend on
     /// it. Default 1; 0 counts as 1.
@@ -57,13 +58,14 @@ impl Default for Settings {
 /// The states in which collisions are checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collisions {
-    /// Every motion is checked over its whole duration: this planner's own search.
+    /// All states: every motion is checked over its whole duration, in this planner's own search.
     Motion,
-    /// No state is checked: the paper's method.
+    /// No state, one of the methods of [Mrázek et al.](super).
     None,
-    /// The states in which tips meet are checked: the paper's method.
+    /// The states in which tips meet, one of the methods of [Mrázek et al.](super).
     Detection,
-    /// The states in which tips meet are checked, and the inverse kinematics avoids collisions: the paper's method.
+    /// The states in which tips meet, and the inverse kinematics avoids collisions: one of the methods of [Mrázek et
+    /// al.](super).
     Avoidance,
 }
 

@@ -12,30 +12,30 @@ use std::sync::Arc;
 /// The positions of all joints: alpha, beta and gamma of each module, by module, rad.
 pub type Joints = Vec<[f64; 3]>;
 
-/// One step of a plan to the snake: joints turn together, or one bond changes.
+/// A step of a plan to the snake: joints turn together, or one bond changes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
     /// Joints turn at once, each at a constant rate, so that joint space is crossed in a straight line: for each joint
     /// (module, joint, final position in rad), with joints counted as [`ALPHA`](super::robot::ALPHA) says.
     Turn(Vec<(usize, usize, f64)>),
-    /// The bond of this index in [`Robot::bonds`] docks.
+    /// Docking: the bond of this index in [`Robot::bonds`] closes.
     Dock(usize),
-    /// The bond of this index in [`Robot::bonds`] undocks.
+    /// Undocking: the bond of this index in [`Robot::bonds`] opens.
     Undock(usize),
 }
 
 /// The robot during the search for the snake.
 #[derive(Clone, Debug)]
 pub struct State {
-    /// The configuration: joint positions and bonds.
+    /// The configuration at the present: joint positions and bonds.
     pub robot: Robot,
     /// The kinematic tree over the closed bonds.
     pub tree: Tree,
-    /// Poses of the shoes in the tree's order ([`Tree::shoe`]), in pitches, in the frame of its root.
+    /// The poses of the shoes in the tree's order ([`Tree::shoe`]), in pitches, in the frame of its root.
     pub poses: Vec<RigidTransform>,
-    /// Pairs of shoes docked to each other, as indices in the tree's order, the smaller first, ascending.
+    /// The pairs of shoes docked to each other, as indices in the tree's order, the smaller first, ascending.
     pub docked: Vec<(usize, usize)>,
-    /// The steps so far, in order.
+    /// The steps made so far, in order.
     pub steps: Vec<Step>,
     /// The number of forward-kinematics evaluations of the whole robot so far.
     pub work: u64,
@@ -100,7 +100,7 @@ impl State {
         self.tree.poses(&self.robot.joints, &mut self.poses);
     }
 
-    /// Returns the robot as collision and load checks see it.
+    /// Returns the robot as checks of collisions and loads see it.
     pub fn scene(&self) -> Scene<'_> {
         let load_limit = self.gravity.as_deref().map(|gravity| LoadLimit {
             gravity,
@@ -129,6 +129,7 @@ impl State {
     }
 
     /// Moves one joint of a module to a new position (rad), and adds a step. `joint`: 0 to 2 as in [`Robot::joints`].
+    /// Panics if there is no such module or joint.
     pub fn turn(&mut self, module: usize, joint: usize, to: f64) {
         self.steps.push(Step::Turn(vec![(module, joint, to)]));
         self.robot.joints[module][joint] = to;

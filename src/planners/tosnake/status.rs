@@ -6,20 +6,20 @@ use crate::planners::Progress;
 /// The figures of a search that is running or has ended: merges made of those needed, and the work so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SearchStatus {
-    /// Number of merges of chains that lead to a snake: one less than there are chains once all loops are open.
+    /// The number of merges of chains that lead to a snake: one less than there are chains once all loops are open.
     pub needed: usize,
-    /// Number of merges made; in a refusal of the paper's method the greatest that it came to.
+    /// The number of merges made; in a refusal of the method of [Mrázek et al.](super) the greatest that it came to.
     pub made: usize,
-    /// Number of attempts to bring a pair of ends together.
+    /// The number of attempts to bring a pair of ends together.
     pub tried: u64,
-    /// Number of forward kinematics of the whole robot that were evaluated.
+    /// The number of forward kinematics of the whole robot that were evaluated.
     pub work: u64,
-    /// Number of perturbations: one after each round in which no pair came together, or the last chain did not become
-    /// straight.
+    /// The number of perturbations: one after each round in which no pair came together, or the last chain did not
+    /// become straight.
     pub perturbations: u64,
-    /// Number of modules of the longest chain.
+    /// The number of modules of the longest chain.
     pub longest: usize,
-    /// Number of chains; a module without snake bonds is one.
+    /// The number of chains; a module without snake bonds is one.
     pub chains: usize,
 }
 

@@ -4,13 +4,13 @@
 /// radians.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
-    /// Least distance of the centres of two balls, in pitches. Balls touch at 1; the judge's limit is 0.999, and
+    /// The least distance of the centres of two balls, in pitches. Balls touch at 1; the judge's limit is 0.999, and
     /// the difference is what the check of motions, which is no proof, may be wrong by.
     pub min_distance: f64,
-    /// Least distance of balls during single turns, in pitches: a little more than the checks of whole motions
-    /// ask for, so that such a motion may begin there.
+    /// The least distance of the centres of balls during single turns, in pitches: a little more than the checks of
+    /// whole motions ask for, so that such a motion may begin there.
     pub turn_min_distance: f64,
-    /// Greatest deviation of a ball from a straight line in the middle of a step, in pitches: a part of the
+    /// The greatest deviation of a ball from a straight line in the middle of a step, in pitches: a part of the
     /// difference between [`Tolerances::min_distance`] and the judge's limit.
     pub deviation: f64,
     /// The shortest step of a check, as a fraction of the motion; a motion that needs shorter ones is refused.
@@ -18,31 +18,31 @@ pub struct Tolerances {
     /// The fraction by which a load may grow between checked instants: an axis turns as far as a ball moves that
     /// is one pitch away, so [`Tolerances::deviation`] bounds it, with a factor of five to spare.
     pub load_spare: f64,
-    /// Greatest closure residual of a bond that holds: in pitches for positions, without unit for rotations. The
-    /// limit of RoFI's own tools.
+    /// The greatest closure residual of a bond that holds: in pitches for positions, without unit for rotations. It
+    /// is the limit of RoFI's own tools.
     pub closure: f64,
-    /// Violation of a distance constraint, in pitches, below which it stays out of the active set.
+    /// The violation of a distance constraint, in pitches, below which it stays out of the active set.
     pub constraint: f64,
-    /// Deviation of entries of two transforms that count as equal, in pitches or without unit, and tolerance of
-    /// joint ranges, rad. On the lattice of quarter turns different ones deviate by half.
+    /// The deviation of entries of two transforms that count as equal, in pitches or without unit, and the tolerance
+    /// of joint ranges, rad. On the lattice of quarter turns different ones deviate by half.
     pub equal_transforms: f64,
-    /// Distance of two centres, in pitches, below which they are one ball's and have no normal: rounding.
+    /// The distance of two centres, in pitches, below which they are one ball's and have no normal: rounding.
     pub coincident: f64,
-    /// Distance from an axis, in pitches, below which a ball is on it and does not move about it: rounding.
+    /// The distance from an axis, in pitches, below which a ball is on it and does not move about it: rounding.
     pub on_axis: f64,
-    /// Sum of products of lengths, in squared pitches, below which nothing depends on a joint, and it stays.
+    /// The sum of products of lengths, in squared pitches, below which nothing depends on a joint, and it stays.
     pub indifferent: f64,
-    /// Angle by which a tilt may be inside a forbidden interval, rad: rounding.
+    /// The angle by which a tilt may be inside a forbidden interval, rad: rounding.
     pub interval: f64,
-    /// Angle between two turns that count as one, rad: rounding.
+    /// The angle between two turns that count as one, rad: rounding.
     pub turn: f64,
-    /// Tilts below this count as zero, rad: what rounding leaves of a turn to zero.
+    /// The tilt below which a joint counts as at zero, rad: what rounding leaves of a turn to zero.
     pub tilt: f64,
-    /// Relative difference of two pitches that count as equal: rounding.
+    /// The relative difference of two pitches that count as equal: rounding.
     pub pitch: f64,
-    /// Relative excess of a duration over the least, so that rounding does not break a limit.
+    /// The relative excess of a duration over the least, so that rounding does not break a limit.
     pub duration_spare: f64,
-    /// Least divisor where a step is scaled by the length of what it has to make good, in pitches or rad: any
+    /// The least divisor where a step is scaled by the length of what it has to make good, in pitches or rad: any
     /// shorter one needs no scaling.
     pub divisor: f64,
 }

@@ -7,7 +7,7 @@
 use super::robot::{ALPHA, BETA, DOCKS, GAMMA, Robot, across, mate};
 use crate::geometry::{RigidTransform, Vec3};
 
-/// A kinematic tree over the shoes of a robot.
+/// The kinematic tree over the shoes of a robot, whose edges are modules and closed bonds.
 #[derive(Clone, Debug)]
 pub struct Tree {
     /// The shoe at each index of the tree's order, which is depth-first from the root at 0; a shoe is named by its
@@ -15,9 +15,9 @@ pub struct Tree {
     pub shoe: Vec<usize>,
     /// The index in the tree's order of each shoe, by its number: the inverse of `shoe`.
     pub index: Vec<usize>,
-    /// For each index of the tree's order, the index of the shoe's parent; 0 for the root, whose index is 0.
+    /// The index in the tree's order of the parent of the shoe at each index; 0 for the root, whose index is 0.
     pub parent: Vec<usize>,
-    /// For each index of the tree's order, one past the last index of the shoe's subtree.
+    /// The end of each shoe's subtree: for each index of the tree's order, one past the last index of the subtree.
     pub end: Vec<usize>,
     link: Vec<Link>,
     /// The indices in [`Robot::bonds`] of the closed bonds that are not of the tree, ascending: each closes a
@@ -160,8 +160,9 @@ impl Tree {
         part
     }
 
-    /// Returns the index in [`Robot::bonds`] of the bond by which the shoe at `index` of the tree's order is docked to
-    /// its parent; `None` for the root, and where the parent is the other shoe of the module.
+    /// Returns the index in [`Robot::bonds`] of the bond by which the shoe at `index` of the tree's order is docked
+    /// to its parent; `None` for the root, and where the parent is the other shoe of the module. Panics if there is
+    /// no such index.
     pub fn bond(&self, index: usize) -> Option<usize> {
         match self.link[index] {
             Link::Mate { bond, .. } => Some(bond),
@@ -169,9 +170,10 @@ impl Tree {
         }
     }
 
-    /// Returns the closure residual of a bond, given by its index in [`Robot::bonds`]: the greatest absolute deviation
-    /// of an entry of its second shoe's pose from the pose that the bond asks for, in pitches for positions and
-    /// without unit for rotation matrices. `poses`: of the shoes, in the tree's order, in pitches.
+    /// Returns the closure residual of a bond, given by its index in [`Robot::bonds`]: the greatest absolute
+    /// deviation of an entry of its second shoe's pose from the pose that the bond asks for, in pitches for positions
+    /// and without unit for rotation matrices. `poses`: of the shoes, in the tree's order, in pitches. Panics if
+    /// there is no such bond.
     pub fn residual(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
         let wanted = poses[self.index[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));
@@ -181,7 +183,7 @@ impl Tree {
     }
 
     /// Returns the joints between the shoe at `index` of the tree's order and its parent: alpha, beta and gamma if
-    /// both are of one module, else none.
+    /// both are of one module, else none. Panics if there is no such index.
     pub fn joints_at(&self, index: usize) -> impl Iterator<Item = JointRef> {
         let module = self.shoe[index] / 2;
         let count = if matches!(self.link[index], Link::Module) { 3 } else { 0 };
@@ -211,12 +213,13 @@ impl Tree {
     }
 
     /// Returns true if the shoe at `index` is in the subtree of the one at `root`, itself included; both are indices
-    /// in the tree's order.
+    /// in the tree's order. Panics if `root` is no index of the tree.
     pub fn is_in_subtree(&self, index: usize, root: usize) -> bool {
         (root..self.end[root]).contains(&index)
     }
 
     /// Returns the path along the tree from one shoe to another, both given by their indices in the tree's order.
+    /// Panics if an index is none of the tree.
     pub fn path(&self, from: usize, to: usize) -> Path {
         let mut up = vec![from];
         let mut down = vec![to];

@@ -11,35 +11,35 @@ use crate::geometry::closest_points::{SegmentPair, end_segment, segment_segment}
 /// [`Structure::struts`], from 0, unless said otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Constraint {
-    /// A strut is not shorter than its range.
+    /// The lower length limit of a strut: it is not shorter than its range.
     LengthMin(usize),
-    /// A strut is not longer than its range.
+    /// The upper length limit of a strut: it is not longer than its range.
     LengthMax(usize),
-    /// Two struts, the lower first, keep the clearance.
+    /// The clearance between two struts, the lower index first.
     Clearance(usize, usize),
-    /// An end (0 or 1, second) of a strut (first) keeps the clearance from another strut (last). Stands
-    /// beside `Clearance` where two struts are nearly parallel, so that their closest points jump from end
-    /// to end and the distance is not smooth.
+    /// The clearance of an end (0 or 1, second number) of a strut (first) from another strut (last). It stands beside
+    /// `Clearance` where two struts are nearly parallel, so that their closest points jump from end to end and the
+    /// distance is not smooth.
     EndClearance(usize, usize, usize),
-    /// A node (its index in the positions) is not below the ground.
+    /// The height of a node (its index in the positions), which is not below the ground.
     NodeHeight(usize),
-    /// A sample point of a strut (first) is not too far below uneven ground; the second number, 0 to [`SAMPLES`],
-    /// counts the sample points from the strut's first node on.
+    /// The height of a sample point of a strut (first), which is not too far below uneven ground; the second number,
+    /// 0 to [`SAMPLES`], counts the sample points from the strut's first node on.
     StrutHeight(usize, usize),
-    /// An end (0 or 1, last) of a strut (first) stays on its side of the plane that separates the strut from a convex
-    /// part of an obstacle (second, an index in [`Surroundings::parts`](super::surroundings::Surroundings::parts)).
+    /// The clearance of an end (0 or 1, last) of a strut (first), which stays on its side of the plane that separates
+    /// the strut from a convex part of an obstacle (second, an index in
+    /// [`Surroundings::parts`](super::surroundings::Surroundings::parts)).
     ObstacleClearance(usize, usize, usize),
-    /// Two struts that share a node, the lower first, keep the least angle between them.
+    /// The angle between two struts that share a node, the lower index first, which is at least the limit.
     Angle(usize, usize),
-    /// The sum of the lengths of a loop (an index in [`Limits::loops`](super::structure::Limits::loops)) is not below
-    /// its range.
+    /// The lower limit of the sum of the lengths of a loop (an index in
+    /// [`Limits::loops`](super::structure::Limits::loops)).
     LoopMin(usize),
-    /// The sum of the lengths of a loop (an index in [`Limits::loops`](super::structure::Limits::loops)) is not above
-    /// its range.
+    /// The upper limit of the sum of the lengths of a loop (an index in
+    /// [`Limits::loops`](super::structure::Limits::loops)).
     LoopMax(usize),
-    /// A singular value of the rigidity matrix is not below its limit: of the mode i for (i, i), counted
-    /// from the least; of two modes together, (i, j) for the sum of their vectors if i < j and for the
-    /// difference if i > j.
+    /// The lower limit of a singular value of the rigidity matrix: of the mode i for (i, i), counted from the least;
+    /// of two modes together, (i, j) for the sum of their vectors if i < j and for the difference if i > j.
     Rigidity(usize, usize),
 }
 

@@ -10,18 +10,19 @@ use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Surrou
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Move {
-    /// Every node moves at constant velocity to its position here, m, in the order of the nodes.
+    /// A linear move: every node moves at constant velocity to its position here, m, in the world's frame, in the
+    /// order of the nodes.
     Linear(Vec<Vec3>),
-    /// The whole truss topples over an edge as a rigid body.
+    /// A roll: the whole truss topples over an edge as a rigid body.
     Roll(Roll),
 }
 
 /// The time law of a truss's motion: the limits of the duration of its moves besides the speed of the struts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeLaw {
-    /// The shortest duration of a step, s. 1 ms: no two keyframes at the same time.
+    /// The shortest duration of a step, s. Default 1 ms: no two keyframes at the same time.
     pub step_duration_min: f64,
-    /// The angular speed of rolls, rad/s. 1: the robot topples by itself, and nothing depends on it.
+    /// The angular speed of rolls, rad/s. Default 1: the robot topples by itself, and nothing depends on it.
     pub roll_speed: f64,
 }
 

@@ -29,14 +29,15 @@ pub struct TrussProblem {
     pub strut: Strut,
     /// A name for each node, for messages and the plan, in the order of `nodes` and as many.
     pub node_names: Vec<String>,
-    /// The position of each node at the start, m; the index of a node here, from 0, names it in the whole planner.
+    /// The position of each node at the start, m, in the world's frame; the index of a node here, from 0, names it in
+    /// the whole planner.
     pub nodes: Vec<Vec3>,
     /// The two nodes of each strut, as indices in `nodes`; the index of a strut here, from 0, names it in the whole
     /// planner.
     pub struts: Vec<(usize, usize)>,
-    /// Limits of the shape beside those of the struts.
+    /// The limits of the shape of the truss beside those of the struts.
     pub limits: Limits,
-    /// Solids that struts keep their clearance from, each a union of shapes.
+    /// The solids that struts keep their clearance from, each a union of shapes, in the world's frame.
     pub obstacles: Vec<Vec<Placed>>,
     /// The ground; `None` for flat ground at height 0.
     pub terrain: Option<HeightField>,
@@ -50,17 +51,17 @@ pub enum InvalidTruss {
     Incomplete,
     /// A strut joins a node to itself, to an index that is no node, or to a node at the same position.
     Degenerate {
-        /// The index of the strut.
+        /// The index of the strut in [`TrussProblem::struts`].
         strut: usize,
     },
     /// A coordinate of a node is farther than [`EXTENT_MAX`] from 0, or not finite.
     TooFar {
-        /// The name of the node.
+        /// The name of the node, as the problem states it.
         node: String,
     },
     /// A shape of an obstacle is not sound, or at a pose that is not.
     NotSolid {
-        /// The index of the obstacle.
+        /// The fault of the obstacle's shapes.
         obstacle: usize,
         /// The fault of its shapes.
         why: Unsound,
@@ -71,32 +72,32 @@ pub enum InvalidTruss {
     RigidityLimit,
     /// Rigidity is limited, and there are more than [`RIGIDITY_NODES_MAX`] nodes.
     RigidityNodes {
-        /// The number of nodes.
+        /// The number of nodes of the truss.
         nodes: usize,
     },
     /// A loop has fewer than two struts.
     ShortLoop,
     /// A strut is nearer to an obstacle than its clearance at the start.
     NearObstacle {
-        /// The name of the strut.
+        /// The name of the strut, from the names of its nodes: `a -- b`.
         strut: String,
-        /// The index of the obstacle.
+        /// The index of the obstacle in [`TrussProblem::obstacles`].
         obstacle: usize,
-        /// The clearance, m.
+        /// The clearance that the strut has to keep, m.
         clearance: f64,
     },
     /// A strut is deeper in uneven ground than `depth_max` at the start.
     BelowGround {
-        /// The name of the strut.
+        /// The name of the strut, from the names of its nodes: `a -- b`.
         strut: String,
-        /// Its greatest depth, m.
+        /// The greatest depth of the strut below the ground, m.
         depth: f64,
-        /// The depth allowed, m.
+        /// The greatest depth that is allowed, m.
         depth_max: f64,
     },
     /// A node is inside an obstacle at the start.
     InsideObstacle {
-        /// The index of the obstacle.
+        /// The index of the obstacle in [`TrussProblem::obstacles`].
         obstacle: usize,
     },
 }

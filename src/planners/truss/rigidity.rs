@@ -16,7 +16,7 @@ const RIGID: usize = 6;
 /// nodes' coordinates (right).
 #[derive(Clone)]
 pub(super) struct Mode {
-    /// The singular value, without unit.
+    /// The singular value of the rigidity matrix, without unit.
     pub value: f64,
     struts: Vec<f64>,
     nodes: DVector<f64>,

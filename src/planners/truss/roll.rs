@@ -11,13 +11,13 @@ use std::f64::consts::TAU;
 /// The number of rolls in a row after which a truss that still topples counts as one that never rests.
 pub(in crate::planners) const ROLLS_MAX: usize = 50;
 
-/// A rigid rotation about the line through two nodes.
+/// A roll of a truss: a rigid rotation about the line through two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roll {
     /// The indices of the two nodes on the axis, which keep their positions; the axis points from the first to the
     /// second.
     pub edge: (usize, usize),
-    /// The angle by the right-hand rule, rad.
+    /// The angle of the roll by the right-hand rule about the axis, rad.
     pub angle: f64,
 }
 

@@ -12,9 +12,9 @@ const ADVANCEMENT_STEPS_MAX: usize = 20_000;
 /// A directed line; rotations about it are by the right-hand rule.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::planners) struct Axis {
-    /// A point of the line, m.
+    /// A point of the axis of rotation, m.
     pub origin: Vec3,
-    /// The direction, a unit vector.
+    /// The direction of the axis, a unit vector.
     pub along: Vec3,
 }
 

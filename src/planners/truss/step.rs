@@ -28,8 +28,8 @@ const MODES: usize = 4;
 /// 3k to 3k + 2. Costs have no unit of their own: only their ratios count.
 #[derive(Clone, Debug, Default)]
 pub struct QuadraticCost {
-    /// H as (row, column, value), on and above the diagonal only; repeated entries add up. It must be positive
-    /// semidefinite.
+    /// The matrix H as (row, column, value), on and above the diagonal only; repeated entries add up. It must be
+    /// positive semidefinite.
     pub hessian: Vec<(usize, usize, f64)>,
     /// The vector c, one entry for each coordinate, three for each node.
     pub linear: Vec<f64>,
@@ -40,16 +40,16 @@ pub struct QuadraticCost {
 
 /// The problem of one step: minimise a cost under the constraints of a truss.
 pub struct StepProblem<'a> {
-    /// The truss with its limits.
+    /// The truss with its limits and surroundings.
     pub truss: &'a Structure,
-    /// The positions of the nodes at the start, m.
+    /// The positions of the nodes at the start of the step, by index, in the world's frame, m.
     pub x: &'a [Vec3],
-    /// The cost of displacements.
+    /// The cost of displacements that the step minimises.
     pub cost: &'a QuadraticCost,
     /// The indices of the nodes that keep their positions.
     pub pinned: &'a [usize],
-    /// The displacement of the centre of mass, m, along some axes of the world (0 to 2 for x, y, z); along the others
-    /// it is free.
+    /// The displacement that the centre of mass makes in the step, m, as (axis of the world, 0 to 2 for x, y, z;
+    /// displacement); along other axes it is free.
     pub centre_of_mass: &'a [(usize, f64)],
     /// True if nodes, and struts over uneven ground, must not get below the ground.
     pub ground: bool,
@@ -60,9 +60,10 @@ pub struct StepProblem<'a> {
 /// The reason why there is no step, with the constraints that had rows in the last quadratic program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepError {
-    /// The rows contradict each other.
+    /// The rows of the quadratic program contradict each other; the constraints are those that had rows.
     Infeasible(Vec<Constraint>),
-    /// The rows did not settle within the rounds allowed, or the solver failed numerically.
+    /// The rows did not settle within the rounds allowed, or the solver failed numerically; the constraints are those
+    /// that had rows.
     NotConverged(Vec<Constraint>),
 }
 
@@ -70,7 +71,7 @@ pub enum StepError {
 /// begins with the default.
 #[derive(Clone, Debug, Default)]
 pub struct WarmStart {
-    /// The constraints that were nearly active at the end of the step.
+    /// The constraints that were nearly active at the end of the last step.
     pub active: Vec<Constraint>,
     /// The pairs of struts that may come near; `None` before the first step.
     neighbours: Option<NeighbourList>,

@@ -9,11 +9,11 @@ use crate::robot::Strut;
 /// positions of its nodes are no part of it; functions take them as `x`, m, in the world's frame, one for each node.
 #[derive(Clone, Debug)]
 pub struct Structure {
-    /// The number of nodes.
+    /// The number of nodes of the truss.
     pub nodes: usize,
     /// The indices of the two nodes of each strut; the index of a strut here, from 0, names it in the whole planner.
     pub struts: Vec<(usize, usize)>,
-    /// The least and the greatest length of each strut, in the order of `struts`, m.
+    /// The least and the greatest length of each strut, m, in the order of `struts`.
     pub lengths: Vec<(f64, f64)>,
     /// The greatest rate of length of a strut, m/s.
     pub speed: f64,
@@ -29,13 +29,13 @@ pub struct Structure {
     pub loop_ranges: Vec<(f64, f64)>,
     /// Pairs of struts (indices) that share a node, the lesser index first; empty unless their angles are limited.
     pub corners: Vec<(usize, usize)>,
-    /// The obstacles and the terrain.
+    /// The obstacles and the terrain in the world's frame.
     pub surroundings: Surroundings,
     /// The tolerances of all computations on this truss.
     pub tolerances: Tolerances,
 }
 
-/// Limits of the shape of a truss beside those that every strut has.
+/// The limits of the shape of a truss beside those that every strut has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limits {
     /// The least angle between struts that share a node, rad, below π/3; 0 for no limit.
@@ -43,9 +43,9 @@ pub struct Limits {
     /// The lower limit after every step on the smallest singular value of the rigidity matrix (rows of unit vectors)
     /// that belongs to no rigid motion, without unit; 0 for no limit.
     pub rigidity: f64,
-    /// Indices of struts that keep their length at the start: they failed, or have no motor.
+    /// The indices of struts that keep their length at the start: they failed, or have no motor.
     pub locked: Vec<usize>,
-    /// Sets of struts (indices) made of one tube or cable: the sum of the lengths of each set stays.
+    /// The loops: sets of struts (indices) made of one tube or cable; the sum of the lengths of each set stays.
     pub loops: Vec<Vec<usize>>,
 }
 
@@ -118,7 +118,7 @@ impl Structure {
     }
 
     /// Returns three indices of nodes: the one that the struts `i` and `j` share, the other end of `i`, and the other
-    /// end of `j`. The struts must share a node.
+    /// end of `j`. The struts must share a node. Panics if there is no such strut.
     pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         match (a == c, a == d, b == c) {
@@ -129,19 +129,21 @@ impl Structure {
         }
     }
 
-    /// Returns the length of a strut, given by its index, with the nodes at `x`, m.
+    /// Returns the length, m, of a strut, given by its index, with the nodes at `x`, m. Panics if there is no such
+    /// strut.
     pub fn length(&self, x: &[Vec3], strut: usize) -> f64 {
         let (a, b) = self.struts[strut];
         (x[a] - x[b]).norm()
     }
 
-    /// Returns the positions of the two ends of a strut, given by its index, with the nodes at `x`, m.
+    /// Returns the positions of the two ends of a strut, given by its index, with the nodes at `x`, m. Panics if
+    /// there is no such strut.
     pub fn segment(&self, x: &[Vec3], strut: usize) -> (Vec3, Vec3) {
         let (a, b) = self.struts[strut];
         (x[a], x[b])
     }
 
-    /// Returns true if two struts, given by their indices, have a node in common.
+    /// Returns true if two struts, given by their indices, have a node in common. Panics if there is no such strut.
     pub fn share_node(&self, i: usize, j: usize) -> bool {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         a == c || a == d || b == c || b == d

@@ -22,20 +22,20 @@ const DISC: [[f64; 2]; 9] = [
 pub struct Surroundings {
     /// The convex parts of all obstacles, in the world's frame, each with the index of its obstacle, from 0.
     pub parts: Vec<(usize, Part)>,
-    /// The ground; `None` for a plane at height 0.
+    /// The ground as a height field in the world's frame; `None` for a plane at height 0.
     pub terrain: Option<HeightField>,
     /// The depth to which struts may be below the ground that nodes stand on, m: nodes are thicker.
     /// Planners leave the tolerance `ground_margin` of it unused.
     pub sink_depth: f64,
-    /// The greatest slope of the terrain, rise over run; 0 without terrain.
+    /// The greatest slope of the terrain, height over distance, without unit; 0 without terrain.
     pub slope_max: f64,
     /// The greatest height of the terrain, m; 0 without terrain.
     pub height_max: f64,
 }
 
 impl Surroundings {
-    /// Prepares obstacles and terrain, both in the world's frame; `sink_depth`: m. The terrain must be sound
-    /// ([`HeightField::fault`]).
+    /// Returns obstacles and terrain, both in the world's frame, prepared for distance queries; `sink_depth`: the
+    /// depth to which struts may be below the ground, m. The terrain must be sound ([`HeightField::fault`]).
     pub fn new(obstacles: &[Solid], terrain: Option<HeightField>, sink_depth: f64) -> Surroundings {
         let parts = obstacles.iter().enumerate();
         let slope_max = terrain.as_ref().map_or(0.0, HeightField::steepest);
@@ -76,13 +76,13 @@ impl Surroundings {
 
     /// Returns the signed distance between a strut, given by its ends (m), and the part at index `part` of
     /// [`Surroundings::parts`], with its direction, as [`segment_part`] does; distances beyond `enough` (m) may be
-    /// returned too small, but not below `enough`.
+    /// returned too small, but not below `enough`. Panics if there is no such part.
     pub fn signed_distance(&self, strut: (Vec3, Vec3), part: usize, enough: f64) -> SignedDistance {
         segment_part(strut, &self.parts[part].1, enough)
     }
 
     /// Returns false if the bounding spheres of a strut, given by its ends (m), and of the part at index `part` of
-    /// [`Surroundings::parts`] are farther apart than `reach`, m.
+    /// [`Surroundings::parts`] are farther apart than `reach`, m. Panics if there is no such part.
     pub fn may_collide(&self, (a, b): (Vec3, Vec3), part: usize, reach: f64) -> bool {
         let part = &self.parts[part].1;
         ((a + b) / 2.0 - part.centre).norm() - (b - a).norm() / 2.0 - part.radius <= reach

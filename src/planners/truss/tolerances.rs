@@ -5,62 +5,62 @@
 /// make the planners independent of the size of the truss.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
-    /// The value below 0, in units, from which a constraint counts as violated. 1e-10: far above
-    /// the rounding of doubles, far below what the judge allows.
+    /// The value below 0, in units, from which a constraint counts as violated. Default 1e-10: far above the rounding
+    /// of doubles, far below what the judge allows.
     pub rounding: f64,
     /// The margin added to the clearance (units) and to the least angle (rad) during planning, so that conservative
-    /// advancement between the ends of a step ends after finitely many samples. 2e-4: two samples for
-    /// most pairs, and nothing of the clearance lost that matters.
+    /// advancement between the ends of a step ends after finitely many samples. Default 2e-4: two samples for most
+    /// pairs, and nothing of the clearance lost that matters.
     pub clearance_margin: f64,
-    /// The value, in units, that a row of the quadratic program asks a constraint to keep at first. 1e-6:
+    /// The value, in units, that a row of the quadratic program asks a constraint to keep at first. Default 1e-6:
     /// above `qp_residual`, so that the solver's error violates nothing.
     pub bound_inset: f64,
-    /// The factor by which a row that is violated again asks for more than the shortfall; above 1, so
-    /// that second-order terms are overtaken. 1.5: the livelock of the paper's Algorithm 1 ends in two or
-    /// three rounds.
+    /// The factor by which a row that is violated again asks for more than the shortfall; above 1, so that
+    /// second-order terms are overtaken. Default 1.5: the livelock of Algorithm 1 of [Usevitch et al.](super) ends in
+    /// two or three rounds.
     pub row_gain: f64,
-    /// The value, in units, below which a constraint stays in the active set for the next step. 0.02:
-    /// a little less than half a step.
+    /// The value, in units, below which a constraint stays in the active set for the next step. Default 0.02: a
+    /// little less than half a step.
     pub active_band: f64,
-    /// The residual of the rows that the quadratic program is solved to, units. 1e-9.
+    /// The residual of the rows that the quadratic program is solved to, units. Default 1e-9.
     pub qp_residual: f64,
-    /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole
-    /// step. 0.02: smaller fractions would ask for rows far beyond reach.
+    /// The least fraction of a shortened step by which a shortfall is divided to scale it to the whole step. Default
+    /// 0.02: smaller fractions would ask for rows far beyond reach.
     pub step_fraction_min: f64,
     /// The sine of the angle between two struts below which they get a row for each end besides the one for their
-    /// closest points, which jump from end to end. 0.1.
+    /// closest points, which jump from end to end. Default 0.1.
     pub parallel_sine: f64,
-    /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines, so a
-    /// strut that turns gets shorter during the step. 2e-3.
+    /// The slack of a length, or sum of lengths, that has to stay, units: nodes move on straight lines, so a strut
+    /// that turns gets shorter during the step. Default 2e-3.
     pub locked_slack: f64,
-    /// The part of the depth to which struts may be below uneven ground that planners leave unused,
-    /// units. 1e-4: the judge samples elsewhere.
+    /// The part of the depth to which struts may be below uneven ground that planners leave unused, units. Default
+    /// 1e-4: the judge samples elsewhere.
     pub ground_margin: f64,
-    /// The height above the ground, units, up to which nodes are contacts. 1e-4.
+    /// The height above the ground, units, up to which nodes are contacts. Default 1e-4.
     pub contact_height: f64,
-    /// The truss is statically stable if its centre of mass is farther inside the support polygon than
-    /// this, units. 1e-9.
+    /// The distance of the centre of mass inside the support polygon, units, above which the truss is statically
+    /// stable. Default 1e-9.
     pub stability_margin: f64,
-    /// The least angle of a rotation, rad; a touchdown at a lesser one counts as a whole turn later. 1e-9.
+    /// The least angle of a rotation, rad; a touchdown at a lesser one counts as a whole turn later. Default 1e-9.
     pub rotation_min: f64,
-    /// The distance from the axis of a rotation, units, up to which a node does not move. 1e-9.
+    /// The distance from the axis of a rotation, units, up to which a node does not move. Default 1e-9.
     pub on_axis: f64,
-    /// The height above the ground, units, up to which a falling node has landed. 1e-11: far below
+    /// The height above the ground, units, up to which a falling node has landed. Default 1e-11: far below
     /// `contact_height`, so that it counts as a contact.
     pub touchdown_tol: f64,
-    /// The height above the ground, units, from which a node that started on it has left it. 2e-4: above
+    /// The height above the ground, units, from which a node that started on it has left it. Default 2e-4: above
     /// `contact_height`.
     pub liftoff_height: f64,
-    /// The part of the clearance from obstacles that may be missing during a roll, units. 1e-4: so that
+    /// The part of the clearance from obstacles that may be missing during a roll, units. Default 1e-4: so that
     /// conservative advancement ends.
     pub roll_clearance_margin: f64,
     /// The distance beyond the plane of a face, units, up to which nodes lie on it; and six times the volume, cubic
-    /// units, up to which tetrahedra are flat. 1e-6.
+    /// units, up to which tetrahedra are flat. Default 1e-6.
     pub coplanar: f64,
 }
 
 impl Tolerances {
-    /// The defaults, as the fields' documentation gives them.
+    /// The default tolerances, whose values the fields' documentation gives.
     pub const DEFAULT: Tolerances = Tolerances {
         rounding: 1e-10,
         clearance_margin: 2e-4,
