@@ -60,27 +60,27 @@ pub(super) enum DefItem<'a> {
 
 /// The state of checking of one declaration.
 pub(super) struct DefInfo<'a> {
-    /// The name of the declaration.
+    /// The name that is declared.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The span of the whole declaration.
     pub whole: Span,
-    /// Its file, an index into [`Loaded::files`](super::load::Loaded::files).
+    /// The file of the declaration, as an index into [`Loaded::files`](super::load::Loaded::files).
     pub file: usize,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
     /// The syntax tree of the declaration.
     pub item: DefItem<'a>,
-    /// Its signature; `None` until it is computed.
+    /// The signature of the declaration; `None` until it is computed.
     pub signature: Option<Rc<Signature>>,
-    /// Its members; `None` until they are computed.
+    /// The members of the declaration; `None` until they are computed.
     pub members: Option<Rc<Members<'a>>>,
-    /// Its typed body; `None` until it is checked.
+    /// The typed body of the declaration; `None` until it is checked.
     pub typed: Option<DefKind>,
     /// The type of a `let`, or the inferred result of a `fn`; `None` until it is computed.
     pub inferred: Option<Type>,
-    /// True while its body is being checked; needing it then is a cycle.
+    /// True while the body is being checked; needing it then is a cycle.
     pub busy: bool,
 }
 
@@ -123,15 +123,15 @@ pub(super) enum Bound {
 /// A parameter of a signature.
 #[derive(Clone, Debug)]
 pub(super) struct ParamInfo {
-    /// The name of the parameter.
+    /// The name of the parameter, by which calls may name the argument.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The type of the parameter.
+    /// The type that arguments of the parameter must fit.
     pub ty: Type,
-    /// True if it has a default.
+    /// True if the parameter has a default.
     pub has_default: bool,
-    /// True if it takes all remaining positional arguments.
+    /// True if the parameter takes all remaining positional arguments.
     pub variadic: bool,
 }
 
@@ -163,13 +163,13 @@ pub(super) struct Members<'a> {
 
 /// A member by its text.
 pub(super) struct MemberInfo<'a> {
-    /// The name of the member.
+    /// The name of the member, as in `object.name`.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
-    /// Its kind, with its tree.
+    /// The kind of the member, with its syntax tree.
     pub kind: MemberInfoKind<'a>,
 }
 
@@ -195,17 +195,17 @@ pub(super) enum MemberInfoKind<'a> {
 
 /// A joint of a module by its text.
 pub(super) struct JointInfo<'a> {
-    /// The name of the joint.
+    /// The name of the joint, by which programs command it.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
-    /// The clause that declares it.
+    /// The clause that declares the joint.
     pub clause: &'a ast::ModuleClauseKind,
     /// A further clause `joint b = -a` by which a joint between links follows others; `None` if there is none.
     pub follows: Option<&'a ast::ModuleClauseKind>,
-    /// The dimension of its position: an angle or a length.
+    /// The dimension of the joint's position: an angle or a length.
     pub dimension: crate::units::Dimension,
 }
 
@@ -213,11 +213,11 @@ pub(super) struct JointInfo<'a> {
 pub(super) struct PortInfo {
     /// The name of the port, or of the array of ports.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
-    /// True for an array.
+    /// True if the port is an array.
     pub array: bool,
 }
 
@@ -225,15 +225,15 @@ pub(super) struct PortInfo {
 pub(super) struct BehaviorInfo<'a> {
     /// The syntax tree of the behaviour.
     pub ast: &'a ast::Behavior,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
-    /// Its parameters; the result is a behaviour.
+    /// The signature of the behaviour: its parameters; the result is a behaviour.
     pub signature: Rc<Signature>,
 }
 
 /// The state of checking a program.
 pub(super) struct Checker<'a> {
-    /// The parsed files.
+    /// The parsed files of the program with their imports.
     pub loaded: &'a Loaded,
     /// The texts that were read, to which spans refer.
     pub sources: &'a Sources,
@@ -250,7 +250,7 @@ pub(super) struct Checker<'a> {
     /// The number of slots that the expressions of a declaration's members need, by declaration; none for one without
     /// such expressions.
     pub member_frames: HashMap<DefId, usize>,
-    /// The diagnostics so far.
+    /// The diagnostics found so far, in order.
     pub diagnostics: Vec<Diagnostic>,
     /// The number of declarations being checked, each needed by the one before.
     pub open_declarations: usize,

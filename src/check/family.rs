@@ -7,35 +7,35 @@ use crate::units::Dimension;
 /// A family of declarations with instances, by the keyword that begins them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// `module` declarations.
+    /// The family of `module` declarations: modules with links, joints and ports.
     Module,
-    /// `config` declarations.
+    /// The family of `config` declarations: configurations of modules.
     Config,
-    /// `cell` declarations.
+    /// The family of `cell` declarations, of which lattices are made.
     Cell,
-    /// `strut` declarations.
+    /// The family of `strut` declarations, of which trusses are made.
     Strut,
-    /// `lattice` declarations.
+    /// The family of `lattice` declarations.
     Lattice,
-    /// `truss` declarations.
+    /// The family of `truss` declarations.
     Truss,
 }
 
 /// A fact that every declaration of a family states: none may be left out.
 #[derive(Debug)]
 pub struct Fact {
-    /// The word in the declaration, such as `size`.
+    /// The word for the fact in the declaration, such as `size`.
     pub name: &'static str,
-    /// The dimension of its value.
+    /// The dimension of the fact's value.
     pub dimension: Dimension,
-    /// The form of its value.
+    /// The form that the fact's value must have.
     pub form: FactForm,
 }
 
 /// The form that the value of a fact must have: `check` asks for its type, elaboration for its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactForm {
-    /// A quantity above zero.
+    /// A single quantity above zero.
     Positive,
     /// A range from a quantity above zero to a larger one.
     PositiveRange,
@@ -68,7 +68,7 @@ impl Family {
     pub const ALL: [Family; 6] =
         [Family::Module, Family::Config, Family::Cell, Family::Strut, Family::Lattice, Family::Truss];
 
-    /// Returns the name of the supertype of its declarations: `Module`.
+    /// Returns the name of the supertype of the family's declarations, such as `Module`.
     pub fn name(self) -> &'static str {
         match self {
             Family::Module => "Module",
@@ -80,7 +80,7 @@ impl Family {
         }
     }
 
-    /// Returns the keyword of its declarations: `module`.
+    /// Returns the keyword of the family's declarations, such as `module`.
     pub fn word(self) -> &'static str {
         match self {
             Family::Module => "module",
@@ -92,8 +92,8 @@ impl Family {
         }
     }
 
-    /// Returns the family whose robots are made of these; `None` for those that stand alone or are parts of a
-    /// configuration.
+    /// Returns the family whose robots are made of instances of this one, as lattices of cells; `None` for those that
+    /// stand alone or are parts of a configuration.
     pub fn container(self) -> Option<Family> {
         match self {
             Family::Cell => Some(Family::Lattice),
@@ -102,7 +102,8 @@ impl Family {
         }
     }
 
-    /// Returns the facts that its declarations state, in a fixed order; empty for families with a body of clauses.
+    /// Returns the facts that the declarations of the family state, in a fixed order; empty for families with a body
+    /// of clauses.
     pub fn facts(self) -> &'static [Fact] {
         match self {
             Family::Cell => CELL,
@@ -121,11 +122,11 @@ impl From<FactsFamily> for Family {
     }
 }
 
-/// The parts that the declarations of all families have.
+/// The parts that the declarations of all families of instances have: parameters, members, frame.
 pub struct Instantiable<'p> {
-    /// The family.
+    /// The family of the declaration.
     pub family: Family,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: &'p [Param],
     /// The parameters, and what the body names; a [`MemberId`](super::typed::MemberId) is an index into them.
     pub members: &'p [Member],

@@ -11,9 +11,9 @@ use std::collections::HashMap;
 pub(super) struct LoadedFile {
     /// The syntax tree of the file.
     pub ast: ast::File,
-    /// The names that it imports, in the order of the text.
+    /// The names that the file imports, in the order of the text.
     pub imports: Vec<Import>,
-    /// True for an entry of a session: all entries have one scope.
+    /// True if the file is an entry of a session: all entries have one scope.
     pub entry: bool,
     /// The name of the declaration that `_` stands for in an entry: the value of the last expression before it. `None`
     /// in files, and if there is no such value.
@@ -23,11 +23,11 @@ pub(super) struct LoadedFile {
 /// A name that a `use` brings into a file.
 #[derive(Clone, Copy)]
 pub(super) struct Import {
-    /// The name in the importing file.
+    /// The name that the import gets in the importing file.
     pub name: Symbol,
-    /// The span of the name in the `use`.
+    /// The span of the name in the `use` clause.
     pub span: Span,
-    /// The imported file or item.
+    /// The file or the declaration that the import stands for.
     pub target: ImportTarget,
 }
 
@@ -49,7 +49,7 @@ const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
 /// session the file to run is the newest entry, and an entry never changes the indices of those before it.
 #[derive(Default)]
 pub(super) struct Loaded {
-    /// The files, the index of each standing for it elsewhere.
+    /// The files read so far; the index of a file here, from 0, stands for it elsewhere.
     pub files: Vec<LoadedFile>,
     /// The index of the file to run; `None` if it could not be read.
     pub root: Option<usize>,
@@ -60,11 +60,11 @@ pub(super) struct Loaded {
 /// An entry of a session: the text entered at one time.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Its name in diagnostics.
+    /// The name of the entry in diagnostics.
     pub name: String,
-    /// Its text.
+    /// The text of the entry, as the user typed it.
     pub text: String,
-    /// The line, from 1, of a longer input at which it begins; 1 if it is the whole input.
+    /// The line, from 1, of a longer input at which the entry begins; 1 if it is the whole input.
     pub first_line: usize,
     /// The name under which the value of its last expression is declared; `None` if it is not.
     pub value: Option<Symbol>,
@@ -75,9 +75,9 @@ pub struct Entry {
 /// The state of loading.
 pub(super) struct Loader<'a> {
     files: &'a dyn Files,
-    /// The texts read so far.
+    /// The texts read so far, by which spans are resolved.
     pub sources: Sources,
-    /// The diagnostics so far.
+    /// The diagnostics found so far, in order.
     pub diagnostics: Vec<Diagnostic>,
     loaded: Vec<Option<LoadedFile>>,
     by_name: HashMap<String, Option<usize>>,

@@ -7,7 +7,7 @@ use crate::source::Symbol;
 /// The entity that a name at the top of a file stands for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
-    /// A declaration.
+    /// A declaration, by its identity.
     Def(DefId),
     /// An imported file, with its public declarations, sorted by name.
     File(Vec<(Symbol, DefId)>),

@@ -46,7 +46,7 @@ pub use meaning::Meaning;
 pub use typed::Program;
 pub use types::{Choice, Type};
 
-/// The result of checking a file with all that it imports.
+/// The result of checking a file with all that it imports: the typed program and the diagnostics.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// All texts that were read, by file.

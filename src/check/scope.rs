@@ -7,13 +7,13 @@ use crate::source::Symbol;
 
 /// The scope of an expression: its file, its locals, and the declaration whose instance `this` is.
 pub(super) struct Scope {
-    /// The file, an index into the loaded files.
+    /// The file in which names are resolved, as an index into the loaded files.
     pub file: usize,
     /// The declaration with instances in whose body the expression is; `None` elsewhere.
     pub this: Option<DefId>,
     /// The type parameters of the function being checked, in order; empty elsewhere.
     pub type_params: Vec<TypeParam>,
-    /// True in the body of the function that has them, where they are types of which nothing is known.
+    /// True in the body of the function that has the type parameters, where they are types of which nothing is known.
     pub in_body: bool,
     frame: Frame,
     /// Frames around a lambda, innermost last.

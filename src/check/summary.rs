@@ -8,11 +8,11 @@ use std::sync::Arc;
 /// A declaration inside a declaration, with its documentation.
 #[derive(Clone, Debug)]
 pub(crate) struct Inside {
-    /// The group under which it is listed.
+    /// The group under which the member is listed.
     pub group: Group,
-    /// The name of the declaration.
+    /// The name that is declared.
     pub name: Symbol,
-    /// Its text without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
+    /// The text of the declaration without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,

@@ -38,7 +38,7 @@ pub struct Program {
     pub statements: Body,
     /// The tests of the file that is run.
     pub tests: Vec<Test>,
-    /// The declarations of the project's own files, sorted by [`DefId`]; `modl check` elaborates them.
+    /// The declarations of the project's own files, sorted by [`DefId`], which `modl check` elaborates.
     pub own: Vec<DefId>,
 }
 
@@ -49,82 +49,83 @@ impl Program {
     }
 }
 
-/// A declaration of a program, or a method of a record, checked; [`DefKind`] has what is behind its name.
+/// A checked declaration of a program, or a method of a record; [`DefKind`] has what is behind its name.
 #[derive(Clone, Debug)]
 pub struct Def {
-    /// The name of the declaration.
+    /// The name that is declared.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The span of the whole declaration, from its keyword; for a method, that of its record.
     pub whole: Span,
-    /// The file that it is in.
+    /// The file that contains the declaration.
     pub file: FileId,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// Its typed body.
+    /// The typed body of the declaration.
     pub kind: DefKind,
 }
 
 /// The typed body of a declaration, by its keyword.
 #[derive(Clone, Debug)]
 pub enum DefKind {
-    /// A constant: `let`.
+    /// A constant, declared by `let`.
     Let(LetDef),
-    /// A function: `fn`.
+    /// A function with a body in the language: `fn`.
     Fn(FnDef),
-    /// A built-in function: `extern fn`.
+    /// A built-in function, whose body is in Rust: `extern fn`.
     Native(NativeDef),
     /// A record: `record`, or `extern type`.
     Record(RecordDef),
-    /// A connector: `connector`.
+    /// A kind of connector, by which ports mate: `connector`.
     Connector(ConnectorDef),
-    /// A module: `module`.
+    /// A module type with links, joints and ports: `module`.
     Module(ModuleDef),
     /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
     Facts(FactsDef),
-    /// A configuration: `config`.
+    /// A configuration of connected modules: `config`.
     Config(ConfigDef),
-    /// A lattice: `lattice`.
+    /// A lattice of cells: `lattice`.
     Lattice(LatticeDef),
-    /// A truss: `truss`.
+    /// A truss of nodes and struts: `truss`.
     Truss(TrussDef),
     /// A declaration that could not be understood, or a vacant one.
     Error,
 }
 
-/// A top-level `let`, whose value is evaluated once, when it is first needed.
+/// A top-level `let`: a constant, whose value is evaluated once, when it is first needed.
 #[derive(Clone, Debug)]
 pub struct LetDef {
-    /// The declared or inferred type.
+    /// The type of the constant, declared or inferred.
     pub ty: Type,
-    /// The value.
+    /// The expression that gives the value.
     pub value: Expr,
     /// The number of slots of the frame in which the value is evaluated.
     pub frame: usize,
 }
 
-/// A `fn`. Its parameters are the first locals of the body, in order.
+/// A function, `fn`. Its parameters are the first locals of the body, in order.
 #[derive(Clone, Debug)]
 pub struct FnDef {
     /// The parameters, in order: the first locals of the body.
     pub params: Vec<Param>,
     /// The declared or inferred type of the result.
     pub result: Type,
-    /// The body.
+    /// The expression that gives the result.
     pub body: Expr,
-    /// The number of slots of its frame.
+    /// The number of slots of the frame in which the body is evaluated.
     pub frame: usize,
 }
 
-/// An `extern fn`, whose body is in Rust. A method of an `extern type` takes its object as first parameter.
+/// A built-in function, `extern fn`, whose body is in Rust. A method of an `extern type` takes its object as first
+/// parameter.
 #[derive(Clone, Debug)]
 pub struct NativeDef {
     /// The key of the Rust body: `move`, or `Plan.at` for a method.
     pub key: Symbol,
     /// The parameters; the object of a method is the first, `self`.
     pub params: Vec<Param>,
-    /// The type of the result.
+    /// The type of the value that a call gives.
     pub result: Type,
     /// The names of the type parameters, in order, for messages.
     pub type_params: Vec<Symbol>,
@@ -135,11 +136,11 @@ pub struct NativeDef {
 /// A parameter with its type and default.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// The name of the parameter.
+    /// The name of the parameter, by which calls may name the argument.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The type of the parameter.
+    /// The type that arguments of the parameter must fit.
     pub ty: Type,
     /// The default value, evaluated in the frame of the callee after the parameters before it; `None` if an
     /// argument is needed.
@@ -173,9 +174,9 @@ pub struct RecordBuild {
 /// A field of a record that programs can read, `record.name`, with its type.
 #[derive(Clone, Debug)]
 pub struct RecordField {
-    /// The name of the field.
+    /// The name of the field, as in `record.name`.
     pub name: Symbol,
-    /// The type of the field.
+    /// The type of the value that the field has.
     pub ty: Type,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
@@ -197,7 +198,7 @@ pub struct ConnectorDef {
     /// The joint of the bond, as (span of the word `hinge`, its arguments in the order of the parameters of the
     /// prelude's `revolute`, `None` for one left out); `None` for a rigid connector.
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the clauses are evaluated.
     pub frame: usize,
 }
 
@@ -206,13 +207,13 @@ pub struct ConnectorDef {
 /// is the current instance in all of them; from outside a member is `object.name`.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// The name of the member.
+    /// The name of the member, as in `object.name`.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The type of the member.
+    /// The type of the value that the member has.
     pub ty: Type,
-    /// Its kind, with the expression that gives its value.
+    /// The kind of the member, with the expression that gives its value.
     pub kind: MemberKind,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
@@ -245,34 +246,34 @@ pub enum MemberKind {
 /// module at once, in the order of its clauses.
 #[derive(Clone, Debug)]
 pub struct Require {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
-    /// The condition that must hold.
+    /// The condition that must hold, an expression of type `Bool`.
     pub condition: Expr,
     /// The message if it does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
 }
 
-/// The body of a `cell` or a `strut`.
+/// The body of a `cell` or a `strut`: its facts as expressions not yet evaluated.
 #[derive(Clone, Debug)]
 pub struct FactsDef {
-    /// The family.
+    /// The family that the keyword names: cell or strut.
     pub family: FactsFamily,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The parameters, as members.
+    /// The members of the declaration, which are its parameters, in order.
     pub members: Vec<Member>,
     /// The values of [`Family::facts`](super::family::Family::facts), in their order; `None` where one is
     /// missing.
     pub facts: Vec<Option<Expr>>,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the facts are evaluated.
     pub frame: usize,
 }
 
 /// A configuration with its parts and clauses: `config`.
 #[derive(Clone, Debug)]
 pub struct ConfigDef {
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
     /// The span of the word `closed`, if connections may close loops; `None` if it is not written.
     pub closed: Option<Span>,
@@ -287,8 +288,8 @@ pub struct ConfigDef {
     /// The base: an instance of a module or configuration among the parts; `None` if the clause is missing or
     /// wrong.
     pub base: Option<Expr>,
-    /// The number of slots of the body outside of behaviours: loop variables and nested `let`s. Parameters
-    /// are members.
+    /// The number of slots of the frame in which the body outside of behaviours is evaluated: loop variables and
+    /// nested `let`s. Parameters are members.
     pub frame: usize,
 }
 
@@ -299,7 +300,7 @@ pub struct PartDef {
     pub member: MemberId,
     /// The name of the part, or of the list of parts.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The module or configuration of which it is an instance; after a mistake the configuration itself, and
     /// the type of the member is then an error.
@@ -319,7 +320,7 @@ pub enum PartCount {
     Number(Expr),
     /// One part for each element of a list or range, which its arguments can refer to: `part m[i in 0..4]`.
     Each {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
         /// The list, or the range of whole numbers.
         range: Expr,
@@ -329,9 +330,9 @@ pub enum PartCount {
 /// A `behavior` of a configuration. Its parameters are the first locals of the body.
 #[derive(Clone, Debug)]
 pub struct BehaviorDef {
-    /// The name of the behaviour.
+    /// The name of the behaviour, as in `object.name()`.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
@@ -339,37 +340,37 @@ pub struct BehaviorDef {
     pub params: Vec<Param>,
     /// The exemptions from verification, in order.
     pub allows: Vec<Exemption>,
-    /// The body.
+    /// The expression that gives the result.
     pub body: Expr,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the body is evaluated.
     pub frame: usize,
 }
 
 /// An exemption of a behaviour (`allows`): a check of the judge that may fail.
 #[derive(Clone, Debug)]
 pub struct Exemption {
-    /// The check, with what it is restricted to.
+    /// The check that may fail, with what that is restricted to.
     pub kind: ExemptionKind,
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
 }
 
 /// The check of the judge that may fail, and what that is restricted to, as expressions not yet evaluated.
 #[derive(Clone, Debug)]
 pub enum ExemptionKind {
-    /// The robot may be unstable.
+    /// The check of stability: the robot may be unstable.
     Unstable,
-    /// The robot may slip.
+    /// The check of slip: links may slip over the ground.
     Slip,
-    /// The two instances may collide; `None`: any two.
+    /// The check of collisions: the two instances may collide; `None`: any two.
     Collision(Option<(Expr, Expr)>),
-    /// The joint may be overloaded; `None`: any joint.
+    /// The check of torques: the joint may be overloaded; `None`: any joint.
     Overload(Option<Expr>),
-    /// Joints may exceed their limits of acceleration, and change their speed at once.
+    /// The check of accelerations: joints may exceed their limits, and change their speed at once.
     Acceleration,
-    /// The ground's forces need not balance the robot.
+    /// The check of balance: the ground's forces need not balance the robot.
     Balance,
-    /// Friction need not determine the travel.
+    /// The check of traction: friction need not determine the travel.
     Traction,
 }
 
@@ -378,49 +379,49 @@ pub enum ExemptionKind {
 pub enum ConfigClause {
     /// A connection that bonds two ports: `connect a -- b turn angle`.
     Connect {
-        /// The first port.
+        /// The expression of the first port.
         a: Expr,
-        /// The second port.
+        /// The expression of the second port.
         b: Expr,
         /// The angle at which they mate; `None` if it is not written.
         turn: Option<Expr>,
-        /// The span of the clause.
+        /// The span of the clause in the source text.
         span: Span,
     },
     /// The position of a joint at the start: `set joint = value`.
     Set {
-        /// The joint.
+        /// The expression of the joint.
         joint: Expr,
-        /// Its position at the start, of the dimension of the joint.
+        /// The position of the joint at the start, of the joint's dimension.
         value: Expr,
-        /// The span of the clause.
+        /// The span of the clause in the source text.
         span: Span,
     },
     /// A local definition: `let name = value`.
     Let {
         /// The local that holds the value.
         local: Local,
-        /// The value.
+        /// The expression that gives the value.
         value: Expr,
     },
-    /// A requirement: `require condition`.
+    /// A requirement on the values: `require condition, message`.
     Require(Require),
     /// A branch: only the clauses of one side are elaborated.
     If {
-        /// The condition.
+        /// The condition, an expression of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that are elaborated if the condition holds, in order.
         then: Vec<ConfigClause>,
-        /// The clauses if it does not; empty without `else`.
+        /// The clauses that are elaborated if the condition does not hold; empty without `else`.
         otherwise: Vec<ConfigClause>,
     },
     /// A loop: the clauses are elaborated for each element.
     For {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that are elaborated for each element, in order.
         body: Vec<ConfigClause>,
     },
 }
@@ -428,30 +429,30 @@ pub enum ConfigClause {
 /// A lattice with its cell and arrangement: `lattice`.
 #[derive(Clone, Debug)]
 pub struct LatticeDef {
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The parameters, as members.
+    /// The members of the declaration, which are its parameters, in order.
     pub members: Vec<Member>,
     /// The cell that it is made of.
     pub of: DefId,
     /// The cells: an expression of type `Cells`.
     pub value: Expr,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the value is evaluated.
     pub frame: usize,
 }
 
 /// A truss with its strut and clauses: `truss`.
 #[derive(Clone, Debug)]
 pub struct TrussDef {
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The parameters, `let`s and nodes.
+    /// The members of the declaration: its parameters, `let`s and nodes.
     pub members: Vec<Member>,
     /// The strut that it is made of.
     pub of: DefId,
-    /// Its nodes and struts.
+    /// The nodes and struts of the truss.
     pub body: TrussBody,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the clauses are evaluated.
     pub frame: usize,
 }
 
@@ -471,47 +472,47 @@ pub enum TrussClause {
     Node {
         /// The member that names the node or the array of nodes.
         member: MemberId,
-        /// Its index in the array, from 0; `None` for a single node.
+        /// The index of the node in its array, from 0; `None` for a single node.
         index: Option<Expr>,
-        /// Its position, a vector of lengths.
+        /// The position of the node, a vector of lengths.
         value: Expr,
-        /// The span of the name.
+        /// The span of the name in the declaration.
         span: Span,
     },
-    /// A strut between two nodes.
+    /// A strut between two nodes of the truss.
     Strut {
-        /// The first node.
+        /// The reference to the first node.
         a: NodeRef,
-        /// The second node.
+        /// The reference to the second node.
         b: NodeRef,
-        /// The span of the clause.
+        /// The span of the clause in the source text.
         span: Span,
     },
     /// A local definition: `let name = value`.
     Let {
         /// The local that holds the value.
         local: Local,
-        /// The value.
+        /// The expression that gives the value.
         value: Expr,
     },
-    /// A requirement: `require condition`.
+    /// A requirement on the values: `require condition, message`.
     Require(Require),
     /// A branch: only the clauses of one side are elaborated.
     If {
-        /// The condition.
+        /// The condition, an expression of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that are elaborated if the condition holds, in order.
         then: Vec<TrussClause>,
-        /// The clauses if it does not; empty without `else`.
+        /// The clauses that are elaborated if the condition does not hold; empty without `else`.
         otherwise: Vec<TrussClause>,
     },
     /// A loop: the clauses are elaborated for each element.
     For {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that are elaborated for each element, in order.
         body: Vec<TrussClause>,
     },
 }
@@ -521,8 +522,8 @@ pub enum TrussClause {
 pub struct NodeRef {
     /// The member of the truss that names the node or the array of nodes.
     pub member: MemberId,
-    /// The index in an array, from 0; `None` for a single node.
+    /// The index of the node in its array, from 0; `None` for a single node.
     pub index: Option<Expr>,
-    /// The span of the reference.
+    /// The span of the reference in the source text.
     pub span: Span,
 }

@@ -10,29 +10,29 @@ pub use crate::syntax::ast::{BinaryOp, UnaryOp};
 /// Statements, with the number of slots for local variables that they need.
 #[derive(Clone, Debug, Default)]
 pub struct Body {
-    /// The statements, in order.
+    /// The statements, in the order in which they are executed.
     pub statements: Vec<Stmt>,
     /// The number of slots, each of which holds one local variable, in the frame in which the statements run.
     pub frame: usize,
 }
 
-/// A `test` of the file that is run.
+/// A checked `test` of the file that is run.
 #[derive(Clone, Debug)]
 pub struct Test {
-    /// The name of the test.
+    /// The name of the test, as `modl test` shows it.
     pub name: String,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// Its statements.
+    /// The statements that the test executes.
     pub body: Body,
 }
 
-/// A statement with its span.
+/// A checked statement, with its span.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// The span of the statement.
+    /// The span of the statement in the source text.
     pub span: Span,
-    /// The kind of statement.
+    /// The kind of the statement, with its parts.
     pub kind: StmtKind,
 }
 
@@ -43,7 +43,7 @@ pub enum StmtKind {
     Let {
         /// The local that holds the value.
         local: Local,
-        /// The value.
+        /// The expression that gives the value.
         value: Expr,
     },
     /// An expression; its value may be printed.
@@ -55,34 +55,34 @@ pub enum StmtKind {
         /// The message if it does not hold, a text; `None` if none is written.
         message: Option<Expr>,
     },
-    /// A branch: `if`.
+    /// A branch of statements: `if condition { ... } else { ... }`.
     If {
-        /// The condition.
+        /// The condition, an expression of type `Bool`.
         condition: Expr,
-        /// The statements if the condition holds.
+        /// The statements that are executed if the condition holds, in order.
         then: Vec<Stmt>,
-        /// The statements if it does not; empty without `else`.
+        /// The statements that are executed if the condition does not hold; empty without `else`.
         otherwise: Vec<Stmt>,
     },
-    /// A loop: `for`.
+    /// A loop of statements: `for name in iterable { ... }`.
     For {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The statements of the loop.
+        /// The statements that each pass of the loop carries out, in order.
         body: Vec<Stmt>,
     },
 }
 
-/// An expression with its type.
+/// A checked expression, with its type and span.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// The span of the expression.
+    /// The span of the expression in the source text.
     pub span: Span,
-    /// Its type, fully resolved; [`Type::Error`] after a mistake.
+    /// The type of the expression, fully resolved; [`Type::Error`] after a mistake.
     pub ty: Type,
-    /// The kind of expression.
+    /// The kind of the expression, with its parts.
     pub kind: ExprKind,
 }
 
@@ -90,7 +90,7 @@ pub struct Expr {
 /// units.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
-    /// A mistake that has been reported.
+    /// A mistake in the source that has been reported.
     Error,
     /// A finite number in SI units; its dimension is in `ty`.
     Number(f64),
@@ -98,26 +98,26 @@ pub enum ExprKind {
     Int(i64),
     /// A whole number that does not fit, by its decimal digits.
     BigInt(Symbol),
-    /// A truth value: `true`, `false`.
+    /// A truth value: `true` or `false`.
     Bool(bool),
     /// A text without interpolation.
     Text(Arc<str>),
     /// A text with values: its pieces in order, texts and values, which are shown as `print` shows them.
     Interpolation(Vec<Expr>),
-    /// A quantity, or a list or vector of them, as text.
+    /// A quantity, or a list or vector of them, shown as text in a stated form.
     Shown {
-        /// The quantities.
+        /// The expression of the quantities.
         value: Box<Expr>,
         /// The unit, by its name and its factor to SI; `None`: one that suits the value.
         unit: Option<(Arc<str>, f64)>,
         /// The number of decimals; `None`: as `print` shows them.
         decimals: Option<usize>,
     },
-    /// A word of a choice.
+    /// A word of a choice, such as `auto`.
     Word(Symbol),
     /// The missing value of an optional type: `_`.
     Missing,
-    /// A local variable.
+    /// The value of a local variable, by its slot in the frame.
     Local(Local),
     /// The value of a top-level `let`.
     Global(DefId),
@@ -125,122 +125,122 @@ pub enum ExprKind {
     FnValue(DefId),
     /// A behaviour used as a value: a function of its parameters.
     BehaviorValue {
-        /// The instance of a configuration.
+        /// The expression of the instance of a configuration.
         object: Box<Expr>,
-        /// The index in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
+        /// The index of the behaviour in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
         behavior: usize,
     },
-    /// The instance whose body this is.
+    /// The instance whose body the expression is in: `This`.
     This,
-    /// A member of an instance.
+    /// A member of an instance, named in its declaration.
     Member {
-        /// The instance.
+        /// The expression of the instance.
         object: Box<Expr>,
-        /// The member of its declaration.
+        /// The member, by its index in the declaration of the instance.
         member: MemberId,
     },
     /// A joint of a module instance.
     Joint {
-        /// The module instance.
+        /// The expression of the module instance.
         object: Box<Expr>,
-        /// The index in [`ModuleDef::joints`](super::typed::ModuleDef::joints).
+        /// The index of the joint in [`ModuleDef::joints`](super::typed::ModuleDef::joints).
         joint: usize,
     },
     /// A port or a port array of a module instance.
     Port {
-        /// The module instance.
+        /// The expression of the module instance.
         object: Box<Expr>,
-        /// The index in [`ModuleDef::ports`](super::typed::ModuleDef::ports).
+        /// The index of the port in [`ModuleDef::ports`](super::typed::ModuleDef::ports).
         port: usize,
     },
     /// The joint of the connection at a port.
     Hinge(Box<Expr>),
     /// A field of a record, or the part of a vector (`x`), a range (`from`) or a pose (`position`).
     Field {
-        /// The value.
+        /// The expression of the record, vector, range or pose.
         object: Box<Expr>,
         /// The name of the field; that of a record may be inherited.
         field: Symbol,
     },
     /// A record that is built of its fields.
     Record {
-        /// The declaration.
+        /// The declaration of the record that is built.
         def: DefId,
         /// The values of the fields, in the order of the declaration; `None`: the default.
         fields: Vec<Option<Expr>>,
     },
     /// A changed copy of a record: `d with { bend: 40deg }`.
     With {
-        /// The record.
+        /// The expression of the record.
         object: Box<Expr>,
         /// The fields that change as (index in the declaration, value), in the order of the text.
         fields: Vec<(usize, Expr)>,
     },
-    /// A list: `[a, b]`.
+    /// A list of its elements, in order: `[a, b]`.
     List(Vec<Expr>),
     /// A list comprehension: `[body for x in xs if c]`.
     Comprehension {
-        /// The expression for each element.
+        /// The expression that is evaluated for each element.
         body: Box<Expr>,
         /// The clauses, in order; the first is a loop.
         clauses: Vec<Clause>,
     },
     /// A vector: `[x, y, z]` where one is expected.
     Vec3(Box<[Expr; 3]>),
-    /// A range: `from..to`.
+    /// A range of numbers or quantities: `from..to`.
     Range {
-        /// The first end.
+        /// The expression of the first end.
         from: Box<Expr>,
-        /// The second end.
+        /// The expression of the second end.
         to: Box<Expr>,
     },
     /// A prefix operator with its operand.
     Unary {
-        /// The operator.
+        /// The operator between or before the operands.
         op: UnaryOp,
-        /// The operand.
+        /// The expression of the operand.
         operand: Box<Expr>,
     },
     /// An infix operator with its operands.
     Binary {
-        /// The operator.
+        /// The operator between or before the operands.
         op: BinaryOp,
-        /// The left operand.
+        /// The expression of the operand before the operator.
         left: Box<Expr>,
-        /// The right operand.
+        /// The expression of the operand after the operator.
         right: Box<Expr>,
     },
     /// An optional value with one for the case that it is missing: `x else y`.
     OrElse {
-        /// The value that may be missing.
+        /// The expression whose value may be missing.
         value: Box<Expr>,
-        /// The value in its place; it is evaluated only then.
+        /// The expression of the value in its place, which is evaluated only then.
         otherwise: Box<Expr>,
     },
     /// An action with a behaviour for the case that its time runs out: `move(..., timeout: 2s) else b`.
     TimeoutElse {
-        /// The action with a timeout.
+        /// The expression of the action, which has a timeout.
         action: Box<Expr>,
         /// The behaviour that follows if the time runs out.
         otherwise: Box<Expr>,
     },
-    /// A value whose quantities get the dimensions of `ty`, those in lists, vectors and ranges, too: radians are
-    /// dropped, and an energy becomes a torque or a torque an energy; the numbers stay.
+    /// A value whose quantities get the dimensions of the expression's type, those in lists, vectors and ranges, too:
+    /// radians are dropped, and an energy becomes a torque or a torque an energy; the numbers stay.
     SetDimension(Box<Expr>),
     /// An element of a list or a vector: `object[index]`.
     Index {
-        /// The list or vector.
+        /// The expression of the list or vector.
         object: Box<Expr>,
-        /// The index, a whole number counted from 0.
+        /// The expression of the index, a whole number counted from 0.
         index: Box<Expr>,
     },
     /// A conditional expression: `if condition { then } else { otherwise }`.
     If {
-        /// The condition.
+        /// The condition, an expression of type `Bool`.
         condition: Box<Expr>,
-        /// The value if the condition holds.
+        /// The expression of the value if the condition holds.
         then: Box<Expr>,
-        /// The value if it does not; the checker refuses an `if` without one.
+        /// The expression of the value if the condition does not hold; the checker refuses an `if` without one.
         otherwise: Option<Box<Expr>>,
     },
     /// A block of statements that may end with a value: `{ statements value }`.
@@ -256,41 +256,41 @@ pub enum ExprKind {
         /// The captured variables: each first local, of the frame around the lambda, is copied to the
         /// second.
         captures: Vec<(Local, Local)>,
-        /// The number of parameters.
+        /// The number of parameters of the lambda.
         params: usize,
-        /// The result.
+        /// The expression that gives the result.
         body: Arc<Expr>,
-        /// The number of slots of its frame.
+        /// The number of slots of the lambda's frame.
         frame: usize,
     },
     /// A call of a user's function or a built-in.
     Call {
-        /// The function.
+        /// The declaration of the function that is called.
         def: DefId,
-        /// The arguments in the order of the parameters. `None`: take the default.
+        /// The arguments in the order of the parameters; `None` where the default is taken.
         args: Vec<Option<Expr>>,
     },
     /// A call of a function value.
     CallValue {
-        /// The function value.
+        /// The expression of the function value.
         callee: Box<Expr>,
         /// The arguments, in order, one for each parameter.
         args: Vec<Expr>,
     },
     /// A call of a behaviour of an instance of a configuration.
     CallBehavior {
-        /// The instance of a configuration.
+        /// The expression of the instance of a configuration.
         object: Box<Expr>,
-        /// The index in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
+        /// The index of the behaviour in [`ConfigDef::behaviors`](super::typed::ConfigDef::behaviors).
         behavior: usize,
-        /// The arguments in the order of the parameters. `None`: take the default.
+        /// The arguments in the order of the parameters; `None` where the default is taken.
         args: Vec<Option<Expr>>,
     },
     /// An instance of a module, cell, strut, config, lattice or truss.
     Instance {
-        /// The declaration.
+        /// The declaration that is instantiated.
         def: DefId,
-        /// The arguments in the order of the parameters. `None`: take the default.
+        /// The arguments in the order of the parameters; `None` where the default is taken.
         args: Vec<Option<Expr>>,
     },
 }
@@ -300,9 +300,9 @@ pub enum ExprKind {
 pub enum Clause {
     /// A loop of a comprehension: `for x in iterable`.
     For {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
     },
     /// A filter of a comprehension: `if condition`.

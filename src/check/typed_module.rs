@@ -8,9 +8,9 @@ use std::sync::Arc;
 /// A module with its links, joints and ports: `module`.
 #[derive(Clone, Debug)]
 pub struct ModuleDef {
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The parameters and `let`s.
+    /// The members of the declaration: its parameters and `let`s.
     pub members: Vec<Member>,
     /// The mass of the whole module; `None` if the clause is missing.
     pub mass: Option<Expr>,
@@ -26,7 +26,7 @@ pub struct ModuleDef {
     pub joints: Vec<JointDef>,
     /// The ports by name, in order; an array is one entry.
     pub ports: Vec<PortGroup>,
-    /// The motors, in order.
+    /// The motors, in the order of the text.
     pub motors: Vec<MotorDef>,
     /// The clauses `let`, `require`, `port` and `touching`, and conditions and loops over them, in order.
     pub clauses: Vec<ModuleClause>,
@@ -34,16 +34,16 @@ pub struct ModuleDef {
     pub joint_aliases: Vec<(Symbol, usize)>,
     /// Aliases of ports as (name, index in `ports`), sorted by name.
     pub port_aliases: Vec<(Symbol, usize)>,
-    /// The number of slots of its frame.
+    /// The number of slots, for local variables, of the frame in which the clauses are evaluated.
     pub frame: usize,
 }
 
 /// A `link` of a module, a rigid body: its shapes as expressions, with its pose; masses follow at elaboration.
 #[derive(Clone, Debug)]
 pub struct LinkDef {
-    /// The name of the link.
+    /// The name of the link, to which joints and ports refer.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The shape that is drawn, and that collides unless `collides` is given.
     pub shape: Expr,
@@ -56,23 +56,23 @@ pub struct LinkDef {
 /// A `joint` of a module, by which programs name a position: it moves a link, or follows other joints.
 #[derive(Clone, Debug)]
 pub struct JointDef {
-    /// The name of the joint.
+    /// The name of the joint, by which programs command it.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
-    /// The dimension of its position: length for a prismatic joint, angle for a revolute or fixed one, and for
-    /// a mimic joint that of the first joint that it follows.
+    /// The dimension of the joint's position: length for a prismatic joint, angle for a revolute or fixed one, and
+    /// for a mimic joint that of the first joint that it follows.
     pub dimension: Dimension,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// Its kind: between two links, or a mimic joint.
+    /// The kind of the joint: between two links, or a mimic joint.
     pub kind: JointDefKind,
 }
 
 /// A joint by what its declaration gives: two links between which it moves, or the joints that it follows.
 #[derive(Clone, Debug)]
 pub enum JointDefKind {
-    /// A joint between two links.
+    /// A joint that moves a link against another.
     Declared(Box<JointBetween>),
     /// A mimic joint, which moves no link: a linear combination of other joints, `joint b = -a`.
     Mimic(Linear),
@@ -81,16 +81,15 @@ pub enum JointDefKind {
 /// A joint between two links, which carries its child against its parent; kind and pose are not yet evaluated.
 #[derive(Clone, Debug)]
 pub struct JointBetween {
-    /// The parent link, an index into `links`.
+    /// The parent link, as an index into [`ModuleDef::links`].
     pub parent: usize,
-    /// The child link, an index into `links`.
+    /// The child link, which the joint moves, as an index into [`ModuleDef::links`].
     pub child: usize,
     /// The kind of joint: a value of type `JointKind`.
     pub kind: Expr,
     /// The pose of the joint in the parent's frame; `None` for the parent's frame itself.
     pub at: Option<Placement>,
-    /// The linear combination of joints that it follows, from a clause of its own; `None` if it moves
-    /// freely.
+    /// The linear combination of joints that the joint follows, from a clause of its own; `None` if it moves freely.
     pub follows: Option<Linear>,
 }
 
@@ -102,7 +101,7 @@ pub type Linear = Vec<(usize, Expr)>;
 pub struct PortGroup {
     /// The name of the port, or of the array of ports.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// True for an array of ports.
     pub array: bool,
@@ -113,9 +112,9 @@ pub struct PortGroup {
 /// A `motor` of a module that drives several joints together: limits on a linear combination of their positions.
 #[derive(Clone, Debug)]
 pub struct MotorDef {
-    /// The name of the motor.
+    /// The name of the motor, for messages and plans.
     pub name: Symbol,
-    /// The span of the name.
+    /// The span of the name in the declaration.
     pub span: Span,
     /// The linear combination of joints that its limits are about, as (index into [`ModuleDef::joints`], factor).
     pub joints: Vec<(usize, Expr)>,
@@ -135,7 +134,7 @@ pub struct Placement {
     /// The turns as (axis, angle), in order, each about an axis of the frame turned so far; the axis is a vector of
     /// plain numbers.
     pub turned: Vec<(Expr, Expr)>,
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
 }
 
@@ -144,33 +143,33 @@ pub struct Placement {
 pub enum ModuleClause {
     /// A port, or one element of a port array.
     Port(Box<PortClause>),
-    /// Two links (indices into `links`) that may touch, and the span of the clause.
+    /// Two links (indices into [`ModuleDef::links`]) that may touch, and the span of the clause.
     Touching(usize, usize, Span),
     /// A local definition: `let name = value`.
     Let {
         /// The local that holds the value.
         local: Local,
-        /// The value.
+        /// The expression that gives the value.
         value: Expr,
     },
-    /// A requirement: `require condition`.
+    /// A requirement on the values: `require condition, message`.
     Require(Require),
     /// A branch: only the clauses of one side are elaborated.
     If {
-        /// The condition.
+        /// The condition, an expression of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that are elaborated if the condition holds, in order.
         then: Vec<ModuleClause>,
-        /// The clauses if it does not; empty without `else`.
+        /// The clauses that are elaborated if the condition does not hold; empty without `else`.
         otherwise: Vec<ModuleClause>,
     },
     /// A loop: the clauses are elaborated for each element.
     For {
-        /// The local that holds the element.
+        /// The local variable that holds the element in each pass.
         binder: Local,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that are elaborated for each element, in order.
         body: Vec<ModuleClause>,
     },
 }
@@ -178,20 +177,20 @@ pub enum ModuleClause {
 /// A port, or one element of a port array.
 #[derive(Clone, Debug)]
 pub struct PortClause {
-    /// The index of its name in [`ModuleDef::ports`].
+    /// The index of the port's name in [`ModuleDef::ports`].
     pub group: usize,
-    /// Its index in an array, from 0; `None` for a single port.
+    /// The index of the port in its array, from 0; `None` for a single port.
     pub index: Option<Expr>,
-    /// The connector at the port.
+    /// The declaration of the connector at the port.
     pub connector: DefId,
-    /// The link that carries it, an index into `links`.
+    /// The link that carries the port, as an index into [`ModuleDef::links`].
     pub link: usize,
     /// The pose of the port in the link's frame; `None` for the link's frame itself.
     pub at: Option<Placement>,
-    /// The direction of its outward normal, a vector of plain numbers in the link's frame.
+    /// The direction of the port's outward normal, a vector of plain numbers in the link's frame.
     pub facing: Expr,
-    /// The direction from which turns are counted, as `facing`; `None` if it is not written.
+    /// The direction from which turns of a bond are counted, as `facing`; `None` if it is not written.
     pub up: Option<Expr>,
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
 }

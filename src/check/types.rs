@@ -18,48 +18,48 @@ pub enum Type {
     Any,
     /// A quantity of this dimension; `Number` is the one without dimension.
     Quantity(Dimension),
-    /// A whole number; it is a `Number`.
+    /// A whole number, `Int`, which is a `Number` too.
     Int,
-    /// A truth value: `Bool`.
+    /// The type of truth values: `Bool`.
     Bool,
-    /// A text: `Text`.
+    /// The type of texts: `Text`.
     Text,
-    /// A list: `List<T>`.
+    /// The type of lists, with elements of the given type: `List<T>`.
     List(Arc<Type>),
     /// A vector of three quantities, `Vec3<T>`; a direction is three plain numbers.
     Vec3(Arc<Type>),
-    /// A pose: `Pose`.
+    /// A pose, position and orientation: `Pose`.
     Pose,
-    /// A range: `Range<T>`.
+    /// The type of ranges, with ends of the given type: `Range<T>`.
     Range(Arc<Type>),
     /// A value that may be missing: `T?`.
     Optional(Arc<Type>),
     /// A function: `fn(A, B) -> C`.
     Fn(Arc<FnType>),
-    /// A choice of words and types.
+    /// A choice of words, types, or both: `auto | Int`.
     Choice(Arc<Choice>),
     /// A joint, by the dimension of its position: `Joint<Angle>`, `Joint<Length>`.
     Joint(Arc<Type>),
-    /// A port of a module: `Port`.
+    /// The type of ports of modules: `Port`.
     Port,
-    /// A behaviour: `Behavior`.
+    /// The type of behaviours: `Behavior`.
     Behavior,
     /// A value that changes during a behaviour: `Signal<T>`.
     Signal(Arc<Type>),
     /// A truth value that changes during a behaviour: `Condition`.
     Condition,
-    /// A shape: `Shape`.
+    /// The type of shapes of links: `Shape`.
     Shape,
     /// The kind of a joint, which only a `joint` clause takes: `revolute(...)`, `prismatic(...)`,
     /// `fixed()`.
     JointKind,
-    /// The cells of a lattice: `Cells`.
+    /// The type of arrangements of cells: `Cells`.
     Cells,
-    /// A triangle mesh: `Mesh`.
+    /// The type of meshes: `Mesh`.
     Mesh,
-    /// A point cloud: `Cloud`.
+    /// The type of point clouds: `Cloud`.
     Cloud,
-    /// A height field: `Terrain`.
+    /// The type of height fields: `Terrain`.
     Terrain,
     /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
@@ -75,11 +75,11 @@ pub enum Type {
     /// A quantity in a power of a dimension parameter, times a dimension that is known: `Quantity<D>`,
     /// `Quantity<D^2>`, `Quantity<D/s>`.
     QuantityParam {
-        /// The index of the type parameter, from 0.
+        /// The index of the type parameter in the function's signature, from 0.
         param: u8,
-        /// The power.
+        /// The power of the dimension parameter.
         power: i8,
-        /// The other factor; [`Dimension::NUMBER`] where there is none.
+        /// The other factor of the dimension; [`Dimension::NUMBER`] where there is none.
         times: Dimension,
     },
 }
@@ -89,16 +89,16 @@ pub enum Type {
 pub struct FnType {
     /// The types of the parameters, in order.
     pub params: Vec<Type>,
-    /// The type of the result.
+    /// The type of the value that a call gives.
     pub result: Type,
 }
 
 /// A choice: `exact | enumerate`, `auto | Int`, `Mesh | Cloud`: words, types, or both.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// The words, in the order in which they are written.
+    /// The words of the choice, in the order in which they are written.
     pub words: Vec<Symbol>,
-    /// The types, in the order in which they are written.
+    /// The types of the choice, in the order in which they are written.
     pub types: Vec<Type>,
 }
 
@@ -106,12 +106,13 @@ impl Type {
     /// The type `Number`: the quantity without dimension.
     pub const NUMBER: Type = Type::Quantity(Dimension::NUMBER);
 
-    /// Returns the type `List<element>`.
+    /// Returns the type of lists with elements of this type, `List<element>`.
     pub fn list(element: Type) -> Type {
         Type::List(Arc::new(element))
     }
 
-    /// Returns the type `inner?`; an optional or erroneous type stays itself.
+    /// Returns the type of a value of the type `inner` that may be missing, `inner?`; an optional or erroneous type
+    /// stays itself.
     pub fn optional(inner: Type) -> Type {
         match inner {
             Type::Optional(_) | Type::Error => inner,
@@ -129,7 +130,7 @@ impl Type {
         Type::Joint(Arc::new(Type::Quantity(dimension)))
     }
 
-    /// Returns the dimension of an `Int` or a quantity; `None` for other types.
+    /// Returns the dimension of the type if it is `Int` or a quantity; `None` for other types.
     pub fn dimension(&self) -> Option<Dimension> {
         match self {
             Type::Quantity(d) => Some(*d),

@@ -29,7 +29,7 @@ pub(super) struct Project {
     /// The program's name relative to the root; empty without a program.
     pub name: String,
     bytes: Vec<u8>,
-    /// The root as the user would name it; empty for the working folder.
+    /// The root folder as the user would name it; empty for the working folder.
     pub folder: String,
     /// The record of files that are read or searched, for `modl watch`; `None` for other commands.
     pub watched: Option<Arc<Watched>>,

@@ -10,15 +10,15 @@ use crate::source::{Diagnostic, Files};
 
 /// The result of running an example.
 pub(super) struct Ran {
-    /// The name that `--filter` matches and messages show.
+    /// The name of the example, which `--filter` matches and messages show.
     pub name: String,
-    /// The checked program.
+    /// The checked program of the example.
     pub checked: Checked,
-    /// Its errors and warnings, in the order in which they were found.
+    /// The errors and warnings of the example, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
-    /// True if there was no error.
+    /// True if the example ran without an error.
     pub passed: bool,
-    /// True if it was cancelled.
+    /// True if the user cancelled the example.
     pub cancelled: bool,
 }
 

@@ -11,7 +11,7 @@ const DEPTH_MAX: usize = 64;
 /// A program named on the command line, or found in a folder that is.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    /// The file; `-` is standard input.
+    /// The path of the file; `-` is standard input.
     pub file: PathBuf,
     /// The folder in which the file was found; `None` for a file that was named itself.
     pub folder: Option<PathBuf>,

@@ -24,11 +24,11 @@ pub(super) struct Report {
     pub ok: bool,
     /// The diagnostics, at most 10,000; empty if they are printed as text.
     pub diagnostics: Vec<JsonDiagnostic>,
-    /// The number of diagnostics left out because there were too many.
+    /// The number of diagnostics that are left out because there were too many.
     pub omitted: usize,
-    /// The number of errors.
+    /// The number of errors, those left out included.
     pub errors: usize,
-    /// The number of warnings.
+    /// The number of warnings, those left out included.
     pub warnings: usize,
     /// The lines that the program printed; `None` for commands that print none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,33 +58,33 @@ pub(super) struct Report {
 /// The result of a test.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonTest {
-    /// The file that contains it.
+    /// The file that contains the test.
     pub file: String,
     /// The name of the test.
     pub name: String,
-    /// True if it passed.
+    /// True if the test passed.
     pub passed: bool,
 }
 
 /// A link of documentation that leads nowhere.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonLink {
-    /// The title of the page: `std.smores`, or the path of a program.
+    /// The title of the page that contains the link: `std.smores`, or the path of a program.
     pub page: String,
-    /// The declaration that it documents; empty for the file itself.
+    /// The declaration whose documentation contains the link; empty for the file itself.
     pub entry: String,
-    /// The link as it is written.
+    /// The target of the link as it is written.
     pub link: String,
 }
 
 /// The verdict on a plan file.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonPlan {
-    /// The file, as it was named on the command line.
+    /// The plan file, as it was named on the command line.
     pub file: String,
-    /// True if the verdict is good.
+    /// True if nothing failed in the verdict.
     pub ok: bool,
-    /// The verdict.
+    /// The verdict of the judge on the plan.
     pub verdict: Verdict,
     /// The declarations of the file that the verdict rests on, in the order of the file's library.
     pub rests_on: Vec<Declaration>,
@@ -93,12 +93,13 @@ pub(super) struct JsonPlan {
 /// A declaration of a plan file's library, which a verdict rests on.
 #[derive(Debug, Serialize)]
 pub(super) struct Declaration {
-    /// Its facts.
+    /// The facts of the declaration: kind, name, limits, digest.
     #[serde(flatten)]
     pub facts: Facts,
-    /// The declaration of the same name in the standard library, `std.smores.Smores`; `None` if there is none.
+    /// The path of the declaration of the same name in the standard library, `std.smores.Smores`; `None` if there is
+    /// none.
     pub standard: Option<String>,
-    /// The differences from that, in words; empty if there are none.
+    /// The differences from the declaration of the standard library, in words; empty if there are none.
     pub differences: Vec<String>,
 }
 

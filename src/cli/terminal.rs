@@ -185,9 +185,9 @@ pub(super) fn print_styled(text: &str) {
 /// A printed value in a JSON object.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonValue {
-    /// The index in `printed` of the line that shows it, or of the first of its lines, from 0.
+    /// The index in `printed` of the line that shows the value, or of the first of its lines, from 0.
     pub line: usize,
-    /// Its text, and what it is.
+    /// The text that was printed for the value, and the value by its kind.
     #[serde(flatten)]
     pub printed: PrintedValue,
 }
@@ -196,7 +196,7 @@ pub(super) struct JsonValue {
 #[derive(Debug)]
 pub(super) struct Terminal {
     folder: PathBuf,
-    /// The printed lines, if they go into a JSON object; `None` if they go to standard output.
+    /// The lines that were printed, if they go into a JSON object; `None` if they go to standard output.
     pub printed: Option<Vec<String>>,
     /// The printed values, each with the index of its line in `printed`; empty without JSON.
     pub values: Vec<JsonValue>,

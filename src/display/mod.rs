@@ -15,19 +15,19 @@ use crate::interpret::printed::TypedValue;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 
-/// Returns a value as `print` shows it: as it could be written, with units that suit its size, or in a few
-/// words. A text stays as it is, and a report of the judge has several lines.
+/// Returns a value as text, as `print` shows it: as it could be written in a program, with units that suit its size,
+/// or in a few words. A text stays as it is, and a report of the judge has several lines.
 pub fn show(interpreter: &Interpreter, value: &Value) -> String {
     interpreter.show_value(value)
 }
 
-/// Returns a value by its kind, for programs in other languages. The bytes that it takes are drawn from `bytes_left`; what
-/// goes beyond is left out.
+/// Returns a value by its kind, to be written as JSON for programs in other languages. The bytes that it takes are
+/// drawn from `bytes_left`; what goes beyond is left out.
 pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -> TypedValue {
     interpreter.typed_value(value, 0, bytes_left)
 }
 
-/// Returns a value as a session shows it, on as many lines as it needs, the first of which can stand alone;
+/// Returns a value as text, as a session shows it, on as many lines as it needs, the first of which can stand alone;
 /// texts are in quotes. After 64 KiB it is cut.
 ///
 /// # Errors
@@ -36,11 +36,11 @@ pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
     interpreter.display_value(value)
 }
 
-/// Returns a line about what a declaration declares, with its defaults, such as `config Walker: order 1, 4
-/// modules, 600g`.
+/// Returns a line about what a declaration declares, with its defaults, such as `config Walker: order 1, 4 modules,
+/// 600g`.
 ///
 /// # Errors
-/// A halt while it is elaborated.
+/// A halt while the declaration is elaborated.
 pub fn describe_declaration(interpreter: &mut Interpreter, def: DefId) -> Eval<String> {
     interpreter.describe_declaration_line(def)
 }

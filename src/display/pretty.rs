@@ -87,9 +87,9 @@ pub(super) fn quoted(text: &str) -> String {
 
 /// A branch of a tree drawn with lines.
 pub(super) struct Branch {
-    /// The line of the branch itself.
+    /// The text on the line of the branch itself.
     pub text: String,
-    /// The branches that go off it, from the top.
+    /// The branches that go off this one, from the top.
     pub below: Vec<Branch>,
 }
 

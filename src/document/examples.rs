@@ -7,11 +7,11 @@ use crate::syntax::{self, ast};
 /// lines count from `first_line`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Example {
-    /// The text of the program.
+    /// The text of the example program.
     pub text: String,
-    /// The line of the file at which it begins, from 1.
+    /// The line of the file at which the example begins, from 1.
     pub first_line: usize,
-    /// True if it is only checked: ` ```modl check `.
+    /// True if the example is only checked and not run: ` ```modl check `.
     pub only_checked: bool,
 }
 

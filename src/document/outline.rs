@@ -8,37 +8,37 @@ use std::sync::Arc;
 
 /// The page of a file.
 pub(super) struct Page {
-    /// Its title: `std.smores`, or the file's path.
+    /// The title of the page: `std.smores`, or the file's path.
     pub title: String,
-    /// The name of its file in the site.
+    /// The name of the page's file in the site.
     pub file: String,
     /// The file's documentation, Markdown; `None` if it has none.
     pub doc: Option<String>,
-    /// The entries, in the order of the text.
+    /// The entries of the page, one for each declaration, in the order of the text.
     pub entries: Vec<PageEntry>,
 }
 
 /// The entry of a declaration.
 pub(super) struct PageEntry {
-    /// The name of the declaration.
+    /// The name of the declaration that the entry documents.
     pub name: String,
-    /// Its keyword: `module`, `config`, `fn`.
+    /// The keyword of the declaration: `module`, `config`, `fn`.
     pub word: &'static str,
-    /// Its signature.
+    /// The signature of the declaration, as text.
     pub signature: String,
-    /// Its documentation, Markdown; `None` if it has none.
+    /// The documentation of the declaration, Markdown; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// Its members, in the order in which they are listed: group by group.
+    /// The members of the declaration, in the order in which they are listed: group by group.
     pub inside: Vec<Inside>,
-    /// True if it has an instance without arguments.
+    /// True if the declaration has an instance without arguments.
     pub has_default: bool,
-    /// The facts about its default instance, in words: order, modules, mass; empty until they are found, and without
-    /// such an instance.
+    /// The facts about the declaration's default instance, in words: order, modules, mass; empty until they are
+    /// found, and without such an instance.
     pub facts: Vec<String>,
-    /// The order of its default instance: 1 for modules alone, else one more than the greatest order of its parts.
-    /// `None` if it is no configuration or has none.
+    /// The order of the declaration's default instance: 1 for modules alone, else one more than the greatest order of
+    /// its parts. `None` if it is no configuration or has none.
     pub order: Option<u32>,
-    /// The name of its picture in the site; `None` if it has none.
+    /// The name of the declaration's picture in the site; `None` if it has none.
     pub picture: Option<String>,
 }
 

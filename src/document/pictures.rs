@@ -15,14 +15,15 @@ use std::collections::BTreeMap;
 /// Width and height of a picture in pixels.
 const SIZE: (usize, usize) = (480, 300);
 
-/// The answers of the program about one declaration, and all files that it was made from.
+/// A drawing of a declaration: the facts and the picture that its program gave, and all files that they were made
+/// from.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    /// The lines that it printed: the order, then facts in words.
+    /// The lines that the program printed: the order, then facts in words.
     pub facts: Vec<String>,
     /// The name of the picture (PNG) in the site, and its bytes; `None` where nothing was drawn.
     pub picture: Option<(String, Vec<u8>)>,
-    /// The files that were read.
+    /// The files from which the drawing was made, with the digests of what was read.
     pub sources: Sources,
 }
 
@@ -38,7 +39,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Returns true if all files are still as they were read.
+    /// Returns true if all files are still as they were read; `files` gives access to them.
     pub fn hold(&self, files: &dyn Files) -> bool {
         let mut project = self.project.iter();
         let mut library = self.library.iter();
@@ -47,7 +48,7 @@ impl Sources {
     }
 }
 
-/// Returns the SHA-256 digest of some bytes, in hexadecimal digits.
+/// Returns the SHA-256 digest of some bytes as 64 hexadecimal digits.
 pub fn digest(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

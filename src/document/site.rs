@@ -11,9 +11,9 @@ use crate::syntax;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// The input of [`site`]: a project, and the part of the library to document.
+/// The input of [`site`]: a project, and what of it and the library to document.
 pub struct Request<'r> {
-    /// The files of the project.
+    /// The access to the files of the project.
     pub files: &'r dyn Files,
     /// The paths of the project's programs, from its root, in the order of the pages.
     pub programs: &'r [String],
@@ -21,11 +21,12 @@ pub struct Request<'r> {
     pub library: bool,
     /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
-    /// The drawings of an earlier site whose sources are as they were, by program; they are not made anew.
+    /// The drawings of an earlier site, by the program that made them; those whose files are as they were are not
+    /// made anew.
     pub known: &'r BTreeMap<String, Drawing>,
 }
 
-/// The site that [`site`] made, not written yet, with the mistakes found on the way.
+/// The site that [`site`] made, as files that are not written yet, with the mistakes found on the way.
 pub struct Site {
     /// The files as (name in the site, contents).
     pub files: Vec<(String, Vec<u8>)>,
@@ -33,7 +34,7 @@ pub struct Site {
     pub faults: Vec<LinkFault>,
     /// The programs that are left out because of errors, as (checked program, its errors).
     pub wrong: Vec<(Checked, Vec<Diagnostic>)>,
-    /// The drawings on its pages by program, for the next site.
+    /// The drawings on the site's pages by the program that made them, for the next site.
     pub drawings: BTreeMap<String, Drawing>,
 }
 
@@ -44,7 +45,7 @@ pub struct LinkFault {
     pub file: String,
     /// The declaration whose documentation contains it; empty for the documentation of a file.
     pub entry: String,
-    /// Its target as it is written.
+    /// The target of the link as it is written.
     pub link: String,
 }
 

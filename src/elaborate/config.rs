@@ -16,9 +16,9 @@ use std::rc::Rc;
 
 /// A requirement with the variables of its scope: it is checked when the body is complete.
 pub(super) struct Deferred<'d> {
-    /// The clause with its condition and message.
+    /// The clause `require`, with its condition and message.
     pub require: &'d Require,
-    /// The variables of the body at the clause.
+    /// The values of the body's variables at the clause.
     pub frame: Frame,
 }
 

@@ -2,23 +2,23 @@
 
 /// The tolerances with which declarations are elaborated. Lengths in metres, angles in radians.
 pub(super) struct Tolerances {
-    /// Nodes of a truss nearer to each other than this count as coincident, m.
+    /// The distance below which nodes of a truss count as coincident, m.
     pub node_distance: f64,
-    /// Struts may be this much outside of their range, m: a rounding of what was meant.
+    /// The length by which struts may be outside of their range, m: a rounding of what was meant.
     pub strut_length: f64,
-    /// A turn of a bond within this of an allowed one, as a fraction of a whole turn, counts as that: a rounding of
-    /// `360deg / 4`.
+    /// The difference between a turn of a bond and an allowed one, as a fraction of a whole turn, below which it
+    /// counts as that: a rounding of `360deg / 4`.
     pub turn: f64,
-    /// Loops of bonds may miss closing by this much, m: rounding, not slack.
+    /// The distance by which loops of bonds may miss closing, m: rounding, not slack.
     pub closure_distance: f64,
-    /// Loops of bonds may miss closing by this much, rad: rounding, not slack.
+    /// The angle by which loops of bonds may miss closing, rad: rounding, not slack.
     pub closure_angle: f64,
-    /// Centres nearer to each other than this, m, are equally near to the centre of mass, where a base is chosen:
-    /// symmetry is exact only in thought.
+    /// The difference of distances to the centre of mass, m, below which centres are equally near to it where a base
+    /// is chosen: symmetry is exact only in thought.
     pub tie_distance: f64,
-    /// Parts whose masses differ by less than this fraction of them are equally heavy, where a base is chosen.
+    /// The relative difference of masses below which parts are equally heavy, where a base is chosen.
     pub tie_mass: f64,
-    /// `up` and `facing` nearer than this to one line leave a port's turn open (sine of the angle).
+    /// The sine of the angle between `up` and `facing` below which they leave a port's turn open.
     pub parallel: f64,
 }
 

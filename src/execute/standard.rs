@@ -18,10 +18,10 @@ const STEPS_MAX: u64 = 200_000;
 /// Threshold: the relative tolerance of numbers of a declaration whose name states arguments: names show six digits.
 const TOL_ARGUMENT: f64 = 2e-5;
 
-/// A declaration of the standard library, found by the name that a plan file gives it ([`standard`]).
+/// A declaration of the standard library, as [`standard`] finds it by the name that a plan file gives it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Standard {
-    /// Its path in programs: `std.smores.Smores`.
+    /// The path of the declaration in programs: `std.smores.Smores`.
     pub path: String,
     /// The declaration with the arguments of the name: as a module type, cell or strut the first of its kind (index
     /// 0), with the connectors that it needs. `None` where it does not take these arguments.

@@ -5,9 +5,9 @@ use super::spacing::APART;
 /// A formatted line, except for the column of its comment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Line {
-    /// The indentation in spaces.
+    /// The indentation of the line in spaces.
     pub indent: usize,
-    /// The text without indentation. A text literal or comment in it may contain line breaks.
+    /// The text of the line without indentation. A text literal or comment in it may contain line breaks.
     pub text: String,
     /// The comment `// ...` after the text; `None` if there is none.
     pub comment: Option<String>,

@@ -15,17 +15,17 @@ use crate::syntax::{Outline, parse, skeleton};
 /// The result of [`format()`]: the text, laid out as far as it could be read, and what was wrong in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formatted {
-    /// The text; unreadable chunks are unchanged in it.
+    /// The formatted text; unreadable chunks are unchanged in it.
     pub text: String,
     /// The syntax errors of unreadable chunks; empty if the whole text could be parsed.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the formatted text; `id` is its file in the diagnostics. A text that is too large or nests too
-/// deeply is returned as it is, with a diagnostic.
+/// Returns the text formatted by the one layout of the language; `id` is its file in the diagnostics. A text that is
+/// too large or nests too deeply is returned as it is, with a diagnostic.
 ///
-/// `None` if the result would have been another program, which would be a defect of the formatter; the text
-/// must then be left as it is.
+/// `None` if the result would have been another program, which would be a defect of the formatter; the text must then
+/// be left as it is.
 pub fn format(id: FileId, text: &str) -> Option<Formatted> {
     let Some(outline) = Outline::of(text) else {
         return Some(Formatted { text: text.to_owned(), diagnostics: parse(id, text).diagnostics });

@@ -5,15 +5,15 @@ use crate::syntax::{Role, Token, TokenKind};
 /// A token with its role.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece<'t> {
-    /// The token.
+    /// The token that is laid out.
     pub token: Token,
-    /// Its text.
+    /// The text that the token has in the source.
     pub text: &'t str,
-    /// Its role in the grammar; `None` if it has none.
+    /// The role of the token in the grammar; `None` if it has none.
     pub role: Option<Role>,
-    /// True if an item, clause or statement begins with it.
+    /// True if an item, clause or statement begins with the token.
     pub begins: bool,
-    /// True if it is in the first column.
+    /// True if the token is in the first column.
     pub margin: bool,
 }
 

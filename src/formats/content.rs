@@ -3,7 +3,7 @@
 /// The content of a mesh file or a point cloud, in the file's own unit of length.
 #[derive(Debug, Default)]
 pub struct Content {
-    /// The corners (x, y, z); of a cloud, its points.
+    /// The corners (x, y, z) of the mesh; of a cloud, its points.
     pub vertices: Vec<[f64; 3]>,
     /// The corners of each face in order around it, as indices into `vertices`, from 0. A cloud has no faces, unless
     /// its file is one of a mesh.

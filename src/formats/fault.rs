@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The reason why a file can't be read. Lines count from 1, vertices and faces from 0.
+/// The reason why a file of a mesh or point cloud can't be read. Lines count from 1, vertices and faces from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FormatFault {
     /// The bytes of a text format are not UTF-8.
@@ -11,84 +11,84 @@ pub enum FormatFault {
     Empty,
     /// The file can be read, and holds none of what is wanted.
     Nothing {
-        /// The things wanted: points, faces, triangles.
+        /// The things wanted, in words: points, faces, triangles.
         what: &'static str,
     },
     /// A coordinate is infinite or not a number.
     NotFinite {
-        /// The index of the vertex.
+        /// The index of the vertex in the file, from 0.
         vertex: usize,
     },
     /// A face has fewer than three corners.
     FewCorners {
-        /// The index of the face.
+        /// The index of the face in the file, from 0.
         face: usize,
     },
     /// A corner of a face is no vertex of the file.
     NoVertex {
-        /// The index of the face.
+        /// The index of the face in the file, from 0.
         face: usize,
-        /// The index of the vertex that it names.
+        /// The index of the vertex that the corner names, from 0.
         corner: usize,
-        /// The number of vertices.
+        /// The number of vertices of the file.
         count: usize,
     },
     /// A corner of some face of an OBJ file is no vertex of it.
     NoSuchVertex,
     /// The first word of an OFF file is none of the format's.
     NotOff {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
-        /// The word that stands there.
+        /// The word that stands in that place of the file.
         found: String,
     },
     /// The file is a binary OFF file.
     BinaryOff {
-        /// The line that says so.
+        /// The number of the line that says so, from 1.
         line: usize,
     },
     /// The line of an OFF file with the numbers of vertices and faces is missing.
     NoCounts,
     /// The number of vertices or of faces of an OFF file is missing.
     NoCount {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
-        /// The things counted: vertices, faces.
+        /// The things counted, as a word: vertices or faces.
         what: &'static str,
     },
     /// The number of vertices or of faces of an OFF file is no whole number.
     BadCount {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
-        /// The things counted: vertices, faces.
+        /// The things counted, as a word: vertices or faces.
         what: &'static str,
-        /// The word that stands there.
+        /// The word that stands in that place of the file.
         found: String,
     },
     /// An OFF file ends before all the vertices or faces that it announces.
     Ends {
-        /// The things counted: vertices, faces.
+        /// The things counted, as a word: vertices or faces.
         what: &'static str,
-        /// The number found.
+        /// The number of vertices or faces that were found.
         found: usize,
-        /// The number announced.
+        /// The number of vertices or faces that the file announces.
         wanted: usize,
     },
     /// A line of an OFF or STL file does not hold the vertex or face that has to stand there.
     BadLine {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
-        /// The thing wanted: a vertex, a face.
+        /// The thing wanted, in words: a vertex, a face.
         what: &'static str,
     },
     /// A line of an XYZ file does not begin with three numbers.
     NotThreeNumbers {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
     },
     /// A line of an OBJ file is not UTF-8.
     LineNotText {
-        /// The number of the line.
+        /// The number of the line, from 1.
         line: usize,
     },
     /// The length of an STL file is not that of its number of binary triangles, and it is no text.
@@ -99,20 +99,20 @@ pub enum FormatFault {
     Announced {
         /// The name of the rows' element, such as `vertex`.
         element: String,
-        /// The number announced.
+        /// The number of rows that the header announces.
         count: usize,
     },
     /// A vertex of a PLY file lacks a coordinate.
     NoCoordinates {
-        /// The index of the vertex.
+        /// The index of the vertex in the file, from 0.
         vertex: usize,
     },
     /// A face of a PLY file has no corners.
     NoCornerList {
-        /// The index of the face.
+        /// The index of the face in the file, from 0.
         face: usize,
     },
-    /// The reason in the words of the crate that reads the format, with the line if it gives one.
+    /// A failure that the crate which reads the format reports, in its words, with the line if it gives one.
     Reader(String),
 }
 

@@ -12,7 +12,7 @@ const ANGLE_MIN: f64 = 1e-9;
 /// A crease pattern: a triangulated sheet with its creases and its folded states.
 #[derive(Clone, Debug, Default)]
 pub struct CreasePattern {
-    /// The title of the file.
+    /// The title of the FOLD file.
     pub title: String,
     /// The vertices in the plane of the sheet, in metres, seen from the side that becomes the outside.
     pub vertices: Vec<[f64; 2]>,

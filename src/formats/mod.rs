@@ -27,9 +27,9 @@ pub use table::{RecordCell, RecordColumn, RecordTable};
 /// A file format of meshes or point clouds, with its reader.
 #[derive(Clone, Copy)]
 pub struct Format {
-    /// The end of the names of its files, after the dot, in lower case.
+    /// The ending of the names of the format's files, after the dot, in lower case.
     pub ending: &'static str,
-    /// The name that messages give it.
+    /// The name of the format in messages.
     pub name: &'static str,
     read: fn(&[u8]) -> Result<Content, FormatFault>,
 }
@@ -50,21 +50,21 @@ pub const CLOUD_FORMATS: &[Format] = &[
 
 /// A file format in which data of one kind is exported, with its writer.
 pub struct ExportFormat<T> {
-    /// The end of the names of its files, after the dot, in lower case.
+    /// The ending of the names of the format's files, after the dot, in lower case.
     pub ending: &'static str,
     /// The function that returns the text of the file.
     pub write: fn(&T) -> String,
 }
 
-/// The export formats of foldings.
+/// The formats in which foldings can be exported: FOLD.
 pub const FOLDING_FORMATS: &[ExportFormat<CreasePattern>] =
     &[ExportFormat { ending: "fold", write: fold::write }];
 
-/// The export formats of lists of records.
+/// The formats in which lists of records can be exported: CSV and JSON.
 pub const TABLE_FORMATS: &[ExportFormat<RecordTable>] =
     &[ExportFormat { ending: "csv", write: table::csv }, ExportFormat { ending: "json", write: table::json }];
 
-/// The export formats of robots of RoFI modules.
+/// The formats in which robots of RoFI modules can be exported: RoFI's text and JSON.
 pub const ROBOT_FORMATS: &[ExportFormat<rofi::World>] = &[
     ExportFormat { ending: "rofi", write: rofi::write },
     ExportFormat { ending: "json", write: rofi_json::write },
@@ -84,8 +84,8 @@ impl<T> ExportFormat<T> {
 }
 
 impl Format {
-    /// Reads a mesh, in the file's own unit of length: at least one face, each of three corners or more among the
-    /// vertices, and finite coordinates. It need not be closed.
+    /// Reads a mesh in this format, in the file's own unit of length: at least one face, each of three corners or
+    /// more among the vertices, and finite coordinates. It need not be closed.
     ///
     /// # Errors
     /// The first [`FormatFault`] of the bytes, or of the mesh that they hold.
@@ -93,8 +93,8 @@ impl Format {
         checked_mesh((self.read)(bytes)?)
     }
 
-    /// Reads a cloud, in the file's own unit of length: at least one point, and finite coordinates. Faces of the file,
-    /// if any, are kept.
+    /// Reads a point cloud in this format, in the file's own unit of length: at least one point, and finite
+    /// coordinates. Faces of the file, if any, are kept.
     ///
     /// # Errors
     /// The first [`FormatFault`] of the bytes, or of the cloud that they hold.

@@ -3,44 +3,44 @@
 use serde::Serialize;
 use serde_json::{Number, Value as Json};
 
-/// A table, by columns of equal length.
+/// A table of records to be exported, by columns of equal length.
 pub struct RecordTable {
-    /// The columns, in order.
+    /// The columns of the table, in order.
     pub columns: Vec<RecordColumn>,
-    /// The number of records.
+    /// The number of rows of the table, one for each record.
     pub rows: usize,
 }
 
 /// A column of a table: the values of one field of all records, with their unit.
 pub struct RecordColumn {
-    /// The name.
+    /// The name of the column, that of a field of the records.
     pub name: String,
-    /// The unit of its numbers in CSV, as it is written, such as `mm`; `None` where they have none, or it holds
-    /// something else.
+    /// The unit of the column's numbers in CSV, as it is written, such as `mm`; `None` where they have none, or it
+    /// holds something else.
     pub unit: Option<String>,
-    /// The quantities in it as (base unit, dimension in words), such as (`m`, `length`); `None` where it holds
-    /// something else.
+    /// The quantities of the column as (base unit, dimension in words), such as (`m`, `length`); `None` where it
+    /// holds something else.
     pub quantity: Option<(String, String)>,
-    /// The cells, one for each record, in the order of the records.
+    /// The cells of the column, one for each record, in the order of the records.
     pub cells: Vec<RecordCell>,
 }
 
 /// A value of a table, as files can hold it: other values than these are text.
 pub enum RecordCell {
-    /// A missing value.
+    /// A missing value, which stays empty in CSV.
     Missing,
-    /// A truth value.
+    /// A truth value, true or false.
     Bool(bool),
-    /// A whole number.
+    /// A whole number, without unit.
     Whole(i64),
-    /// A finite quantity.
+    /// A finite quantity, with or without unit.
     Quantity {
-        /// The number in the column's unit.
+        /// The number of the quantity in the column's unit.
         shown: f64,
-        /// The value in SI units.
+        /// The value of the quantity in SI units.
         si: f64,
     },
-    /// Something else, in words.
+    /// Any other value, in words.
     Text(String),
 }
 

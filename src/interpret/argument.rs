@@ -12,28 +12,28 @@ use crate::geometry::{HeightField, Pose, Vec3};
 use crate::plan::{DynamicsModel, Ground, World};
 use std::rc::Rc;
 
-/// The type of a parameter as its native reads it, to be compared with the declared type.
+/// The type of a parameter as its native reads it, which a test compares with the type that the declaration states.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// Any value: the declaration has a type parameter there, or several types.
     Value,
-    /// A truth value, `Bool`.
+    /// A truth value: `true` or `false`.
     Bool,
-    /// A whole number, `Int`.
+    /// A whole number of the type `Int`.
     Int,
     /// A quantity of any dimension, in SI units.
     Number,
-    /// A text, `Text`.
+    /// A text of the type `Text`.
     Text,
-    /// `List`, or a variadic parameter.
+    /// A list, `List`, or a variadic parameter.
     List,
-    /// A vector, `Vec3`.
+    /// A vector of three components, `Vec3`.
     Vec3,
-    /// A range, `Range`.
+    /// A range of two ends, `Range`.
     Range,
-    /// A pose, `Pose`.
+    /// A pose of position and orientation, `Pose`.
     Pose,
-    /// A function.
+    /// A function, given as a value.
     Fn,
     /// An instance of a module, configuration, lattice or truss.
     Instance,
@@ -45,7 +45,7 @@ pub enum Kind {
     Behavior,
     /// A condition of an action, `Condition`.
     Condition,
-    /// A shape of a link, `Shape`.
+    /// A shape of a link, of the type `Shape`.
     Shape,
     /// A polygon mesh, `Mesh`.
     Mesh,
@@ -53,48 +53,48 @@ pub enum Kind {
     Terrain,
     /// A record, by the name of its type.
     Record(&'static str),
-    /// One of these words.
+    /// A word of a choice, one of those that the function returns.
     Choice(fn() -> Vec<&'static str>),
-    /// One of these words, or a value of another type.
+    /// A word of a choice, one of those that the function returns, or a value of another type.
     WordOr(fn() -> Vec<&'static str>, &'static Kind),
-    /// A value that may be missing.
+    /// A value of the given type that may be missing.
     Optional(&'static Kind),
 }
 
 /// The reason that a value is not what a native asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ArgumentError {
-    /// It has another type, which `check` excludes.
+    /// The value has another type than the native reads, which `check` excludes.
     Type,
     /// The value is out of range; the text follows the description of the parameter in the message.
     Range(&'static str),
 }
 
-/// A Rust type that an argument can be read as.
+/// A Rust type as which a native can read an argument.
 pub trait Argument<'c>: Sized {
-    /// The type in the language.
+    /// The type in the language that a parameter of this Rust type has.
     const KIND: Kind;
 
-    /// Reads a value.
+    /// Returns a value of the language as this Rust type.
     ///
     /// # Errors
-    /// An [`ArgumentError`] where the value has another type or is out of range.
+    /// [`ArgumentError::Type`] where the value has another type, [`ArgumentError::Range`] where it is out of range.
     fn read(value: &'c Value) -> Result<Self, ArgumentError>;
 }
 
 /// An enum whose values a program writes as words. The words stand here and in the declarations, which
 /// a test compares, and nowhere else.
 pub trait Choice: Copy + PartialEq + 'static {
-    /// Each word with its value, in the order of the declaration.
+    /// The words of the choice, each with its value, in the order of the declaration.
     const WORDS: &'static [(&'static str, Self)];
 
-    /// Returns the word of this value. Panics if [`WORDS`](Choice::WORDS) leaves the value out.
+    /// Returns the word of the choice for this value. Panics if [`WORDS`](Choice::WORDS) leaves the value out.
     fn word(self) -> &'static str {
         let found = Self::WORDS.iter().find(|(_, value)| *value == self);
         found.map(|(word, _)| *word).expect("every value has a word")
     }
 
-    /// Returns all words, in the order of the declaration.
+    /// Returns all words of the choice, in the order of the declaration.
     fn words() -> Vec<&'static str> {
         Self::WORDS.iter().map(|(word, _)| *word).collect()
     }
@@ -104,10 +104,10 @@ pub trait Choice: Copy + PartialEq + 'static {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positive(pub f64);
 
-/// A word of a choice or a value of another type: `auto | Int`.
+/// An argument that is a word of a choice or a value of another type: `auto | Int`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WordOr<W, T> {
-    /// One of the words.
+    /// A word of the choice.
     Word(W),
     /// A value of the other type.
     Value(T),
@@ -142,11 +142,12 @@ impl Choice for DynamicsModel {
 /// A parameter of a native: its name, and the type that it is read as.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// The name in the declaration.
+    /// The name of the parameter in the declaration.
     pub name: &'static str,
-    /// The type to compare with the declared one.
+    /// The type to be compared with that in the declaration.
     pub kind: Kind,
-    /// The function that returns the name of the Rust type, to compare with the type that is read.
+    /// The function that returns the name of the Rust type, to be compared with the type as which the native reads
+    /// the argument.
     pub rust_type: fn() -> &'static str,
 }
 
@@ -156,8 +157,8 @@ impl Parameter {
         Parameter { name, kind: T::KIND, rust_type: std::any::type_name::<T> }
     }
 
-    /// Returns a native's own parameters and then those of the part that it shares with others: `part` has one
-    /// list or none. `N` is the number of all: the build fails if it is greater, and parameters are lost if it is less.
+    /// Returns a native's own parameters and then those of the part that it shares with others: `part` has one list
+    /// or none. `N` is the number of all: the build fails if it is greater, and parameters are lost if it is less.
     pub const fn concatenated<const N: usize>(own: &[Parameter], part: &[&[Parameter]]) -> [Parameter; N] {
         let mut all = [Parameter::new::<bool>(""); N];
         let mut i = 0;

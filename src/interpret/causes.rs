@@ -7,12 +7,13 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The span of a cause in the source, and the call that led there.
+/// The record of a cause: the span of a command in the source, and the call that led there.
 #[derive(Clone, Debug)]
 pub struct CauseRecord {
     /// The span of the expression that gives the command.
     pub span: Span,
-    /// The arguments of an action as (what it commands, span of the argument); empty for other commands.
+    /// The arguments of an action as (the part of the action that the argument states, span of the argument); empty
+    /// for other commands.
     pub args: Vec<(Part, Span)>,
     /// The instance and the loop variables: `leg[2].m[0].tilt (i = 3)`; may be empty.
     pub instance: Rc<str>,
@@ -21,19 +22,19 @@ pub struct CauseRecord {
 }
 
 impl CauseRecord {
-    /// Returns the span to show first: the user's own line.
+    /// Returns the span that a message shows first: the user's own line.
     pub fn primary(&self) -> Span {
         self.caller.unwrap_or(self.span)
     }
 
-    /// Returns the span of an argument; of the whole action where it was left out.
+    /// Returns the span of an argument of the action; that of the whole action where the argument was left out.
     pub fn argument(&self, part: Part) -> Span {
         self.args.iter().find(|(p, _)| *p == part).map_or(self.span, |(_, span)| *span)
     }
 }
 
-/// All causes of a run, each once, so that the same call gives the same behaviour. A plan gets a table of its
-/// own, of those that it names.
+/// The causes of a run, each once, so that the same call gives the same behaviour. A plan gets a table of its own, of
+/// those that it names.
 #[derive(Clone, Default)]
 pub struct Causes {
     records: Vec<CauseRecord>,
@@ -42,7 +43,8 @@ pub struct Causes {
 }
 
 impl Causes {
-    /// Adds a cause and returns its number; one with the same span, instance and caller keeps its number.
+    /// Adds a cause and returns its number in the run, from 0; one with the same span, instance and caller keeps its
+    /// number.
     pub fn add(&mut self, record: CauseRecord) -> CauseId {
         let id = CauseId(u32::try_from(self.records.len()).expect("causes are counted in 32 bits"));
         let key = (record.span, record.instance.clone(), record.caller);
@@ -53,7 +55,7 @@ impl Causes {
         known
     }
 
-    /// Returns the record of a cause. Panics if the number is of another run.
+    /// Returns the record of a cause, given by its number in the run. Panics if the number is of another run.
     pub fn get(&self, id: CauseId) -> &CauseRecord {
         &self.records[id.0 as usize]
     }
@@ -62,7 +64,7 @@ impl Causes {
 /// The causes of one plan, in order of first mention.
 #[derive(Default)]
 pub struct PlanCauses {
-    /// The run's number of each cause; the index here, from 0, is the plan's number.
+    /// The number in the run of each cause of the plan; the index here, from 0, is the plan's number.
     pub ids: Vec<CauseId>,
     known: HashMap<CauseId, CauseId>,
 }
@@ -125,8 +127,8 @@ impl PlanCauses {
         action
     }
 
-    /// Returns the table that goes into the plan: each of its causes, in the order of the plan's numbers, as file,
-    /// line and text.
+    /// Returns the table of causes that goes into the plan: each as file, line and text, in the order of the plan's
+    /// numbers.
     pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
         self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
     }

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-/// Cells on the grid; x to the right, y up (in a text the first line is the top), z up. Each cell once, in
-/// the order in which the cells are numbered.
+/// An arrangement of cells on the integer grid: x to the right, y up (in a text the first line is the top), z up.
+/// Each cell is there once, in the order in which the cells are numbered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cells {
     /// The whole coordinates x, y, z of each cell, in cell sizes; the index here, from 0, is the number of the cell.
@@ -13,7 +13,7 @@ pub struct Cells {
 /// The first character of a text of cells that is neither cell nor gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BadCell {
-    /// The character.
+    /// The character that is neither cell nor gap.
     pub character: char,
     /// The line of the character, from 0.
     pub line: usize,
@@ -22,10 +22,11 @@ pub struct BadCell {
 }
 
 /// Returns the cells of one layer, x, y and the height `z` in cell sizes, from text: `#` is a cell, `.` and a blank
-/// are not. The last line is at y = 0, the first character of a line at x = 0; the cells are in the order of the text.
+/// are not. The last line is at y = 0, the first character of a line at x = 0; the cells are in the order of the
+/// text.
 ///
 /// # Errors
-/// The first character that is none of these.
+/// [`BadCell`] for the first character that is none of these.
 pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
     let lines: Vec<&str> = text.lines().collect();
     let mut positions = Vec::new();

@@ -21,31 +21,31 @@ use std::rc::Rc;
 /// Most names that a message lists.
 const NAMES_SHOWN: usize = 12;
 
-/// A declaration with its arguments, elaborated once: what all its instances share.
+/// A design: a declaration with its arguments, elaborated once, which all its instances share.
 pub struct Design {
-    /// The declaration.
+    /// The declaration that was elaborated.
     pub def: DefId,
-    /// The name, with the arguments where they differ from the defaults: `Walker(bend: 35deg)`.
+    /// The name of the declaration, with the arguments where they differ from the defaults: `Walker(bend: 35deg)`.
     pub name: String,
-    /// One value for every parameter, in the order of the declaration.
+    /// The arguments, one value for every parameter, in the order of the declaration.
     pub args: Vec<Value>,
     /// The kind of declaration, with what it declares.
     pub kind: DesignKind,
-    /// True if something is wrong with it, which has been reported: instances of it are unknown.
+    /// True if something is wrong with the declaration, which has been reported: instances of it are unknown.
     pub broken: Flag<bool>,
 }
 
-/// A declaration with instances by its family, with what elaboration made of its body.
+/// The kind of a design, with what elaboration made of the declaration's body.
 pub enum DesignKind {
-    /// A module.
+    /// A module with its links, joints and ports.
     Module(ModuleDesign),
     /// A configuration: instances of modules and configurations, connected by bonds.
     Config(ConfigDesign),
-    /// A cell of a lattice.
+    /// A cell, of which lattices are made.
     Cell(Cell),
-    /// A strut of a truss.
+    /// A strut, of which trusses are made.
     Strut(Strut),
-    /// A lattice of cells.
+    /// A lattice: cells of one kind on a grid.
     Lattice(LatticeDesign),
     /// A truss of struts and nodes.
     Truss(TrussDesign),
@@ -53,24 +53,23 @@ pub enum DesignKind {
 
 /// A module, elaborated: its type in numbers, and what the language knows beside that.
 pub struct ModuleDesign {
-    /// The module; its ports' connectors are indices into `connectors` here, not into a library.
+    /// The module type; the connectors of its ports are indices into `connectors` here, not into a library.
     pub module: Rc<ModuleType>,
-    /// The declarations of its connectors; the index here is the connector of a port in `module`.
+    /// The declarations of the module's connectors; the index here, from 0, is the connector of a port in `module`.
     pub connectors: Vec<DefId>,
-    /// For each entry of [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports), in order, the index of its first
-    /// port in `module`, and the number of its ports.
+    /// The ports of each entry of [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports), in order, as (index of
+    /// its first port in `module`, number of its ports).
     pub port_groups: Vec<(usize, usize)>,
     /// The dimension of the position of each joint of `module`, in their order.
     pub joint_dimensions: Vec<Dimension>,
-    /// The robot, once it was asked for; `None` where there is none.
+    /// The assembled robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
-/// A configuration, filled in order while its body is elaborated; the body can refer to what is there
-/// already.
+/// A configuration, which is filled in order while its body is elaborated; the body can refer to what is there already.
 #[derive(Default)]
 pub struct ConfigDesign {
-    /// The parts, in the order of [`ConfigDef::parts`](crate::check::typed::ConfigDef::parts).
+    /// The parts of the configuration, in the order of [`ConfigDef::parts`](crate::check::typed::ConfigDef::parts).
     pub parts: OnceCell<Vec<PartGroup>>,
     /// All modules, those of the parts in order; indices of modules elsewhere count in this list, from 0.
     pub modules: OnceCell<Vec<FlatModule>>,
@@ -78,65 +77,64 @@ pub struct ConfigDesign {
     pub bonds: RefCell<Vec<BondRecord>>,
     /// The index in `bonds` of the bond at each port, given as (index of the module, index of the port), that has one.
     pub taken: RefCell<HashMap<(usize, usize), usize>>,
-    /// The connected components of modules so far.
+    /// The connected components of modules, as far as connections have been made.
     pub groups: RefCell<Groups>,
     /// The start positions, in the order of the clauses.
     pub sets: RefCell<Vec<SetRecord>>,
-    /// The index of the module named by `base`; `None` if none is named.
+    /// The index in `modules` of the module named by `base`; `None` if none is named.
     pub base: Flag<Option<usize>>,
-    /// True if loops may be closed.
+    /// True if the configuration says that loops may be closed.
     pub closed: bool,
     /// The order of the configuration: one more than the largest order of its parts.
     pub order: Flag<usize>,
     /// True once all clauses have been run, so that its geometry is known.
     pub complete: Flag<bool>,
-    /// The robot, once it was asked for; `None` where there is none.
+    /// The assembled robot, once it was asked for; `None` where there is none.
     pub robot: OnceCell<Option<Rc<Robot>>>,
 }
 
-/// A part, or a list of parts.
+/// A part of a configuration, or a list of parts.
 pub struct PartGroup {
-    /// True if it was declared as a list.
+    /// True if the part was declared as a list.
     pub list: bool,
-    /// The parts in order; one if it is no list.
+    /// The parts in order; one if it was not declared as a list.
     pub elements: Vec<PartElement>,
 }
 
 /// One part of a configuration, an element of a list of parts too, with the place of its modules among all.
 pub struct PartElement {
-    /// The elaborated declaration.
+    /// The elaborated declaration of the part.
     pub design: Rc<Design>,
-    /// The index of its first module in [`ConfigDesign::modules`].
+    /// The index of the part's first module in [`ConfigDesign::modules`].
     pub offset: usize,
-    /// The name, `leg` or `leg[2]`.
+    /// The name of the part: `leg`, or `leg[2]` in a list.
     pub name: Rc<str>,
 }
 
 /// A module of a configuration, at any depth of its parts, by its path name.
 #[derive(Clone)]
 pub struct FlatModule {
-    /// The path name: `leg[2].m[0]`.
+    /// The path name of the module, such as `leg[2].m[0]`.
     pub name: Rc<str>,
-    /// The elaborated declaration.
+    /// The elaborated declaration of the module.
     pub design: Rc<Design>,
 }
 
 /// A connection (`connect`), with its position in the source.
 #[derive(Clone)]
 pub struct BondRecord {
-    /// The first end, as (index of the module, index of the port).
+    /// The first port, as (index of the module in [`ConfigDesign::modules`], index of the port in its type).
     pub a: (usize, usize),
-    /// The second end, as (index of the module, index of the port).
+    /// The second port, as (index of the module in [`ConfigDesign::modules`], index of the port in its type).
     pub b: (usize, usize),
     /// The turn of the second connector about their common normal, 0 to `turns` - 1, in steps of 360° divided by the
     /// connector's `turns`.
     pub turn: u32,
-    /// The span of the clause.
+    /// The span of the clause `connect`.
     pub span: Span,
     /// The spans of the two paths, of the first end and the second.
     pub ends: (Span, Span),
-    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be
-    /// empty.
+    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a line of a RoFI file; may be empty.
     pub instance: Rc<str>,
 }
 
@@ -145,18 +143,17 @@ pub struct BondRecord {
 pub struct SetRecord {
     /// The joint whose position is set.
     pub joint: JointOwner,
-    /// Its position at the start, rad or m.
+    /// The position of the joint at the start, rad or m.
     pub value: f64,
-    /// The span of the clause.
+    /// The span of the clause `set`.
     pub span: Span,
-    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a module of a RoFI file; may
-    /// be empty.
+    /// The path of the part and the loop variables, such as `leg[2] (i = 3)`, or a module of a RoFI file; may be empty.
     pub instance: Rc<str>,
 }
 
 /// A lattice: cells of one kind in an arrangement.
 pub struct LatticeDesign {
-    /// The design of the cell that it is made of.
+    /// The design of the cell that the lattice is made of.
     pub of: Rc<Design>,
     /// The positions of the cells on the grid.
     pub cells: Rc<Cells>,
@@ -164,38 +161,38 @@ pub struct LatticeDesign {
 
 /// A truss: nodes, and struts of one kind between them.
 pub struct TrussDesign {
-    /// The design of the strut that it is made of.
+    /// The design of the strut that the truss is made of.
     pub of: Rc<Design>,
     /// The nodes, in the order of the declaration.
     pub nodes: Vec<Node>,
     /// The struts, each as the indices in `nodes` of its first and second node, from 0.
     pub struts: Vec<(usize, usize)>,
-    /// The rank of the rigidity matrix in the start pose, with the degrees of freedom that follow from it.
+    /// The infinitesimal rigidity of the truss in the start pose: the rank of its rigidity matrix, with the degrees of
+    /// freedom that follow from it.
     pub rigidity: Rigidity,
 }
 
 /// A node of a truss, a single one or an element of an array, with its position in the start pose.
 #[derive(Clone)]
 pub struct Node {
-    /// The name: `ring[3]`, or `top` for a node that is no array's.
+    /// The name of the node: `ring[3]`, or `top` for a node that is no array's.
     pub name: String,
-    /// The name of the array, `ring`; `None` for a single node.
+    /// The name of the array that the node belongs to, such as `ring`; `None` for a single node.
     pub group: Option<Symbol>,
-    /// The position in the start pose, m, in the frame of the declaration.
+    /// The position of the node in the start pose, m, in the frame of the declaration.
     pub position: Vec3,
-    /// The clause that declares it.
+    /// The span of the clause that declares the node.
     pub span: Span,
 }
 
 impl TrussDesign {
-    /// Returns the name of the strut of this index: those of its two nodes, `a -- b`. Panics if there is no such
-    /// strut.
+    /// Returns the name of the strut of this index: those of its two nodes, `a -- b`. Panics if there is no such strut.
     pub fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.struts[strut];
         format!("{} -- {}", self.nodes[a].name, self.nodes[b].name)
     }
 
-    /// Returns the kind of the struts; `None` where it is broken.
+    /// Returns the kind of the struts; `None` where its declaration is broken.
     pub fn strut_kind(&self) -> Option<&Strut> {
         match &self.of.kind {
             DesignKind::Strut(strut) => Some(strut),
@@ -203,8 +200,8 @@ impl TrussDesign {
         }
     }
 
-    /// Returns each free motion in words: the nodes that move, each with its direction. Components up to 0.005
-    /// are left out, and of more than twelve nodes those after the eleventh.
+    /// Returns each free motion in words: the nodes that move, each with its direction. Components up to 0.005 are left
+    /// out, and of more than twelve nodes those after the eleventh.
     pub fn free_motions(&self) -> Vec<String> {
         let moves = |(node, d): &(usize, Vec3)| {
             let axis = ["x", "y", "z"];
@@ -218,8 +215,8 @@ impl TrussDesign {
         motions.map(|m| shorten(&m.nodes.iter().map(moves).collect::<Vec<_>>())).collect()
     }
 
-    /// Returns the position of a node, or the list of those of an array in the order of the declaration; `None`
-    /// where there is no such node.
+    /// Returns the position of a node, or the list of those of an array in the order of the declaration; `None` where
+    /// there is no such node.
     pub fn position_of(&self, name: Symbol) -> Option<Value> {
         let position = |node: &Node| Value::Vec3(node.position, Dimension::LENGTH);
         let mut of_group = self.nodes.iter().filter(|n| n.group == Some(name)).peekable();
@@ -233,11 +230,11 @@ impl TrussDesign {
 
 /// A connector, elaborated: its type in numbers, and the declarations that it docks with.
 pub struct ConnectorDesign {
-    /// The declaration.
+    /// The declaration of the connector.
     pub def: DefId,
-    /// The connector; its `mates` are empty here, as they are declarations, below.
+    /// The connector in numbers; its `mates` are empty here, as they are declarations, in [`ConnectorDesign::mates`].
     pub connector: Connector,
-    /// The connectors that it docks with.
+    /// The declarations of the connectors that it docks with.
     pub mates: Vec<DefId>,
 }
 
@@ -256,7 +253,7 @@ impl Groups {
         at
     }
 
-    /// Returns true if two modules, by index, are in one component.
+    /// Returns true if two modules, given by index from 0, are in one component.
     pub fn together(&mut self, a: usize, b: usize) -> bool {
         self.root(a) == self.root(b)
     }
@@ -268,8 +265,8 @@ impl Groups {
 }
 
 impl ConfigDesign {
-    /// Returns a configuration of modules side by side, one list of parts, with no bonds yet, for a robot
-    /// that no declaration's body describes. It is not marked as complete.
+    /// Returns a configuration of modules side by side, one list of parts, with no bonds yet, for a robot that no
+    /// declaration's body describes. It is not marked as complete.
     pub fn of_modules(modules: Vec<FlatModule>) -> ConfigDesign {
         let config = ConfigDesign::default();
         let part = |(offset, module): (usize, &FlatModule)| PartElement {
@@ -284,7 +281,7 @@ impl ConfigDesign {
         config
     }
 
-    /// Adds a connection, takes its two ports, and joins the components of its modules.
+    /// Adds a connection to the configuration, takes its two ports, and joins the components of its modules.
     pub fn add_bond(&self, bond: BondRecord) {
         let index = self.bonds.borrow().len();
         self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);
@@ -294,7 +291,7 @@ impl ConfigDesign {
 }
 
 impl Design {
-    /// Returns the module; `None` for other designs.
+    /// Returns the module that the design is; `None` for other designs.
     pub fn module(&self) -> Option<&ModuleDesign> {
         match &self.kind {
             DesignKind::Module(module) => Some(module),
@@ -302,7 +299,7 @@ impl Design {
         }
     }
 
-    /// Returns the configuration; `None` for other designs.
+    /// Returns the configuration that the design is; `None` for other designs.
     pub fn config(&self) -> Option<&ConfigDesign> {
         match &self.kind {
             DesignKind::Config(config) => Some(config),
@@ -310,7 +307,7 @@ impl Design {
         }
     }
 
-    /// Returns the number of modules; 0 for a design that is no robot or not far enough elaborated.
+    /// Returns the number of modules of the design; 0 for a design that is no robot or not far enough elaborated.
     pub fn module_count(&self) -> usize {
         match &self.kind {
             DesignKind::Module(_) => 1,
@@ -319,8 +316,8 @@ impl Design {
         }
     }
 
-    /// Returns the number of elements: cells of a lattice, struts of a truss, else modules; 0 for a single cell or
-    /// strut.
+    /// Returns the number of elements of the design: cells of a lattice, struts of a truss, else modules; 0 for a
+    /// single cell or strut.
     pub fn element_count(&self) -> usize {
         match &self.kind {
             DesignKind::Lattice(lattice) => lattice.cells.positions.len(),
@@ -330,8 +327,8 @@ impl Design {
         }
     }
 
-    /// Returns the mass of the whole, kg; 0 for a configuration that is not far enough elaborated, and for a truss
-    /// whose strut is broken.
+    /// Returns the mass of the whole design, kg; 0 for a configuration that is not far enough elaborated, and for a
+    /// truss whose strut is broken.
     pub fn mass(self: &Rc<Design>) -> f64 {
         match &self.kind {
             DesignKind::Cell(cell) => cell.mass,
@@ -346,7 +343,7 @@ impl Design {
         }
     }
 
-    /// Returns a library of nothing but this cell or strut; `None` for any other kind.
+    /// Returns a library of nothing but the cell or strut that the design is; `None` for any other design.
     pub fn library_of_element(&self) -> Option<Library> {
         match &self.kind {
             DesignKind::Cell(cell) => Some(Library { cells: vec![cell.clone()], ..Library::default() }),
@@ -355,8 +352,8 @@ impl Design {
         }
     }
 
-    /// Returns the module design at an index; itself for a design that is no configuration. Panics if the
-    /// modules of a configuration are not listed yet, or the index is out of range.
+    /// Returns the module design at an index; itself for a design that is no configuration. Panics if the modules of a
+    /// configuration are not listed yet, or the index is out of range.
     pub fn module_at(self: &Rc<Design>, index: usize) -> Rc<Design> {
         match &self.kind {
             DesignKind::Config(config) => {
@@ -366,16 +363,16 @@ impl Design {
         }
     }
 
-    /// Returns the type of the module at an index. Panics if the modules of a configuration are not listed
-    /// yet, the index is out of range, or the design is no robot.
+    /// Returns the type of the module at an index. Panics if the modules of a configuration are not listed yet, the
+    /// index is out of range, or the design is no robot.
     pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
         let design = self.module_at(index);
         design.module().expect("only modules are listed").module.clone()
     }
 
-    /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is no
-    /// configuration, the name of the design. Panics if the modules of a configuration are not listed yet, or
-    /// the index is out of range.
+    /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is no configuration,
+    /// the name of the design. Panics if the modules of a configuration are not listed yet, or the index is out of
+    /// range.
     pub fn module_name(&self, index: usize) -> Rc<str> {
         match &self.kind {
             DesignKind::Config(config) => {
@@ -385,25 +382,25 @@ impl Design {
         }
     }
 
-    /// Returns the order: one more than the largest order of its parts for a configuration, 0 for other
-    /// designs.
+    /// Returns the order of a configuration: one more than the largest order of its parts, by which Tosun, Jing,
+    /// Kress-Gazit and Yim sort the library of their compositional-design paper; 0 for other designs.
     pub fn order(&self) -> usize {
         self.config().map_or(0, |config| config.order.get())
     }
 
-    /// Returns the connections; an empty list for a design that is no configuration.
+    /// Returns the connections of a configuration, in the order of its clauses; an empty list for other designs.
     pub fn bonds(&self) -> Vec<BondRecord> {
         self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
     }
 
-    /// Returns the connection at an index. Panics if the design is no configuration, or the index is out of
-    /// range.
+    /// Returns the connection at an index of [`Design::bonds`]. Panics if the design is no configuration, or the index
+    /// is out of range.
     pub fn bond(&self, index: usize) -> BondRecord {
         let config = self.config().expect("only configurations have bonds");
         config.bonds.borrow()[index].clone()
     }
 
-    /// Returns the start positions that are set; an empty list for a design that is no configuration.
+    /// Returns the start positions that a configuration sets; an empty list for other designs.
     pub fn sets(&self) -> Vec<SetRecord> {
         self.config().map_or_else(Vec::new, |config| config.sets.borrow().clone())
     }
@@ -418,14 +415,14 @@ impl std::fmt::Debug for Design {
 /// The robot that a value belongs to: the outermost design, and which of the robots that are equal to it.
 #[derive(Clone)]
 pub struct Subject {
-    /// The outermost design.
+    /// The outermost design, of which the value is a part.
     pub design: Rc<Design>,
-    /// The robot among its equals.
+    /// The identity of the robot among those that are equal to it.
     pub identity: Identity,
 }
 
 impl Subject {
-    /// Returns a robot that has no name yet.
+    /// Returns the robot of a design as one that has no name yet.
     pub fn new(design: Rc<Design>) -> Subject {
         Subject { design, identity: Identity::default() }
     }
@@ -445,15 +442,15 @@ impl std::fmt::Debug for Subject {
     }
 }
 
-/// A design as a part of a robot, or as the whole.
+/// An instance of a design: a part of a robot, or the whole.
 pub struct Instance {
-    /// The elaborated declaration.
+    /// The elaborated declaration of the instance.
     pub design: Rc<Design>,
-    /// The robot that it is a part of.
+    /// The robot that the instance is a part of.
     pub robot: Subject,
-    /// The index of its first module among the robot's; 0 for the whole.
+    /// The index of the instance's first module among the robot's, from 0; 0 for the whole.
     pub offset: usize,
-    /// The path name within the robot; empty for the whole.
+    /// The path name of the instance within the robot, such as `leg[2]`; empty for the whole.
     pub path: Rc<str>,
     /// The parts as values, by part group; made when they are first asked for.
     parts: OnceCell<Vec<Value>>,
@@ -475,15 +472,15 @@ impl Instance {
         })
     }
 
-    /// Gives a robot a name. A part is given none: it goes by the names of its robot.
+    /// Gives the robot a name. A part is given none: it goes by the names of its robot.
     pub fn bind(&self, name: Name) {
         if self.path.is_empty() {
             self.robot.identity.bind(name);
         }
     }
 
-    /// Returns the parts of a configuration as values: an instance or a list of instances for each group.
-    /// `None` while they are being elaborated, and for an instance that is no configuration.
+    /// Returns the parts of a configuration as values: an instance or a list of instances for each group. `None` while
+    /// they are being elaborated, and for an instance that is no configuration.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;
         let groups = config.parts.get()?;
@@ -506,8 +503,8 @@ impl Instance {
         })
     }
 
-    /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is no
-    /// module, or if there is no such joint.
+    /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is no module,
+    /// or if there is no such joint.
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
@@ -516,8 +513,8 @@ impl Instance {
     }
 
     /// Returns a port of a module instance, or with `array` the list of an array's ports, by its index in
-    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports); `None` for an instance that is no module,
-    /// or if there is no such port.
+    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports); `None` for an instance that is no module, or if
+    /// there is no such port.
     pub fn port(&self, group: usize, array: bool) -> Option<Value> {
         let module = self.design.module()?;
         let (first, count) = *module.port_groups.get(group)?;
@@ -526,7 +523,8 @@ impl Instance {
         if array { Some(Value::List(Rc::new(ports.collect()))) } else { ports.next() }
     }
 
-    /// Returns the path name within the robot, such as `leg[2]`; for the robot as a whole, the name of its design.
+    /// Returns the path name of the instance within the robot, such as `leg[2]`; for the robot as a whole, the name of
+    /// its design.
     pub fn title(&self) -> &str {
         if self.path.is_empty() { &self.design.name } else { &self.path }
     }
@@ -539,7 +537,7 @@ impl std::fmt::Debug for Instance {
 }
 
 impl JointValue {
-    /// Returns the path name: `leg[2].m[0].tilt`; the joint of a connection goes by its two ports.
+    /// Returns the path name of the joint, such as `leg[2].m[0].tilt`; the joint of a connection goes by its two ports.
     pub fn name(&self) -> String {
         match self.owner {
             JointOwner::Module { module, joint } => {
@@ -557,7 +555,7 @@ impl JointValue {
 }
 
 impl PortValue {
-    /// Returns the path name: `leg[2].m[0].top`.
+    /// Returns the path name of the port, such as `leg[2].m[0].top`.
     pub fn name(&self) -> String {
         let port = &self.robot.module_type(self.module).ports[self.port].name;
         format!("{}.{port}", self.robot.module_name(self.module))
@@ -588,13 +586,14 @@ impl Robot {
         self.joint_of(joint.owner)
     }
 
-    /// Returns the pose of a port in the start state, in the frame of the base module's body, m.
+    /// Returns the pose of a port in the start state, in the frame of the base module's body (metres). Panics if the
+    /// robot has no such port.
     pub fn port_pose(&self, port: &PortValue) -> Pose {
         self.kinematics.port_pose(&self.assembly, port_ref(port), &self.poses)
     }
 }
 
-/// Returns a port by module and port index, as an assembly names it.
+/// Returns a port as the indices of its module and of the port in the module's type, as an assembly names it.
 pub fn port_ref(port: &PortValue) -> PortRef {
     PortRef { module: port.module, port: port.port }
 }

@@ -13,10 +13,10 @@ use crate::units::quantity_in;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The variables of a body, and the instance whose body it is.
+/// The frame of a body under evaluation: its variables, and the instance whose body it is.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// The values, by the slot of the variable; unknown where none was put yet.
+    /// The values of the variables, by the slot of the variable, from 0; unknown where none was put yet.
     pub slots: Vec<Value>,
     /// The instance whose body is evaluated; `None` outside of declarations with instances.
     pub this: Option<Rc<Instance>>,

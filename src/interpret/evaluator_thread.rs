@@ -54,7 +54,7 @@ enum Request {
     GivenUp,
 }
 
-/// The evaluator's access to files and host, which answer on the caller's thread.
+/// The evaluator's access to the files and the host of a run, which answer on the caller's thread.
 #[derive(Clone)]
 pub struct HostProxy {
     requests: SyncSender<Request>,
@@ -84,10 +84,10 @@ impl HostProxy {
         move |line| proxy.send(Request::Progress(line))
     }
 
-    /// Writes a file of the output folder and returns the path to show.
+    /// Writes a file of the output folder, given by its path from that folder, and returns the path to show.
     ///
     /// # Errors
-    /// The path leads out of the output folder, or the system refuses.
+    /// [`WriteError`] where the path leads out of the output folder, or the system refuses.
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
         self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
@@ -95,7 +95,7 @@ impl HostProxy {
     /// Returns the bytes of a file of the project, given by its path from the project's root.
     ///
     /// # Errors
-    /// The file can't be read.
+    /// The [`ReadError`] for which the file can't be read.
     pub fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
         self.ask(|reply| Request::Read(path.into(), reply))
     }
@@ -105,7 +105,7 @@ impl HostProxy {
         self.cancel_state.is_cancelled()
     }
 
-    /// Returns the seconds since some instant; see [`Host::elapsed`].
+    /// Returns the time since some fixed instant, s; see [`Host::elapsed`].
     pub fn elapsed(&self) -> f64 {
         self.ask(Request::Elapsed)
     }

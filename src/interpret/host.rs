@@ -9,7 +9,7 @@ use crate::source::Diagnostic;
 pub enum WriteError {
     /// The path, or a link on it, leads out of the output folder.
     Outside,
-    /// Any other reason, in the system's words.
+    /// Another failure, as a message in the words of the operating system.
     Failed(String),
 }
 
@@ -21,11 +21,11 @@ pub trait Host {
     /// Receives a value that the next printed line, or lines, show; only where [`Options::values`] asks for that.
     fn print_value(&mut self, _value: PrintedValue) {}
 
-    /// Writes a whole file below the output folder, or nothing; returns the path to show. `path` is relative to
-    /// the output folder, with forward slashes.
+    /// Writes a whole file below the output folder, or nothing; returns the path to show. `path` is relative to the
+    /// output folder, with forward slashes.
     ///
     /// # Errors
-    /// The path leads out of the output folder, or the system refuses.
+    /// [`WriteError`] where the path leads out of the output folder, or the system refuses.
     fn write(&mut self, path: &str, bytes: &[u8]) -> Result<String, WriteError>;
 
     /// Shows a line about the progress of long work, on terminals only.
@@ -37,8 +37,8 @@ pub trait Host {
         CancelState::default()
     }
 
-    /// Returns the seconds since some instant, for timeouts, which refuse and choose nothing. Without a
-    /// clock, 0: then there are no timeouts.
+    /// Returns the time since some fixed instant, s, for timeouts, which refuse and choose nothing. Without a clock,
+    /// 0: then there are no timeouts.
     fn elapsed(&self) -> f64 {
         0.0
     }
@@ -47,16 +47,16 @@ pub trait Host {
 /// The part of a program that is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Elaborate every declaration with its defaults and every instance that statements make;
-    /// plan, verify, print and write nothing.
+    /// Checking: every declaration is elaborated with its defaults, and every instance that statements make; nothing
+    /// is planned, verified, printed or written.
     Check,
-    /// Execute the statements of the file that is run.
+    /// Running: the statements of the file are executed.
     Run,
-    /// Execute the tests of the file that is run, and none of its statements.
+    /// Testing: the tests of the file are executed, and none of its statements.
     Test,
 }
 
-/// The choices of a user for a run.
+/// The choices of a user for a run, such as seed, limits and threads.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// The text that the names of the tests to run contain; `None`: all tests.
@@ -69,7 +69,7 @@ pub struct Options {
     pub command: String,
     /// The width and the height of still pictures, pixels; `None`: their natural size.
     pub picture: Option<(usize, usize)>,
-    /// Bounds on what the program may use.
+    /// The bounds on what the program may use.
     pub limits: Limits,
     /// True if the host is told the values that are printed, besides their text.
     pub values: bool,
@@ -114,9 +114,9 @@ impl Default for Limits {
 /// The outcome of a `test` of the program in [`Mode::Test`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TestResult {
-    /// The name of the test.
+    /// The name of the test as the program states it.
     pub name: String,
-    /// True if it passed. The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
+    /// True if the test passed. The first diagnostic of a failed test is also in [`Outcome::diagnostics`].
     pub passed: bool,
 }
 

@@ -14,18 +14,19 @@ const NAMES_MAX: usize = 64;
 /// A name of a robot: the code that binds it, and the index if it is bound as one of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// The value of a `let`, the declaration of a parameter, or the list that a loop goes through.
+    /// The span of the code that binds the name: the value of a `let`, the declaration of a parameter, or the list
+    /// that a loop goes through.
     pub span: Span,
-    /// The index in the list, from 0; `None` if the robot is bound alone.
+    /// The index of the robot in the list, from 0; `None` if it is bound alone.
     pub index: Option<usize>,
 }
 
-/// One of the robots that a program makes, with its names. Copies are the same robot.
+/// The identity of a robot that a program makes, with its names. Copies are the same robot.
 #[derive(Clone, Debug, Default)]
 pub struct Identity(Rc<RefCell<Vec<Name>>>);
 
 impl Identity {
-    /// Adds a name to all copies. Of one robot 64 names are kept; further ones are dropped.
+    /// Adds a name to all copies of the robot. Of one robot 64 names are kept; further ones are dropped.
     pub fn bind(&self, name: Name) {
         let mut names = self.0.borrow_mut();
         if names.len() < NAMES_MAX && !names.contains(&name) {
@@ -33,8 +34,8 @@ impl Identity {
         }
     }
 
-    /// Returns a name of each of two robots that the other lacks, this one's first. `None` where the program
-    /// may mean one robot: for copies, and where all names of one are names of the other, as where it has none.
+    /// Returns, for two robots, a name of each that the other lacks, this one's first. `None` where the program may
+    /// mean one robot: for copies, and where all names of one are names of the other, as where it has none.
     pub fn apart(&self, other: &Identity) -> Option<(Name, Name)> {
         if Rc::ptr_eq(&self.0, &other.0) {
             return None;

@@ -33,12 +33,12 @@ pub struct Interpreter<'a> {
     pub shared: Shared<'a>,
     /// The findings and outputs so far.
     pub reported: Reported,
-    /// The values of declarations, and what they refer to.
+    /// The values of declarations that were computed, and what they refer to.
     pub memory: Memory,
     /// The members of instances that were computed in this run, each by its index among the members of the
     /// declaration, for a session that has to forget those that failed.
     pub computed: Vec<(Rc<Instance>, usize)>,
-    /// The position of evaluation: calls and bindings.
+    /// The position of evaluation: its calls and bindings.
     pub stack: Stack,
 }
 
@@ -46,26 +46,26 @@ pub struct Interpreter<'a> {
 pub struct Shared<'a> {
     /// The functions of the rooms above the evaluator.
     pub routines: &'a Routines,
-    /// The typed program.
+    /// The checked program that is run.
     pub program: &'a Program,
-    /// The texts of the program.
+    /// The texts of the program, by which spans are resolved.
     pub sources: &'a Sources,
-    /// The options of the run.
+    /// The options of the run, chosen by the user.
     pub options: &'a Options,
     /// The part of the program that is evaluated.
     pub mode: Mode,
-    /// The access to files and terminal.
+    /// The access to files, terminal and output folder.
     pub host: HostProxy,
-    /// For each declaration, by its [`DefId`], true if `check` found mistakes in it. Values that depend on it are
-    /// unknown.
+    /// The flag of each declaration, by its [`DefId`], that is true if `check` found mistakes in it. Values that
+    /// depend on it are unknown.
     pub faulty: Vec<bool>,
 }
 
 /// The findings and effects of a run so far.
 #[derive(Default)]
 pub struct Reported {
-    /// The findings: at most 200 errors and 200 others, one for each code and span; findings of the judge
-    /// (E06xx) also one for each message.
+    /// The diagnostics: at most 200 errors and 200 others, one for each code and span; findings of the judge (E06xx)
+    /// also one for each message.
     pub reports: Vec<Diagnostic>,
     /// The number of errors, those included that are not in `reports`.
     pub errors: usize,
@@ -113,7 +113,7 @@ impl Memory {
     }
 }
 
-/// The position of evaluation: calls and bindings.
+/// The position of evaluation: the calls and bindings that it is in.
 #[derive(Default)]
 pub struct Stack {
     /// The calls that evaluation is in, outermost first.
@@ -130,9 +130,9 @@ pub struct Stack {
 /// A call of something that a user or the library wrote.
 #[derive(Clone, Debug)]
 pub struct CallSite {
-    /// The span of the call.
+    /// The span of the call in the source text.
     pub span: Span,
-    /// The function that is called.
+    /// The name of the function that is called.
     pub name: Symbol,
     /// The length of [`Stack::binders`] at the call: those before belong to the caller.
     binders: usize,
@@ -141,9 +141,9 @@ pub struct CallSite {
 /// A loop variable with its present value, which errors reported in its loop name.
 #[derive(Clone, Debug)]
 pub struct Binder {
-    /// The name of the variable.
+    /// The name of the loop variable.
     pub name: Symbol,
-    /// Its present value.
+    /// The present value of the loop variable.
     pub value: Value,
 }
 
@@ -173,12 +173,13 @@ impl<'a> Interpreter<'a> {
         &self.shared.options.limits
     }
 
-    /// Returns the name of a declaration.
+    /// Returns the name of a declaration. Panics if the program has none of this identity.
     pub fn name(&self, def: DefId) -> Symbol {
         self.shared.program.def(def).name
     }
 
-    /// Returns a record that the prelude declares by `record`. Panics if there is none.
+    /// Returns the declaration of a record that the prelude declares by `record`, given by its name. Panics if there
+    /// is none.
     pub fn prelude_record(&self, name: &str) -> DefId {
         let declared = |def: &Def| {
             def.name == name

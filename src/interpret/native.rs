@@ -7,12 +7,12 @@ use super::value::Value;
 use crate::check::typed::{Expr, Param};
 use crate::source::{ReadError, Span, code};
 
-/// The modes in which a built-in does its work.
+/// The modes of a run in which a built-in does its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// It does its work whenever it is called.
+    /// The built-in does its work whenever it is called.
     None,
-    /// It does its work only when the program is run: `modl check` evaluates its arguments and no more.
+    /// The built-in does its work only when the program is run: `modl check` evaluates its arguments and no more.
     OnRun,
 }
 
@@ -22,23 +22,23 @@ pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 /// A built-in function: the declaration that it belongs to, by its key, and its body in Rust.
 #[derive(Clone, Copy)]
 pub struct Native {
-    /// The key: `move`, or `Plan.at` for a method, which takes its object first.
+    /// The key of the declaration: `move`, or `Plan.at` for a method, which takes its object first.
     pub key: &'static str,
     /// The parameters in any order, the object of a method included; a test compares them with the declaration.
     pub parameters: &'static [Parameter],
-    /// The modes in which it does its work.
+    /// The modes of a run in which the built-in does its work.
     pub effect: Effect,
-    /// The Rust function.
+    /// The Rust function that does the work.
     pub body: NativeBody,
 }
 
 impl Native {
-    /// Returns a built-in that does its work whenever it is called.
+    /// Returns a built-in with this key that does its work whenever it is called.
     pub const fn pure(key: &'static str, parameters: &'static [Parameter], body: NativeBody) -> Native {
         Native { key, parameters, effect: Effect::None, body }
     }
 
-    /// Returns a built-in that only a run carries out.
+    /// Returns a built-in with this key that does its work only when the program is run.
     pub const fn on_run(key: &'static str, parameters: &'static [Parameter], body: NativeBody) -> Native {
         Native { key, parameters, effect: Effect::OnRun, body }
     }
@@ -48,7 +48,7 @@ impl Native {
 pub struct Call<'c> {
     /// The span of the whole call.
     pub span: Span,
-    /// The built-in that is called.
+    /// The built-in that is called, with its table of parameters.
     pub native: &'static Native,
     /// The declared parameters, in order.
     pub params: &'c [Param],
@@ -73,11 +73,10 @@ impl<'c> Call<'c> {
         self.get_named(name, name)
     }
 
-    /// Returns an argument as [`get`](Self::get) does; messages call it `what`: "the edge", "a number of
-    /// cells".
+    /// Returns an argument as [`get`](Self::get) does; messages call it `what`: "the edge", "a number of cells".
     ///
     /// # Errors
-    /// A fault where the value is out of range.
+    /// A fault at the argument where the value is out of range.
     pub fn get_named<T: Argument<'c>>(&self, name: &str, what: &str) -> Eval<T> {
         self.check_type(name, std::any::type_name::<T>());
         match T::read(self.arg(name)) {
@@ -106,32 +105,33 @@ impl<'c> Call<'c> {
         self.exprs.get(self.index(name))?.as_ref()
     }
 
-    /// Returns a fault (E0506) at an argument. Panics if the declaration has no parameter `name`.
+    /// Returns a fault (E0506) with this message at an argument. Panics if the declaration has no parameter `name`.
     pub fn refuse(&self, name: &str, message: impl Into<String>) -> Stop {
         let message = message.into();
         fault(code::BAD_VALUE, self.at(name), message.clone(), message)
     }
 
-    /// Returns a number above zero, in SI units; messages call it `what`.
+    /// Returns the argument of a parameter as a number above zero, in SI units; messages call it `what`.
     ///
     /// # Errors
-    /// A fault where the number is not above zero.
+    /// A fault at the argument where the number is not above zero.
     pub fn positive(&self, name: &str, what: &str) -> Eval<f64> {
         self.get_named(name, what).map(|Positive(x)| x)
     }
 
-    /// Returns a number above zero, in SI units, that may be missing; `None` if it is. Messages call it `what`.
+    /// Returns the argument of a parameter as a number above zero, in SI units; `None` if it is missing. Messages
+    /// call it `what`.
     ///
     /// # Errors
-    /// A fault where there is a number that is not above zero.
+    /// A fault at the argument where there is a number that is not above zero.
     pub fn positive_if(&self, name: &str, what: &str) -> Eval<Option<f64>> {
         Ok(self.get_named::<Option<Positive>>(name, what)?.map(|Positive(x)| x))
     }
 
-    /// Returns a whole number of at least zero; messages call it `what`.
+    /// Returns the argument of a parameter as a whole number of at least zero; messages call it `what`.
     ///
     /// # Errors
-    /// A fault where the number is negative or too large.
+    /// A fault at the argument where the number is negative or too large.
     pub fn count(&self, name: &str, what: &str) -> Eval<usize> {
         self.get_named(name, what)
     }

@@ -10,13 +10,13 @@ use std::any::Any;
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
-/// A plan with what the language knows about it.
+/// A plan with what the language knows about it: its robot, causes and verdict.
 pub struct PlanValue {
     /// The robot, lattice or truss that moves.
     pub robot: Rc<Design>,
     /// The robot as an assembly; `None` for a lattice or a truss.
     pub body: Option<Rc<Robot>>,
-    /// The plan itself.
+    /// The plan in numbers, without spans.
     pub plan: Plan,
     /// The run's number of each cause of the plan; the index here is the plan's number.
     pub causes: Vec<CauseId>,
@@ -39,11 +39,11 @@ type AtTimes<T> = (Rc<Vec<f64>>, Rc<Vec<T>>);
 
 /// A verdict with the settings and worlds that it was given under.
 pub(super) struct Judged {
-    /// The options of the judge.
+    /// The settings of the judge under which the verdict was made.
     pub settings: Settings,
     /// The worlds that were assumed, in order of time.
     pub worlds: Vec<WorldFrom>,
-    /// The verdict of the judge.
+    /// The verdict of the judge on the plan.
     pub verdict: Rc<Verdict>,
 }
 
@@ -56,12 +56,12 @@ pub trait PlannerReport: Any {
 /// The name of a field of a report, with the function that reads it.
 pub type ReportField<R> = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, &R) -> Value);
 
-/// A report whose fields are listed in one table.
+/// A report of a planner whose fields are listed in one table.
 pub trait ReportFields: Sized + 'static {
-    /// The fields in the order of the declaration.
+    /// The fields of the report, in the order of the declaration.
     const FIELDS: &'static [ReportField<Self>];
 
-    /// Returns the names of the fields, to be compared with the declaration.
+    /// Returns the names of the report's fields, to be compared with the declaration.
     fn names() -> Vec<&'static str> {
         Self::FIELDS.iter().map(|(name, _)| *name).collect()
     }
@@ -153,7 +153,7 @@ impl PlanValue {
         kept.1.clone()
     }
 
-    /// Returns the number of actions; the greatest `usize` if it is larger.
+    /// Returns the number of actions of the plan; the greatest `usize` if it is larger.
     pub fn actions(&self) -> usize {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }

@@ -5,108 +5,108 @@ use serde::{Serialize, Serializer};
 /// A value that was printed. Its fields are those of the JSON object (`docs/json.md`).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PrintedValue {
-    /// The text that was printed for it: one line, or all lines of a table.
+    /// The text that was printed for the value: one line, or all lines of a table.
     pub text: String,
-    /// The value itself.
+    /// The value itself, by its kind.
     pub value: TypedValue,
 }
 
-/// A value by its kind, which the names of its fields tell. Quantities are in SI units.
+/// A value as JSON, by its kind, which the names of its fields tell. Quantities are in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum TypedValue {
-    /// A finite quantity.
+    /// A finite quantity with its unit.
     Quantity {
-        /// The number of SI units.
+        /// The number of SI units that the quantity has.
         number: f64,
-        /// The unit, a product of base units such as `kg*m/s^2`, and the dimension; `None` for a plain number.
+        /// The SI unit, a product of base units such as `kg*m/s^2`, and the dimension; `None` for a plain number.
         #[serde(flatten)]
         unit: Option<SiUnit>,
     },
     /// A quantity beyond all bounds, such as a margin that nothing limits.
     Infinite {
-        /// The sign, 1 or -1.
+        /// The sign of the infinite quantity, 1 or -1.
         infinite: i8,
-        /// The unit and the dimension; `None` for a plain number.
+        /// The SI unit of the quantity and its dimension; `None` for a plain number.
         #[serde(flatten)]
         unit: Option<SiUnit>,
     },
     /// A whole number that fits in 64 bits.
     Whole {
-        /// The number.
+        /// The whole number.
         number: i64,
     },
     /// A whole number beyond 64 bits.
     Big {
-        /// The number, rounded to a double; JSON has `null` for one beyond 1.8e308.
+        /// The whole number, rounded to a double; JSON has `null` for one beyond 1.8e308.
         number: f64,
-        /// Its decimal digits.
+        /// The decimal digits of the whole number.
         digits: String,
     },
-    /// A truth value.
+    /// A truth value: `true` or `false`.
     Bool {
-        /// The value.
+        /// The truth value, true or false.
         bool: bool,
     },
-    /// A text.
+    /// A text of the type `Text`.
     Text {
         /// The text, as it is.
         text: String,
     },
     /// A word of a choice, such as `auto`.
     Word {
-        /// The word.
+        /// The word, as programs write it.
         word: &'static str,
     },
     /// A vector, in the order x, y, z.
     Vector {
-        /// The numbers of SI units.
+        /// The components x, y and z, in SI units.
         vector: [f64; 3],
-        /// The unit and the dimension of each; `None` for plain numbers.
+        /// The SI unit of each component and the dimension; `None` for plain numbers.
         #[serde(flatten)]
         unit: Option<SiUnit>,
     },
-    /// A pose, as plan files have it.
+    /// A pose, in the form that plan files have.
     Pose {
-        /// Position and rotation.
+        /// The position and the rotation.
         pose: TypedPose,
     },
-    /// A range `from..to`.
+    /// A range `from..to` with its two ends.
     Range {
-        /// The first end.
+        /// The first end of the range.
         from: Box<TypedValue>,
-        /// The second end.
+        /// The second end of the range.
         to: Box<TypedValue>,
     },
-    /// A list.
+    /// A list of values, in order.
     List {
-        /// The elements, in order.
+        /// The elements of the list, in order.
         list: Vec<TypedValue>,
-        /// The number of elements behind them that are left out, because there were too many.
+        /// The number of further elements of the list that are left out, because there were too many.
         #[serde(skip_serializing_if = "is_zero")]
         omitted: usize,
     },
     /// A record that the program declares.
     Record {
-        /// The name of its declaration.
+        /// The name of the record's declaration.
         record: &'static str,
-        /// The fields by name, in the order of the declaration.
+        /// The fields of the record by name, in the order of the declaration.
         #[serde(serialize_with = "as_map")]
         fields: Vec<(&'static str, TypedValue)>,
     },
-    /// The missing value.
+    /// The missing value of an optional type.
     Missing {
-        /// Always true.
+        /// The flag that marks a missing value, always true.
         missing: bool,
     },
     /// A value of another kind, such as a plan or a robot.
     Other {
-        /// The text that is printed for it.
+        /// The text that is printed for the value.
         shown: String,
     },
     /// A value that is left out, because there were too many before it or it lies too deep.
     Omitted {
-        /// Always true.
+        /// The flag that marks a value that is left out, always true.
         omitted: bool,
     },
 }
@@ -114,18 +114,18 @@ pub enum TypedValue {
 /// The SI unit of a quantity, with its dimension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SiUnit {
-    /// The unit, a product of base units: `m`, `kg*m/s^2`.
+    /// The SI unit as a product of base units: `m`, `kg*m/s^2`.
     pub unit: String,
-    /// The dimension as it is written in programs: `Length`, `Quantity<kg*m^2>`.
+    /// The dimension as programs write it: `Length`, `Quantity<kg*m^2>`.
     pub dimension: String,
 }
 
-/// A pose, as plan files have it.
+/// A pose in the form that plan files have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TypedPose {
-    /// The position x, y, z, m.
+    /// The position x, y, z, m, in the frame of the context.
     pub p: [f64; 3],
-    /// The rotation as a unit quaternion w, x, y, z.
+    /// The rotation as a unit quaternion in the order w, x, y, z.
     pub q: [f64; 4],
 }
 

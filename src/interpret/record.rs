@@ -25,7 +25,7 @@ pub enum Record {
     Report(Rc<Verdict>, String),
     /// A state of a robot, `State`.
     State(StateValue),
-    /// The assumptions about the surroundings, `World`.
+    /// The assumptions about a robot's surroundings, `World`.
     World(World),
     /// A `Frame`: the positions of nodes, m, and struts as pairs of indices of these.
     Frame(Vec<Vec3>, Vec<(usize, usize)>),
@@ -38,9 +38,9 @@ pub enum Record {
 /// A record that a `record` declares, with the values of its fields in the order of the declaration.
 #[derive(Debug)]
 pub struct DeclaredRecord {
-    /// The declaration.
+    /// The declaration of the record, by identity.
     pub def: DefId,
-    /// The values of the fields; none is unknown.
+    /// The values of the record's fields, in the order of the declaration; none is unknown.
     pub fields: Vec<Value>,
 }
 
@@ -60,19 +60,20 @@ pub trait NativeRecord: Any + std::fmt::Debug {
 
 /// A state of a robot, with its time and the plan that it was taken from.
 pub struct StateValue {
-    /// The design of the robot.
+    /// The design of the robot that is in the state.
     pub robot: Rc<Design>,
-    /// The robot as an assembly.
+    /// The robot as an assembly with its kinematics.
     pub body: Rc<Robot>,
-    /// The positions of the joints, and the bonds that hold.
+    /// The positions of the joints (rad or m), the bonds that hold, and the base.
     pub state: State,
     /// The time in the plan, s, from 0 to its duration.
     pub time: f64,
-    /// The plan that it was taken from.
+    /// The plan that the state was taken from.
     pub planned: Rc<PlanValue>,
     /// The pose `X_WB` of the base in the world; empty until it is asked for.
     pub base: OnceCell<Pose>,
-    /// The times (s) of the states that it was made together with, and the index of its own among them, from 0.
+    /// The times (s) of the states that were made together with this one, and the index of its own time among them,
+    /// from 0.
     pub among: (Rc<Vec<f64>>, usize),
 }
 
@@ -102,7 +103,7 @@ impl std::fmt::Debug for StateValue {
 }
 
 impl StateValue {
-    /// Returns the poses `X_WL` of all links in the world, m, by their numbers in the kinematics.
+    /// Returns the poses `X_WL` of all links in the world (metres), by their numbers in the kinematics.
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
@@ -111,15 +112,15 @@ impl StateValue {
         poses
     }
 
-    /// Returns what `read` makes of the judge's quantities at this time; `None` where the judge did not get there.
-    /// States that were made together are computed together.
+    /// Returns what `read` makes of the judge's quantities at the time of the state; `None` where the judge did not
+    /// get there. States that were made together are computed together.
     pub fn judged<T>(&self, detail: Detail, read: impl FnOnce(&Instant) -> T) -> Option<T> {
         let (times, own) = &self.among;
         self.planned.instants(times, detail).get(*own).map(read)
     }
 
-    /// Returns the least signed distance of links that may not touch, m; `None` where there are no two such links, or
-    /// the plan is not valid.
+    /// Returns the least signed distance, at the time of the state, of links that may not touch, m; `None` where
+    /// there are no two such links, or the plan is not valid.
     pub fn clearance(&self) -> Option<f64> {
         let (times, own) = &self.among;
         self.planned.clearances(times).get(*own).copied().flatten()

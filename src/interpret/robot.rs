@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 /// A robot that a design describes, assembled, with the poses of its links in the start state.
 pub struct Robot {
-    /// Modules, bonds and the library of their types.
+    /// The modules, the bonds, and the library of module types and connectors.
     pub assembly: Arc<Assembly>,
-    /// The start state: joints as `set`, all bonds, the base module's body at the origin.
+    /// The start state: joints as `set`, all bonds closed, the base module's body at the origin.
     pub start: State,
-    /// The kinematic tree of the links.
+    /// The forward kinematics for the bonds of the start state.
     pub kinematics: Kinematics,
     /// The poses of all links in the start state, by their numbers in the kinematics, in the frame of the base
     /// module's body.

@@ -21,35 +21,35 @@ use std::sync::Arc;
 /// The greatest number of entries that can be taken back.
 pub const UNDO_MAX: usize = 200;
 
-/// The evaluator of a session, on a thread of its own: it keeps the values of earlier entries, and does one task after
-/// the other on them.
+/// The evaluator of a session, on a thread of its own: it keeps the values of earlier entries, and does one task
+/// after another on them.
 pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
 /// A task of the session: the work, with the program that it is about.
 pub struct Task {
-    /// The checked session.
+    /// The checked program of the whole session.
     pub checked: Arc<Checked>,
     /// The options of the run: limits, seed and threads.
     pub options: Options,
-    /// The work to be done.
+    /// The work that is to be done.
     pub work: Work,
 }
 
 /// The task of an evaluator with the values of earlier entries: add to them, or take some back.
 pub enum Work {
-    /// Evaluate the newest entry.
+    /// Evaluation of the newest entry.
     Enter(Entered),
-    /// Take back the last entry that was kept; without one, forget all values.
+    /// Undoing of the last entry that was kept; without one, all values are forgotten.
     Undo,
-    /// Texts changed: elaborate declarations with their defaults, and forget values that do not hold any
-    /// more. Earlier entries can't be taken back.
+    /// Reloading after texts changed: declarations are elaborated with their defaults, and values that do not hold
+    /// any more are forgotten. Earlier entries can't be taken back.
     Reload {
-        /// The declarations to elaborate.
+        /// The declarations to elaborate with their defaults, by identity.
         check: Vec<DefId>,
-        /// The declarations whose values do not hold any more.
+        /// The declarations whose values do not hold any more, by identity; they are forgotten.
         stale: Vec<DefId>,
     },
-    /// Forget all values; earlier entries can't be taken back.
+    /// Forgetting of all values; earlier entries can't be taken back.
     Forget,
 }
 
@@ -57,11 +57,11 @@ pub enum Work {
 pub struct Entered {
     /// The file of the entry; its declarations, statements and tests are evaluated in the order of the text.
     pub file: FileId,
-    /// The declarations of other files to elaborate first, with their defaults.
+    /// The declarations of other files to elaborate first, with their defaults, by identity.
     pub check: Vec<DefId>,
-    /// The declarations whose values do not hold any more.
+    /// The declarations whose values do not hold any more, by identity; they are forgotten.
     pub stale: Vec<DefId>,
-    /// True if the declarations stay. Otherwise all is as if the entry had never been.
+    /// True if the declarations of the entry stay. Otherwise all is as if the entry had never been.
     pub keep: bool,
     /// The part of the result that is printed.
     pub shown: Shown,
@@ -70,25 +70,25 @@ pub struct Entered {
 /// The part of an entry's result that is printed besides what it prints itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shown {
-    /// Nothing is printed.
+    /// Nothing is printed besides what the entry prints itself.
     Nothing,
-    /// The values of expressions.
+    /// The values of expressions are printed.
     Values,
-    /// The values, with their types, and what declarations declare.
+    /// The values are printed with their types, and what declarations declare.
     All,
 }
 
-/// The result of a [`Task`]: what it found and wrote, and whether the memory changed.
+/// The result of a [`Task`]: what it found and wrote, and whether it changed the memory.
 #[derive(Default)]
 pub struct Answer {
     /// The diagnostics, in the order in which they were found.
     pub diagnostics: Vec<Diagnostic>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
-    /// True if all went well. If not, the memory is as it was before, but that an abandoned task may still change it
-    /// ([`Evaluator::wait_for_abandoned`]).
+    /// True if the task found no error. If not, the memory is as it was before, but that an abandoned task may still
+    /// change it ([`Evaluator::wait_for_abandoned`]).
     pub ok: bool,
-    /// True if the user cancelled or abandoned it.
+    /// True if the user cancelled or abandoned the task.
     pub interrupted: bool,
     /// True if the evaluator itself panicked; a session survives this.
     pub defect: bool,

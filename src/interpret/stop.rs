@@ -2,23 +2,23 @@
 
 use crate::source::{Code, Diagnostic, Span};
 
-/// The reason that evaluation ends early. A fault ends the expression that it is in and leaves an unknown
-/// value; a halt ends the run.
+/// The reason that evaluation ends early. A fault ends the expression that it is in and leaves an unknown value; a
+/// halt ends the run.
 #[derive(Debug)]
 pub enum Stop {
-    /// A mistake of the program, not reported yet.
+    /// A fault: a mistake of the program, not reported yet.
     Fault(Box<Diagnostic>),
-    /// A limit was reached or the user wants the run to end; already reported.
+    /// A halt: a limit was reached or the user wants the run to end, which has been reported.
     Halt,
 }
 
-/// The result of evaluating.
+/// The result of an evaluation.
 ///
-/// Every function that returns it may end early: with [`Stop::Fault`] where the program is mistaken at that
-/// point, which [`recover`](super::interpreter::Interpreter::recover) and
-/// [`attempt`](super::interpreter::Interpreter::attempt) turn into a report and an unknown value; with
-/// [`Stop::Halt`] where a limit is reached or the user cancels, which passes through to the end of the run. A
-/// function with an `# Errors` section also refuses something by itself.
+/// Every function that returns it may end early: with [`Stop::Fault`] where the program is mistaken at that point,
+/// which [`recover`](super::interpreter::Interpreter::recover) and
+/// [`attempt`](super::interpreter::Interpreter::attempt) turn into a report and an unknown value; with [`Stop::Halt`]
+/// where a limit is reached or the user cancels, which passes through to the end of the run. A function with an `#
+/// Errors` section also refuses something by itself.
 pub type Eval<T> = Result<T, Stop>;
 
 impl From<Diagnostic> for Stop {
@@ -27,7 +27,7 @@ impl From<Diagnostic> for Stop {
     }
 }
 
-/// Returns a fault with one label at `span`, whose text should add to the message.
+/// Returns a fault with this code and message, and one label at `span`, whose text should add to the message.
 pub fn fault(code: Code, span: Span, message: impl Into<String>, label: impl Into<String>) -> Stop {
     Diagnostic::error(code, message).label(span, label).into()
 }

@@ -9,19 +9,20 @@ use crate::units::{Dimension, base_units, fitting_unit, to_si, usual_unit};
 /// The greatest depth of records within records that have columns of their own; deeper ones are one text.
 const LEVELS_MAX: usize = 8;
 
-/// A list of records, by columns.
+/// A table: a list of records of one declaration, by columns.
 pub struct Table {
-    /// The columns, in the order of the fields.
+    /// The columns of the table, in the order of the fields.
     pub columns: Vec<Column>,
-    /// The number of records.
+    /// The number of rows of the table, which is the number of records.
     pub rows: usize,
 }
 
 /// The values of one field of all records of a [`Table`]; a record or vector in it is several columns.
 pub struct Column {
-    /// The name of the field; that of a field of a record in a record is `outer.inner`, of a vector `field.x`.
+    /// The name of the column's field; that of a field of a record in a record is `outer.inner`, of a vector
+    /// `field.x`.
     pub name: String,
-    /// The values, one for each record in their order.
+    /// The values of the column, one for each record in their order.
     pub cells: Vec<Value>,
 }
 
@@ -114,7 +115,7 @@ impl Column {
     }
 }
 
-/// Returns the number that gives `value` (SI) back to the bit when it is read in a unit of this factor to SI: the
+/// Returns the number that gives `value` (SI) back to the bit when it is read in a unit with this factor to SI: the
 /// shortest, if there is one of ten digits; `None` if none of those near it does.
 pub fn in_unit(value: f64, factor: f64) -> Option<f64> {
     if factor == 1.0 {

@@ -30,7 +30,7 @@ pub enum Value {
     Nothing,
     /// The missing value of an optional type.
     Missing,
-    /// A truth value.
+    /// A truth value: `true` or `false`.
     Bool(bool),
     /// A whole number that fits in 64 bits.
     Int(i64),
@@ -38,11 +38,11 @@ pub enum Value {
     Big(Rc<BigInt>),
     /// A quantity in SI units, with its dimension.
     Quantity(f64, Dimension),
-    /// A text.
+    /// A text of the type `Text`.
     Text(Rc<str>),
     /// A word of a choice, such as `auto`.
     Word(Symbol),
-    /// A list.
+    /// A list of values, in order.
     List(Rc<Vec<Value>>),
     /// A vector in SI units, with the one dimension of its components.
     Vec3(Vec3, Dimension),
@@ -50,69 +50,69 @@ pub enum Value {
     Pose(Rc<Pose>),
     /// A range `from..to` of two values.
     Range(Rc<(Value, Value)>),
-    /// A function.
+    /// A function as a value: a lambda, a declared function or a behaviour.
     Fn(Rc<Callable>),
     /// An instance of a module, configuration, lattice or truss.
     Instance(Rc<Instance>),
-    /// A joint.
+    /// A joint of a robot, named by its owner.
     Joint(JointValue),
-    /// A port.
+    /// A port of a robot, named by its module and index.
     Port(PortValue),
-    /// A behaviour.
+    /// A behaviour: an action graph with its robot.
     Behavior(Rc<Behavior>),
-    /// A signal of a sensor.
+    /// A signal, a quantity that changes while a robot moves.
     Signal(Rc<SignalValue>),
-    /// A condition.
+    /// A condition that can end an action.
     Condition(Rc<ConditionValue>),
-    /// A shape.
+    /// A shape of a link, with what it declares about the link.
     Shape(Rc<Solid>),
     /// A kind of joint: `revolute(...)`.
     JointKind(Rc<JointSpec>),
-    /// An arrangement of cells.
+    /// An arrangement of cells of a lattice.
     Cells(Rc<Cells>),
-    /// A polygon mesh.
+    /// A polygon mesh: a surface of flat faces.
     Mesh(Rc<Mesh>),
-    /// A point cloud: the positions of its points, m.
+    /// A point cloud: the positions of its points, m, in the frame of the context.
     Cloud(Rc<Vec<Vec3>>),
-    /// A height field.
+    /// A height field, which serves as terrain.
     Terrain(Rc<HeightField>),
-    /// A record.
+    /// A record: a value with named fields.
     Record(Rc<Record>),
 }
 
 /// A value that is computed when it is first needed.
 #[derive(Clone, Debug, Default)]
 pub enum Lazy {
-    /// It was not asked for yet.
+    /// The value was not asked for yet.
     #[default]
     Waiting,
-    /// It is being computed: asking for it now is a cycle.
+    /// The value is being computed: asking for it now is a cycle.
     Running,
-    /// It was computed; unknown where that failed.
+    /// The value was computed; it is unknown where that failed.
     Done(Value),
 }
 
 /// A function that is called through a value.
 #[derive(Debug)]
 pub enum Callable {
-    /// A lambda.
+    /// A lambda, with the variables that it captured.
     Lambda {
-        /// The body.
+        /// The expression that gives the result of the lambda.
         body: Arc<Expr>,
         /// The variables of the lambda's frame that come from outside, each with its value.
         captured: Vec<(Local, Value)>,
-        /// The number of slots of its frame.
+        /// The number of slots of the lambda's frame.
         frame: usize,
-        /// The instance in whose body it is written; `None` outside of such a body.
+        /// The instance in whose body the lambda is written; `None` outside of such a body.
         this: Option<Rc<Instance>>,
     },
-    /// A declared function.
+    /// A declared function or a built-in.
     Def(DefId),
-    /// A behaviour of an instance.
+    /// A behaviour of an instance, as a function of its parameters.
     Behavior {
-        /// The instance.
+        /// The instance whose behaviour is called.
         object: Rc<Instance>,
-        /// The index of the behaviour in the declaration.
+        /// The index of the behaviour in the declaration of the instance, from 0.
         behavior: usize,
     },
 }
@@ -121,19 +121,19 @@ pub enum Callable {
 /// the whole.
 #[derive(Clone, Debug)]
 pub struct JointValue {
-    /// The robot that has it.
+    /// The outermost robot that it belongs to.
     pub robot: Subject,
     /// The module or the connection that has the joint.
     pub owner: JointOwner,
-    /// The dimension of its position: an angle or a length.
+    /// The dimension of the joint's position: an angle or a length.
     pub dimension: Dimension,
 }
 
-/// A port of a robot, given by its module and its index. The robot is the outermost one, so that a port of a part is a
-/// port of the whole: `leg[2].m[0].top`.
+/// A port of a robot, given by the indices of its module and of itself. The robot is the outermost one, so that a
+/// port of a part is a port of the whole: `leg[2].m[0].top`.
 #[derive(Clone, Debug)]
 pub struct PortValue {
-    /// The robot that has it.
+    /// The outermost robot that it belongs to.
     pub robot: Subject,
     /// The index of the module, from 0, among the modules of that robot in the order in which its parts list them.
     pub module: usize,
@@ -141,12 +141,12 @@ pub struct PortValue {
     pub port: usize,
 }
 
-/// An action graph with the robot that it moves.
+/// A behaviour: an action graph with the robot that it moves.
 #[derive(Debug)]
 pub struct Behavior {
-    /// The robot; `None` where no action names one, as in `wait(1s)`.
+    /// The robot that the behaviour moves; `None` where no action names one, as in `wait(1s)`.
     pub robot: Option<Subject>,
-    /// The series-parallel graph of actions.
+    /// The series-parallel graph of actions that the robot carries out.
     pub node: Arc<plan::Node>,
 }
 
@@ -154,7 +154,7 @@ pub struct Behavior {
 /// takes that result instead of running the body again.
 #[derive(Clone, Debug)]
 pub struct BehaviorCall {
-    /// The object that it is called of.
+    /// The instance whose behaviour is called.
     pub object: Rc<Instance>,
     /// The index of the behaviour among those of the declaration, from 0.
     pub behavior: usize,
@@ -188,121 +188,122 @@ impl BehaviorCall {
 /// A signal of a sensor, with the robot that gives it.
 #[derive(Debug)]
 pub struct SignalValue {
-    /// The robot; `None` where nothing names one.
+    /// The robot that gives the signal; `None` where nothing names one.
     pub robot: Option<Subject>,
-    /// The quantity that it gives.
+    /// The quantity that the signal measures.
     pub measure: Measure,
 }
 
-/// A quantity that changes while a robot moves.
+/// A quantity of a robot that changes while it moves.
 #[derive(Clone, Debug)]
 pub enum Measure {
-    /// A quantity that the robot senses; conditions can wait for it.
+    /// A quantity that the robot senses by itself; conditions can wait for it.
     Sensed(plan::Signal),
-    /// The force (N) or torque (N·m) that the motor of a joint supplies.
+    /// The force (N) or torque (N·m) that the motor of a joint supplies, as the judge computes it.
     Effort(JointId),
-    /// The distance of the centre of mass inside the area that the robot stands on, m; negative outside.
+    /// The static stability margin: the distance of the centre of mass inside the support polygon, m; negative
+    /// outside.
     Margin,
-    /// The least distance of links that may not touch, m.
+    /// The least signed distance of links that may not touch, m.
     Clearance,
-    /// The normal force of the ground on the modules of these indices, N.
+    /// The normal force of the ground on the modules of these indices together, N.
     GroundForce(Range<usize>),
-    /// The distance of two ports, m.
+    /// The distance of the origins of two ports, m.
     Separation(PortRef, PortRef),
-    /// The pose of a port or a module's body in the world.
+    /// The pose of a port or of a module's body in the world.
     Pose(MovingFrame),
-    /// The origin of that pose, m.
+    /// The origin of a port or of a module's body in the world, m.
     Position(MovingFrame),
 }
 
-/// A frame that moves with a robot.
+/// A frame that moves with a robot, of which a signal gives the pose.
 #[derive(Clone, Copy, Debug)]
 pub enum MovingFrame {
     /// The frame of the body of a module, by its index in the whole robot.
     Module(usize),
-    /// The frame of a port.
+    /// The frame of a port: origin on the mating face, +x outward, +z up.
     Port(PortRef),
 }
 
 /// A condition, with the robot that it is about.
 #[derive(Debug)]
 pub struct ConditionValue {
-    /// The robot; `None` where nothing names one.
+    /// The robot that the condition is about; `None` where nothing names one.
     pub robot: Option<Subject>,
-    /// The condition.
+    /// The condition, as plans have it.
     pub condition: plan::Condition,
 }
 
-/// A shape with what it declares about its link.
+/// A shape as a program states it, with what it declares about its link.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// The shapes, each with its pose in the frame of the whole.
+    /// The shapes, each with its pose in the frame of the whole shape.
     pub parts: Vec<Placed>,
-    /// The mass, kg; `None`: not stated.
+    /// The mass, kg; `None` if none is stated.
     pub mass: Option<f64>,
-    /// The centre of mass, m, in the frame of the whole; `None`: not stated.
+    /// The centre of mass, m, in the frame of the whole shape; `None` if none is stated.
     pub com: Option<Vec3>,
-    /// The inertia xx, yy, zz, xy, xz, yz about the centre of mass, kg·m², along the axes of the whole; `None`:
-    /// not stated.
+    /// The inertia xx, yy, zz, xy, xz, yz about the centre of mass, kg·m², along the axes of the whole shape; `None`
+    /// if none is stated.
     pub inertia: Option<[f64; 6]>,
-    /// The coefficient of friction; `None`: not stated.
+    /// The coefficient of friction against the ground, without unit; `None` if none is stated.
     pub friction: Option<f64>,
 }
 
 /// A kind of joint with its axis and limits: `revolute(...)`, `prismatic(...)`, `fixed()`.
 #[derive(Debug)]
 pub struct JointSpec {
-    /// Revolute, prismatic or fixed.
+    /// The degree of freedom: revolute, prismatic or fixed.
     pub kind: JointKind,
     /// The axis in the joint's frame as it is written; it need not be of unit length.
     pub axis: Vec3,
-    /// Ranges of position, speed, acceleration and effort.
+    /// The limits of position, speed, acceleration and effort, in rad or m, s, and N·m or N.
     pub limits: Limits,
-    /// True if no motor drives it.
+    /// True if no motor drives the joint.
     pub passive: bool,
 }
 
 /// A polygon mesh: a surface of flat faces over shared vertices.
 #[derive(Debug)]
 pub struct Mesh {
-    /// The positions of the vertices, m.
+    /// The positions of the vertices, m, in the frame of the mesh.
     pub vertices: Vec<Vec3>,
     /// The indices of each face's corners in `vertices`, counterclockwise from outside; at least three each.
     pub faces: Vec<Vec<usize>>,
 }
 
 impl Value {
-    /// Returns a text.
+    /// Returns a text as a value.
     pub fn text(text: impl AsRef<str>) -> Value {
         Value::Text(text.as_ref().into())
     }
 
-    /// Returns a number without dimension.
+    /// Returns a number without dimension as a value.
     pub fn number(x: f64) -> Value {
         Value::Quantity(x, Dimension::NUMBER)
     }
 
-    /// Returns a length given in m.
+    /// Returns a length, given in m, as a value.
     pub fn length(x: f64) -> Value {
         Value::Quantity(x, Dimension::LENGTH)
     }
 
-    /// Returns a time given in s.
+    /// Returns a time, given in s, as a value.
     pub fn time(x: f64) -> Value {
         Value::Quantity(x, Dimension::TIME)
     }
 
-    /// Returns a count as a whole number. Panics if it is 2⁶³ or more.
+    /// Returns a count as a value, a whole number. Panics if it is 2⁶³ or more.
     pub fn count(n: usize) -> Value {
         Value::Int(i64::try_from(n).expect("counts are far below 2^63"))
     }
 
-    /// Returns a list, or unknown if an element is unknown.
+    /// Returns a list as a value, or unknown if an element is unknown.
     pub fn list(elements: Vec<Value>) -> Value {
         if elements.iter().any(Value::is_unknown) { Value::Unknown } else { Value::List(Rc::new(elements)) }
     }
 
-    /// Returns a whole number in its shortest form: [`Value::Int`] where it fits.
+    /// Returns a whole number as a value in its shortest form: [`Value::Int`] where it fits.
     pub fn whole(n: BigInt) -> Value {
         i64::try_from(&n).map_or_else(|_| Value::Big(Rc::new(n)), Value::Int)
     }
@@ -323,7 +324,7 @@ impl Value {
         }
     }
 
-    /// Returns a value, or the missing value for `None`.
+    /// Returns the value, or the missing value of the language for `None`.
     pub fn optional(value: Option<Value>) -> Value {
         value.unwrap_or(Value::Missing)
     }
@@ -333,8 +334,8 @@ impl Value {
         matches!(self, Value::Unknown)
     }
 
-    /// Returns a quantity in SI units, or a whole number, rounded, infinite beyond 1.8e308; `None` for other
-    /// values.
+    /// Returns a quantity in SI units, or a whole number, as a double: rounded, and infinite beyond 1.8e308; `None`
+    /// for other values.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             Value::Quantity(x, _) => Some(*x),
@@ -344,7 +345,7 @@ impl Value {
         }
     }
 
-    /// Returns the dimension of a number or a vector; `None` for other values.
+    /// Returns the dimension of a number or a vector, that of its components; `None` for other values.
     pub fn as_dimension(&self) -> Option<Dimension> {
         match self {
             Value::Quantity(_, d) | Value::Vec3(_, d) => Some(*d),
@@ -353,7 +354,7 @@ impl Value {
         }
     }
 
-    /// Returns a whole number, however large; `None` for other values.
+    /// Returns the whole number that the value is, however large; `None` for other values.
     pub fn as_big(&self) -> Option<BigInt> {
         match self {
             Value::Int(n) => Some(BigInt::from(*n)),

@@ -18,18 +18,18 @@ fn seconds(t: f64) -> String {
     quantity(t, Dimension::TIME)
 }
 
-/// Returns a failure on one line: `at 1.2 s: ...`.
+/// Returns a failure of the judge on one line with its time: `at 1.2 s: ...`.
 pub fn failure_line(failure: &Failure) -> String {
     format!("at {}: {}", seconds(failure.time), failure.message)
 }
 
-/// Returns a check of the judge with its result, on one line.
+/// Returns a check of the judge with its outcome, as one line of text.
 pub fn check_line(check: &Check) -> String {
     format!("{}: {}", check.kind.name(), check.status)
 }
 
-/// Returns a line for each worst value that there is, in the order of the verdict's table, with its time and the
-/// bodies or joints concerned.
+/// Returns a line of text for each worst value that a verdict has, in the order of
+/// [`WORST_VALUES`](crate::plan::WORST_VALUES), with its time and the bodies or joints concerned.
 pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     let line = |(kind, worst): (WorstKind, &Worst)| {
         let value = match kind.measure {
@@ -163,7 +163,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Reports the exemptions that no plan of the run needed, as warnings, and forgets all.
+    /// Reports as warnings the exemptions that no plan of the run needed, and forgets all exemptions.
     pub fn report_unneeded(&mut self) {
         for (span, needed) in std::mem::take(&mut self.memory.exemptions) {
             if needed {
@@ -178,8 +178,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns a line for each exemption of a plan and for each option of the judge that is less strict than by
-    /// default, each once, to be printed when the plan is written.
+    /// Records, for each exemption of the user's own files, if this verdict needed it: one clause covers many
+    /// intervals and many plans.
     pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();

@@ -14,9 +14,9 @@ use std::sync::Arc;
 pub(super) struct Joined<'t> {
     /// The surface that is folded, whose faces are the panels.
     pub target: &'t Target,
-    /// The layout of the surface: its flat pattern.
+    /// The layout of the surface, by which the panels are joined.
     pub layout: &'t Layout,
-    /// The panels, by face: entry k is that of face k of the target.
+    /// The designs of the panels: entry k is that of the panel for face k of the target.
     pub designs: &'t [Rc<Design>],
     /// The span of the call that joins them.
     pub span: Span,

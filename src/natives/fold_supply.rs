@@ -20,9 +20,9 @@ const SIDES: &str = "sides";
 /// A design of a module that is a panel, with its geometry.
 #[derive(Clone)]
 pub(super) struct PanelDesign {
-    /// The design of the module.
+    /// The design of the module of which the panels are made.
     pub design: Rc<Design>,
-    /// Its geometry, mass and hinges, as the planner knows them.
+    /// The geometry, mass and hinges of the panel, as the planner knows them.
     pub panel: Panel,
 }
 
@@ -209,9 +209,9 @@ fn panel_of(
 
 /// The panels of all faces, as designs and as data of the planner.
 pub(super) struct Sheet {
-    /// The design of each panel, by face: entry k is that of face k of the target.
+    /// The designs of the panels: entry k is that of the panel for face k of the target.
     pub designs: Vec<Rc<Design>>,
-    /// The panels as data of the planner, by face.
+    /// The panels as data of the planner, in the order of the target's faces.
     pub panels: Panels,
 }
 

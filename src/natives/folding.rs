@@ -48,7 +48,7 @@ fn hinges(plan: &PlanValue, report: &Report) -> Value {
     Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
 }
 
-/// A record `OrderSample`: the energies that random orders of folding take.
+/// The value of the record `OrderSample`: the energies that random orders of folding take.
 #[derive(Debug)]
 pub struct OrderSample(pub Sample);
 
@@ -71,7 +71,7 @@ impl NativeRecord for OrderSample {
     }
 }
 
-/// A record `Layout`: the flat pattern of a plan that folds it.
+/// The value of the record `Layout`: the flat pattern of a plan that folds it.
 #[derive(Debug)]
 pub struct LayoutValue(Rc<PlanValue>);
 

@@ -237,12 +237,12 @@ impl Interpreter<'_> {
     }
 }
 
-/// The value of a `Plot`: what is drawn, without its size.
+/// The value of a `Plot`: the curves, points or bars that are drawn, without the size of the picture.
 #[derive(Debug)]
 pub struct PlotValue(Plot);
 
 impl PlotValue {
-    /// Returns the plot as a small drawing of characters, in several lines.
+    /// Returns the plot as a small drawing of characters, in several lines of text.
     pub fn text(&self) -> String {
         plot::text(&self.0)
     }

@@ -37,7 +37,7 @@ arguments! {
     }
 }
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins of `refold`, whose bodies stand in this file.
 pub const TABLE: &[Native] = &[Native::on_run("refold", Arguments::PARAMETERS, refold)];
 
 impl ReportFields for Report {

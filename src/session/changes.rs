@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 /// A declaration of a file that is new, changed or gone since the file was read before.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// The name of the file.
+    /// The name of the file that declares it.
     pub file: String,
-    /// The name of the declaration.
+    /// The name of the declaration that changed.
     pub name: String,
-    /// The kind of change.
+    /// The kind of change: added, changed or removed.
     pub kind: ChangeKind,
     /// The visible names of the session that depend on it, sorted; empty if it is gone.
     pub users: Vec<String>,
@@ -22,11 +22,11 @@ pub struct Change {
 /// The change of a declaration between two readings of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChangeKind {
-    /// The declaration is new.
+    /// The declaration is new in its file.
     Added,
-    /// Its text differs.
+    /// The text of the declaration differs.
     Changed,
-    /// It is gone.
+    /// The declaration is gone from its file.
     Removed,
 }
 

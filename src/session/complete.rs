@@ -17,7 +17,7 @@ use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, 
 use crate::units::UNITS;
 use std::sync::Arc;
 
-/// The state of a session that completion needs. Clones share the files and the checked program.
+/// The knowledge of a session that completion needs. Clones share the files and the checked program.
 #[derive(Clone)]
 pub struct Knowledge {
     files: Arc<FileSnapshot>,
@@ -31,12 +31,12 @@ pub struct Knowledge {
 pub(crate) struct Completion {
     /// The offset in bytes at which the text to be replaced begins.
     pub start: usize,
-    /// The candidates, those that begin with the typed text, sorted by name, each once.
+    /// The candidates for completion, those that begin with the typed text, sorted by name, each once.
     pub candidates: Vec<Named>,
 }
 
 impl Session {
-    /// Returns the state of the session that completion needs; it does not change with the session.
+    /// Returns the knowledge of the session that completion needs; it does not change with the session.
     pub fn knowledge(&self) -> Knowledge {
         Knowledge {
             files: self.files.clone(),

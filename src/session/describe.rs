@@ -34,8 +34,8 @@ impl Session {
         }
     }
 
-    /// Returns the signature, documentation and members of a name: of a declaration, `name.member`, an item of
-    /// the library that is not imported, or a command such as `:load`.
+    /// Returns the signature, documentation and members of a name as text: of a declaration, `name.member`, an item
+    /// of the library that is not imported, or a command such as `:load`.
     ///
     /// # Errors
     /// A message for an unknown name.
@@ -71,8 +71,8 @@ impl Session {
         native.then(|| format!("{}\n`:doc {name}` tells more\n", summary::signature(&self.checked, id)))
     }
 
-    /// Returns the text of the declaration of a name after a comment with its file and line; for `name.member`,
-    /// that of `name`.
+    /// Returns the source text of the declaration of a name after a comment with its file and line; for
+    /// `name.member`, that of `name`.
     ///
     /// # Errors
     /// A message for an unknown name.

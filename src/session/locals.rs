@@ -6,9 +6,9 @@ use crate::syntax::DECLARING;
 /// A local name of an unfinished text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LocalName {
-    /// The name.
+    /// The name of the local variable.
     pub name: String,
-    /// Its origin, from which its type may be inferred.
+    /// The origin of the local variable, from which its type may be inferred.
     pub origin: Origin,
 }
 

@@ -8,9 +8,9 @@ use crate::source::Symbol;
 /// A name with a short description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Named {
-    /// The name as it is inserted.
+    /// The name as completion inserts it.
     pub name: String,
-    /// Its description: a type or a kind.
+    /// The description of the name: a type or a kind.
     pub about: String,
 }
 

@@ -14,7 +14,7 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// A session: the entries so far, the program they make, and its values.
+/// A session: the entries so far, the program that they make, and the values of the program.
 pub struct Session {
     /// The snapshot of the project's files.
     pub(super) files: Arc<FileSnapshot>,
@@ -43,18 +43,18 @@ struct Before {
     loaded: Vec<String>,
 }
 
-/// A text to enter, with how it is shown and whether it is kept.
+/// A text to enter into a session, with how its result is shown and whether it is kept.
 #[derive(Clone, Debug)]
 pub struct Input<'t> {
-    /// The text of the program; no command.
+    /// The text of the entry, a piece of a program; no command.
     pub text: &'t str,
-    /// Its name in diagnostics.
+    /// The name of the text in diagnostics.
     pub name: &'t str,
-    /// The line, from 1, of a longer input at which it begins; 1 if it is the whole input.
+    /// The line, from 1, of a longer input at which the text begins; 1 if it is the whole input.
     pub first_line: usize,
     /// The part of the result that is printed.
     pub shown: Shown,
-    /// True if its declarations and values are kept; otherwise the session is afterwards as it was.
+    /// True if the declarations and values of the entry are kept; otherwise the session is afterwards as it was.
     pub keep: bool,
 }
 
@@ -126,12 +126,12 @@ impl Session {
         })
     }
 
-    /// Returns the checked program of all entries accepted so far.
+    /// Returns the checked program that all entries accepted so far make.
     pub fn checked(&self) -> &Checked {
         &self.checked
     }
 
-    /// Returns true if abandoned work is still running.
+    /// Returns true if work that the user abandoned is still running.
     pub fn is_abandoned(&self) -> bool {
         self.evaluator.is_abandoned()
     }

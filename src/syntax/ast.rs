@@ -7,27 +7,27 @@
 
 use crate::source::{FileId, Span, Symbol};
 
-/// A word that stands for something, as written; no lookup has been made.
+/// A name as written in the source: a word that stands for something, which is not looked up yet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Name {
-    /// The text of the name.
+    /// The characters of the name, interned.
     pub text: Symbol,
-    /// The span of the word.
+    /// The span of the word in the source text.
     pub span: Span,
 }
 
-/// The tree of one file.
+/// The syntax tree of one file: its items, documentation and comments.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// The identity of the file.
+    /// The identity of the file among the texts of the run.
     pub id: FileId,
     /// The text of the `//!` lines, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The items, in order; an unreadable one is an [`ItemKind::Error`].
+    /// The items of the file, in order; an unreadable one is an [`ItemKind::Error`].
     pub items: Vec<Item>,
     /// All comments, documentation included, in order of position.
     pub comments: Vec<Comment>,
-    /// The names that unreadable pieces would have declared; they are not reported as unknown.
+    /// The names that unreadable pieces would have declared; `check` does not report them as unknown.
     pub unread: Vec<Symbol>,
 }
 
@@ -36,7 +36,7 @@ pub struct File {
 pub struct Comment {
     /// The span from the first mark to the end; that of a line comment ends before the line break.
     pub span: Span,
-    /// Its kind, by its marks.
+    /// The kind of the comment, by its marks.
     pub kind: CommentKind,
 }
 
@@ -45,7 +45,7 @@ pub struct Comment {
 pub enum CommentKind {
     /// A line comment: `//`, also with four or more slashes.
     Line,
-    /// A block comment: `/* */`.
+    /// A block comment, which may span lines: `/* */`.
     Block,
     /// The documentation of an item: `///`.
     ItemDoc,
@@ -56,46 +56,46 @@ pub enum CommentKind {
 /// An item of a file with its span and documentation.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// The span from its keyword to its end, without the documentation.
+    /// The span of the item from its keyword to its end, without the documentation.
     pub span: Span,
     /// The text of the `///` lines before the item, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The kind of item.
+    /// The kind of the item, with what was written after its keyword.
     pub kind: ItemKind,
 }
 
 /// An item at the top of a file, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
-    /// An import: `use`.
+    /// An import of names from another file: `use`.
     Use(Use),
-    /// A constant: `let`.
+    /// A constant, declared by `let`.
     Let(Let),
-    /// A function: `fn`.
+    /// A function with a body in the language: `fn`.
     Fn(Fn),
-    /// A built-in function: `extern fn`.
+    /// A built-in function, whose body is in Rust: `extern fn`.
     ExternFn(ExternFn),
-    /// A record: `record`.
+    /// A record type with named fields: `record`.
     Record(Record),
     /// A record type of the standard library: `extern type`.
     ExternType(ExternType),
-    /// A connector: `connector`.
+    /// A kind of connector, by which ports mate: `connector`.
     Connector(Connector),
-    /// A module: `module`.
+    /// A module type with links, joints and ports: `module`.
     Module(Module),
     /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
     Facts(Facts),
-    /// A configuration: `config`.
+    /// A configuration of connected modules: `config`.
     Config(Config),
-    /// A lattice: `lattice`.
+    /// A lattice of cells: `lattice`.
     Lattice(Lattice),
-    /// A truss: `truss`.
+    /// A truss of nodes and struts: `truss`.
     Truss(Truss),
-    /// A test: `test`.
+    /// A test with its statements: `test`.
     Test(Test),
     /// A statement at the top of the file.
     Statement(Stmt),
-    /// An item that could not be parsed.
+    /// An item that could not be parsed, and was reported.
     Error,
 }
 
@@ -122,7 +122,7 @@ impl ItemKind {
 /// An import: `use std.smores.{Smores, Chain3 as Chain}`, `use "parts/claw.mod".{Claw}`, `use std.gaits`.
 #[derive(Clone, Debug)]
 pub struct Use {
-    /// The file, or the path that names it.
+    /// The imported file, or the path that names it.
     pub source: UseSource,
     /// The imported names, in order. `None` for a bare `use std.gaits`, which imports the last word of the path: a
     /// file, or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without names.
@@ -132,7 +132,7 @@ pub struct Use {
 /// The file that an import takes names from, as a module path or a path on disk.
 #[derive(Clone, Debug)]
 pub enum UseSource {
-    /// A module path: `std.smores`.
+    /// A module path of names with dots between them: `std.smores`.
     Path(Vec<Name>),
     /// A path relative to the importing file; the span covers the quotes.
     File {
@@ -155,22 +155,22 @@ pub struct UseName {
 /// A declaration of a value: `let name: type = value`.
 #[derive(Clone, Debug)]
 pub struct Let {
-    /// The name of the definition.
+    /// The name that the definition declares.
     pub name: Name,
     /// The declared type; `None` if it is to be inferred.
     pub ty: Option<TypeExpr>,
-    /// The value.
+    /// The expression after `=`, which gives the value.
     pub value: Expr,
 }
 
 /// A function: `fn name(params) -> result = body`.
 #[derive(Clone, Debug)]
 pub struct Fn {
-    /// The name of the function.
+    /// The name that the declaration gives the function.
     pub name: Name,
     /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
     /// The declared type of the result; `None` if it is to be inferred.
     pub result: Option<TypeExpr>,
@@ -181,11 +181,11 @@ pub struct Fn {
 /// A native function, whose body is in Rust: `extern fn sqrt<D: Dimension>(x: Quantity<D^2>) -> Quantity<D>`.
 #[derive(Clone, Debug)]
 pub struct ExternFn {
-    /// The name of the function.
+    /// The name that the declaration gives the function.
     pub name: Name,
     /// The type parameters, in order; empty if there are none.
     pub type_params: Vec<TypeParam>,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
     /// The declared type of the result; `None` if there is no result.
     pub result: Option<TypeExpr>,
@@ -204,7 +204,7 @@ pub struct TypeParam {
 /// A record: `record Design { bend: Angle = 30deg, speed: Speed }`.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// The name of the record.
+    /// The name that the declaration gives the record.
     pub name: Name,
     /// The fields, in order; `docs` has one entry for each.
     pub fields: Vec<Param>,
@@ -220,7 +220,7 @@ pub struct ExternType {
     pub name: Name,
     /// The record that it extends; `None` if it stands alone.
     pub is: Option<Name>,
-    /// The fields.
+    /// The fields of the record, in order.
     pub fields: Vec<ExternField>,
     /// The methods, in order, as (text of the `///` lines before the method, method). The text is without the marks,
     /// and `None` if there are no such lines. The object that a method is called on is none of its parameters.
@@ -232,31 +232,31 @@ pub struct ExternType {
 pub struct ExternField {
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The name of the field.
+    /// The name of the field, as the declaration states it.
     pub name: Name,
-    /// The type of the field.
+    /// The type of the field, as written.
     pub ty: TypeExpr,
 }
 
 /// A parameter. In an `extern fn` its name may be a reserved word (`for:`), and it may be variadic.
 #[derive(Clone, Debug)]
 pub struct Param {
-    /// The name of the parameter.
+    /// The name of the parameter, by which calls may name the argument.
     pub name: Name,
-    /// The type of the parameter.
+    /// The type of the parameter, as written.
     pub ty: TypeExpr,
     /// The default value; `None` if an argument is needed.
     pub default: Option<Expr>,
-    /// True for `b: Behavior...`, which takes all remaining arguments.
+    /// True for a variadic parameter such as `b: Behavior...`, which takes all remaining arguments.
     pub variadic: bool,
 }
 
 /// A type as written, with its span; its names are not resolved.
 #[derive(Clone, Debug)]
 pub struct TypeExpr {
-    /// The span of the type.
+    /// The span of the type in the source text.
     pub span: Span,
-    /// The kind of type.
+    /// The kind of the type, by the form in which it is written.
     pub kind: TypeKind,
 }
 
@@ -278,19 +278,19 @@ pub enum TypeKind {
     Fn {
         /// The types of the parameters, in order.
         params: Vec<TypeExpr>,
-        /// The type of the result.
+        /// The type of the result, as written.
         result: Box<TypeExpr>,
     },
     /// A choice of two or more words and types: `exact | heuristic`, `auto | Int`, `Mesh | Cloud`.
     Choice(Vec<TypeExpr>),
-    /// A type that could not be parsed.
+    /// A type that could not be parsed, and was reported.
     Error,
 }
 
 /// A unit: a product of powers such as `N*m` or `m/s^2`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitExpr {
-    /// The span of the unit.
+    /// The span of the unit in the source text.
     pub span: Span,
     /// The units with their exponents, in order; the exponent of one after `/` is negative. Exponents are from -99 to
     /// 99.
@@ -302,16 +302,16 @@ pub struct UnitExpr {
 /// A connector: `connector Name { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Connector {
-    /// The name of the connector.
+    /// The name that the declaration gives the connector.
     pub name: Name,
-    /// The clauses, in order.
+    /// The clauses between the braces, in the order of the text.
     pub clauses: Vec<ConnectorClause>,
 }
 
 /// A clause between the braces of a connector, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ConnectorClause {
-    /// The connectors that it mates with: `mates Plug, Socket`.
+    /// The connectors that it mates with, by name: `mates Plug, Socket`.
     Mates(Vec<Name>),
     /// The number of turns at which it mates, evenly over a full turn: `turns 4`.
     Turns(Expr),
@@ -333,29 +333,29 @@ pub enum ConnectorClause {
         /// The arguments in the parentheses, in order.
         args: Vec<Arg>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
 /// A module: `module Name(params) { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Module {
-    /// The name of the module.
+    /// The name that the declaration gives the module type.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The clauses, in order.
+    /// The clauses between the braces, in the order of the text.
     pub clauses: Vec<ModuleClause>,
 }
 
 /// A clause of a module with its documentation.
 #[derive(Clone, Debug)]
 pub struct ModuleClause {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The kind of clause.
+    /// The kind of the clause, with what was written after its keyword.
     pub kind: ModuleClauseKind,
 }
 
@@ -370,7 +370,7 @@ pub enum ModuleClauseKind {
     Contact(Expr),
     /// A link: `link body = shape collides shape at [...]`.
     Link {
-        /// The name of the link.
+        /// The name of the link, to which joints and ports refer.
         name: Name,
         /// The shape that is drawn, and that collides unless `collides` is written.
         shape: Expr,
@@ -381,20 +381,20 @@ pub enum ModuleClauseKind {
     },
     /// A joint between two links: `joint bend : base -> tip = revolute(...) at [...]`.
     Joint {
-        /// The name of the joint.
+        /// The name of the joint, by which programs command it.
         name: Name,
-        /// The link before `->`.
+        /// The name of the link before `->`, which carries the joint.
         parent: Name,
-        /// The link after `->`, which the joint moves.
+        /// The name of the link after `->`, which the joint moves.
         child: Name,
-        /// The kind of joint, such as `revolute(axis: Y)`.
+        /// The expression for the kind of joint, such as `revolute(axis: Y)`.
         kind: Expr,
         /// The pose of the joint in the parent's frame; `None` for the parent's frame itself.
         at: Option<Placement>,
     },
     /// A joint that follows others: `joint b = -a`.
     Mimic {
-        /// The name of the joint.
+        /// The name of the joint, by which programs command it.
         name: Name,
         /// The linear combination of joints that it follows.
         value: Expr,
@@ -414,34 +414,34 @@ pub enum ModuleClauseKind {
     Touching(Name, Name),
     /// Another name for a joint, a port, or a joint and a port of one name: `alias pan = front`.
     Alias {
-        /// The new name.
+        /// The new name, which stands for the target.
         name: Name,
         /// The name of the joint or port.
         target: Name,
     },
     /// A definition: `let name = value`.
     Let(Let),
-    /// A requirement: `require condition`.
+    /// A requirement on the declared values: `require condition, message`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
     If {
-        /// The condition.
+        /// The condition, an expression that has to be of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that count if the condition holds, in order.
         then: Vec<ModuleClause>,
-        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        /// The clauses that count if the condition does not hold; one `If` for `else if`, empty without `else`.
         otherwise: Vec<ModuleClause>,
     },
     /// A loop, such as one over the ports of an array: `for i in 0..4 { port side[i] : ... }`.
     For {
-        /// The loop variable.
+        /// The variable that holds the element in each pass of the loop.
         binder: Name,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that each pass of the loop carries out, in order.
         body: Vec<ModuleClause>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
@@ -452,24 +452,24 @@ pub struct ModulePort {
     pub name: Name,
     /// The index in the port array, from 0; `None` for a single port.
     pub index: Option<Expr>,
-    /// The path of the connector.
+    /// The name of the port's connector, with the module path before it, if any.
     pub connector: Vec<Name>,
-    /// The link that carries it.
+    /// The name of the link that carries the port.
     pub link: Name,
-    /// The pose in the link's frame; `None` for the link's frame itself.
+    /// The pose of the port in the link's frame; `None` for the link's frame itself.
     pub at: Option<Placement>,
-    /// The direction of its outward normal, in the link's frame.
+    /// The direction of the port's outward normal, in the link's frame.
     pub facing: Expr,
-    /// The direction from which turns are counted, in the link's frame; `None` if it is not written.
+    /// The direction from which turns of a bond are counted, in the link's frame; `None` if it is not written.
     pub up: Option<Expr>,
 }
 
 /// A pose: `at [x, y, z] turned(Z, 90deg) turned(X, 10deg)`.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
-    /// The position, a vector of lengths.
+    /// The position in the frame of the context, a vector of lengths.
     pub position: Expr,
     /// The arguments of each `turned`, in order; empty without one. Each turn is about an axis of the frame turned so
     /// far.
@@ -479,9 +479,9 @@ pub struct Placement {
 /// The families whose declarations state facts and have no body of clauses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactsFamily {
-    /// Cells of lattices: `cell`.
+    /// The family of cells, of which lattices are made: `cell`.
     Cell,
-    /// Struts of trusses: `strut`.
+    /// The family of struts, of which trusses are made: `strut`.
     Strut,
 }
 
@@ -498,13 +498,13 @@ impl FactsFamily {
 /// The body of a `cell` or a `strut`: `size 100mm  shrinks_to 50mm`.
 #[derive(Clone, Debug)]
 pub struct Facts {
-    /// Its family.
+    /// The family that the keyword names: cell or strut.
     pub family: FactsFamily,
-    /// The name of the declaration.
+    /// The name that the declaration gives the cell or strut.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The facts as (name, value), in the order of the text.
+    /// The facts of the declaration as (name, value), in the order of the text.
     pub facts: Vec<(Name, Expr)>,
 }
 
@@ -513,24 +513,24 @@ pub struct Facts {
 /// A configuration: `config Name(params) closed { clauses }`.
 #[derive(Clone, Debug)]
 pub struct Config {
-    /// The name of the configuration.
+    /// The name that the declaration gives the configuration.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
     /// The span of the word `closed`; `None` if it is not written.
     pub closed: Option<Span>,
-    /// The clauses, in order.
+    /// The clauses between the braces, in the order of the text.
     pub clauses: Vec<ConfigClause>,
 }
 
 /// A clause of a configuration with its documentation.
 #[derive(Clone, Debug)]
 pub struct ConfigClause {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
     pub doc: Option<String>,
-    /// The kind of clause.
+    /// The kind of the clause, with what was written after its keyword.
     pub kind: ConfigClauseKind,
 }
 
@@ -538,7 +538,7 @@ pub struct ConfigClause {
 /// resolved.
 #[derive(Clone, Debug)]
 pub enum ConfigClauseKind {
-    /// A part: `part name: Type`.
+    /// A part, an instance of a module or configuration: `part name: Type`.
     Part(Part),
     /// A port or an array of ports of the whole: `port head = body.head`, `port side[4] = [...]`.
     Port {
@@ -549,49 +549,49 @@ pub enum ConfigClauseKind {
         /// The port, or the list of ports, that it names.
         value: Expr,
     },
-    /// The base module: `base path`.
+    /// The path of the base module, whose pose is that of the robot: `base path`.
     Base(Path),
     /// A behaviour: `behavior name = body`.
     Behavior(Behavior),
     /// A connection: `connect a -- b turn angle`.
     Connect {
-        /// The first port.
+        /// The path of the first port.
         a: Path,
-        /// The second port.
+        /// The path of the second port.
         b: Path,
         /// The angle behind `turn`, if it is written.
         turn: Option<Expr>,
     },
     /// A start position: `set joint = value`.
     Set {
-        /// The joint.
+        /// The path of the joint.
         joint: Path,
         /// The position of the joint at the start, an angle or a length.
         value: Expr,
     },
     /// A definition: `let name = value`.
     Let(Let),
-    /// A requirement: `require condition`.
+    /// A requirement on the declared values: `require condition, message`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
     If {
-        /// The condition.
+        /// The condition, an expression that has to be of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that count if the condition holds, in order.
         then: Vec<ConfigClause>,
-        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        /// The clauses that count if the condition does not hold; one `If` for `else if`, empty without `else`.
         otherwise: Vec<ConfigClause>,
     },
     /// A loop: `for name in iterable { ... }`.
     For {
-        /// The loop variable.
+        /// The variable that holds the element in each pass of the loop.
         binder: Name,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that each pass of the loop carries out, in order.
         body: Vec<ConfigClause>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
@@ -619,7 +619,7 @@ pub enum PartCount {
     Each {
         /// The variable that holds the element.
         binder: Name,
-        /// The list or range.
+        /// The list or range whose elements the parts are made for.
         range: Expr,
     },
 }
@@ -627,33 +627,33 @@ pub enum PartCount {
 /// A behaviour of a configuration: `behavior name(params) allows exemptions = body`.
 #[derive(Clone, Debug)]
 pub struct Behavior {
-    /// The name of the behaviour.
+    /// The name that the declaration gives the behaviour.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The exemptions, in order.
+    /// The checks that the behaviour is excused from, in the order of the text.
     pub allows: Vec<Exemption>,
-    /// The body.
+    /// The expression after `=`, which gives the behaviour.
     pub body: Expr,
 }
 
 /// An exemption of a behaviour: `unstable`, `slip`, `collision(a, b)`, `overload(j)`.
 #[derive(Clone, Debug)]
 pub struct Exemption {
-    /// The name of the exemption.
+    /// The word for the check that is excused, such as `slip`.
     pub name: Name,
-    /// Its arguments.
+    /// The arguments of the exemption in parentheses, in order; empty without.
     pub args: Vec<Expr>,
-    /// The span of the exemption.
+    /// The span of the exemption in the source text.
     pub span: Span,
 }
 
-/// A requirement: `require condition, message`.
+/// A requirement on the declared values: `require condition, message`.
 #[derive(Clone, Debug)]
 pub struct Require {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
-    /// The condition that must hold.
+    /// The condition that must hold, an expression of type `Bool`.
     pub condition: Expr,
     /// The message if it does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
@@ -662,9 +662,9 @@ pub struct Require {
 /// A path `body.side[i]`, `m[0].left`: a name, then steps `.name` and `[index]`.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// The span of the path.
+    /// The span of the whole path in the source text.
     pub span: Span,
-    /// The first name.
+    /// The first name of the path.
     pub root: Name,
     /// The steps behind `root`, in order; empty for a single name.
     pub steps: Vec<PathStep>,
@@ -673,11 +673,11 @@ pub struct Path {
 /// A step of a [`Path`] from a thing to one in it: to a member by name, or to an element by index.
 #[derive(Clone, Debug)]
 pub enum PathStep {
-    /// A member: `.name`.
+    /// A step to a member by its name: `.name`.
     Field(Name),
-    /// An element: `[index]`.
+    /// A step to an element by its index: `[index]`.
     Index {
-        /// The index, counted from 0.
+        /// The expression for the index, counted from 0.
         index: Expr,
         /// The span of the step, brackets included.
         span: Span,
@@ -689,24 +689,24 @@ pub enum PathStep {
 /// A lattice: `lattice Name(params) of cell = value`.
 #[derive(Clone, Debug)]
 pub struct Lattice {
-    /// The name of the lattice.
+    /// The name that the declaration gives the lattice.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The path of the cell that it is made of: a name, or several with dots between them.
+    /// The path of the declaration that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
-    /// The value of type `Cells`: the places of its cells.
+    /// The expression of type `Cells` for the places of its cells.
     pub value: Expr,
 }
 
 /// A truss: `truss Name(params) of strut { clauses }`, or `= value` instead of clauses.
 #[derive(Clone, Debug)]
 pub struct Truss {
-    /// The name of the truss.
+    /// The name that the declaration gives the truss.
     pub name: Name,
-    /// The parameters, in order.
+    /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The path of the strut that it is made of: a name, or several with dots between them.
+    /// The path of the declaration that it is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
     /// The nodes and struts, as a value or as clauses.
     pub body: TrussBody,
@@ -717,16 +717,16 @@ pub struct Truss {
 pub enum TrussBody {
     /// A value of the prelude's record `Frame`: `= value`.
     Value(Expr),
-    /// Clauses: `{ clauses }`.
+    /// The clauses that declare nodes and struts, in the order of the text: `{ clauses }`.
     Clauses(Vec<TrussClause>),
 }
 
 /// A clause between the braces of a truss, with its span; unlike other clauses it has no documentation.
 #[derive(Clone, Debug)]
 pub struct TrussClause {
-    /// The span of the clause.
+    /// The span of the clause in the source text.
     pub span: Span,
-    /// The kind of clause.
+    /// The kind of the clause, with what was written after its keyword.
     pub kind: TrussClauseKind,
 }
 
@@ -744,34 +744,34 @@ pub enum TrussClauseKind {
     },
     /// A strut between two nodes: `strut a -- b`.
     Strut {
-        /// The first node.
+        /// The path of the first node.
         a: Path,
-        /// The second node.
+        /// The path of the second node.
         b: Path,
     },
     /// A definition: `let name = value`.
     Let(Let),
-    /// A requirement: `require condition`.
+    /// A requirement on the declared values: `require condition, message`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
     If {
-        /// The condition.
+        /// The condition, an expression that has to be of type `Bool`.
         condition: Expr,
-        /// The clauses if the condition holds.
+        /// The clauses that count if the condition holds, in order.
         then: Vec<TrussClause>,
-        /// The clauses if it does not; one `If` for `else if`, empty without `else`.
+        /// The clauses that count if the condition does not hold; one `If` for `else if`, empty without `else`.
         otherwise: Vec<TrussClause>,
     },
     /// A loop: `for name in iterable { ... }`.
     For {
-        /// The loop variable.
+        /// The variable that holds the element in each pass of the loop.
         binder: Name,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The clauses of the loop.
+        /// The clauses that each pass of the loop carries out, in order.
         body: Vec<TrussClause>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
@@ -784,16 +784,16 @@ pub struct Test {
     pub name: String,
     /// The span of the name, quotes included.
     pub name_span: Span,
-    /// The statements.
+    /// The statements between the braces of the test, in order.
     pub body: Vec<Stmt>,
 }
 
-/// A statement with its span.
+/// A statement as written, with its span; it is not checked yet.
 #[derive(Clone, Debug)]
 pub struct Stmt {
-    /// The span of the statement.
+    /// The span of the statement in the source text.
     pub span: Span,
-    /// The kind of statement.
+    /// The kind of the statement, with what was written after its keyword.
     pub kind: StmtKind,
 }
 
@@ -802,7 +802,7 @@ pub struct Stmt {
 pub enum StmtKind {
     /// A definition: `let name = value`.
     Let(Let),
-    /// An expression.
+    /// An expression as a statement.
     Expr(Expr),
     /// A test of a condition: `expect condition, message`.
     Expect {
@@ -811,36 +811,37 @@ pub enum StmtKind {
         /// The message if it does not hold, a text, if one is written.
         message: Option<Expr>,
     },
-    /// A requirement: `require condition`.
+    /// A requirement on the declared values: `require condition, message`.
     Require(Require),
     /// A branch: `if condition { ... } else { ... }`.
     If {
-        /// The condition.
+        /// The condition, an expression that has to be of type `Bool`.
         condition: Expr,
-        /// The statements if the condition holds.
+        /// The statements that are executed if the condition holds, in order.
         then: Vec<Stmt>,
-        /// The statements if it does not; one `If` for `else if`, empty without `else`.
+        /// The statements that are executed if the condition does not hold; one `If` for `else if`, empty without
+        /// `else`.
         otherwise: Vec<Stmt>,
     },
     /// A loop: `for name in iterable { ... }`.
     For {
-        /// The loop variable.
+        /// The variable that holds the element in each pass of the loop.
         binder: Name,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
-        /// The statements of the loop.
+        /// The statements that each pass of the loop carries out, in order.
         body: Vec<Stmt>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
 /// An expression as written, with its span; its type is found by `check`.
 #[derive(Clone, Debug)]
 pub struct Expr {
-    /// The span of the expression.
+    /// The span of the expression in the source text.
     pub span: Span,
-    /// The kind of expression.
+    /// The kind of the expression, by its form.
     pub kind: ExprKind,
 }
 
@@ -854,90 +855,90 @@ pub enum ExprKind {
         /// The unit attached to the digits; `None` for a plain number.
         unit: Option<UnitExpr>,
     },
-    /// A truth value: `true`, `false`.
+    /// A truth value: `true` or `false`.
     Bool(bool),
     /// A text, perhaps with `{expr}` in it; a plain text is one `Literal`, an empty one none.
     Text(Vec<TextPart>),
-    /// A name.
+    /// A name, which is not looked up yet.
     Name(Symbol),
     /// A coordinate axis: `X`, `Y`, `Z`; `-X` is a `Unary`.
     Axis(Axis),
     /// The missing value, as in the rows of a gait table, or the last value of a session: `_`.
     Hole,
-    /// A list: `[a, b]`.
+    /// A list of its elements, in order: `[a, b]`.
     List(Vec<Expr>),
     /// A list comprehension: `[e for x in xs if c for y in ys]`.
     Comprehension {
-        /// The expression for each element.
+        /// The expression that is evaluated for each element.
         body: Box<Expr>,
         /// The clauses, in order; the first is a loop.
         clauses: Vec<ComprehensionClause>,
     },
     /// A prefix operator with its operand.
     Unary {
-        /// The operator.
+        /// The operator between or before the operands.
         op: UnaryOp,
-        /// The span of the operator.
+        /// The span of the operator alone in the source text.
         op_span: Span,
-        /// The operand.
+        /// The operand behind the operator.
         operand: Box<Expr>,
     },
     /// An infix operator with its operands.
     Binary {
-        /// The operator.
+        /// The operator between or before the operands.
         op: BinaryOp,
-        /// The span of the operator.
+        /// The span of the operator alone in the source text.
         op_span: Span,
-        /// The left operand.
+        /// The operand before the operator.
         left: Box<Expr>,
-        /// The right operand.
+        /// The operand after the operator.
         right: Box<Expr>,
     },
-    /// A range: `a..b`.
+    /// A range of numbers or quantities: `a..b`.
     Range {
-        /// The first end.
+        /// The expression for the first end.
         from: Box<Expr>,
-        /// The second end.
+        /// The expression for the second end.
         to: Box<Expr>,
     },
     /// A value with one for the case that it is missing: `x else y`. It binds like `or`.
     Otherwise {
-        /// The value that may be missing.
+        /// The expression whose value may be missing.
         value: Box<Expr>,
-        /// The value in its place.
+        /// The expression for the value in its place.
         otherwise: Box<Expr>,
     },
-    /// A call: `callee(args)`.
+    /// A call of a function, a behaviour, or a type for an instance: `callee(args)`.
     Call {
-        /// The function, or the type of an instance.
+        /// The expression for the function, or the type of an instance.
         callee: Box<Expr>,
-        /// The arguments, in order.
+        /// The arguments in the parentheses, in order.
         args: Vec<Arg>,
     },
     /// An element of a list or a vector: `object[index]`.
     Index {
-        /// The list or vector.
+        /// The expression for the list or vector.
         object: Box<Expr>,
-        /// The index, counted from 0.
+        /// The expression for the index, counted from 0.
         index: Box<Expr>,
     },
     /// A member of a value: `object.field`.
     Field {
-        /// The value.
+        /// The expression before the dot.
         object: Box<Expr>,
-        /// The name of the member.
+        /// The name of the member, after the dot.
         field: Name,
     },
     /// A changed copy of a record: `object with { bend: 40deg }`.
     With {
-        /// The record.
+        /// The expression for the record.
         object: Box<Expr>,
         /// The fields that change, in order; each has a name.
         fields: Vec<Arg>,
     },
     /// A conditional expression, whose branches are blocks: `if c { a } else { b }`.
     If {
-        /// The condition.
+        /// The condition, an expression that has to be of type `Bool`.
         condition: Box<Expr>,
         /// The block if the condition holds.
         then: Box<Expr>,
@@ -955,10 +956,10 @@ pub enum ExprKind {
     Lambda {
         /// The names of the parameters, in order.
         params: Vec<Name>,
-        /// The result: an expression or a block.
+        /// The expression or block that gives the result.
         body: Box<Expr>,
     },
-    /// A piece that could not be parsed.
+    /// A piece of text that could not be parsed, and was reported.
     Error,
 }
 
@@ -967,15 +968,15 @@ pub enum ExprKind {
 pub enum TextPart {
     /// Text as it is, with escapes resolved.
     Literal(String),
-    /// An interpolated value: `{expr}`.
+    /// An interpolated value, shown as `print` shows it: `{expr}`.
     Value(Expr),
     /// An interpolated quantity in a stated unit, or with a stated number of decimals: `{expr in mm:.2}`.
     Shown {
-        /// The quantity.
+        /// The expression for the quantity.
         value: Expr,
-        /// The unit.
+        /// The unit in which the quantity is shown, if one is stated.
         unit: Option<UnitExpr>,
-        /// The number of decimals, as written, with its span.
+        /// The number of decimals, as written, with its span, if one is stated.
         decimals: Option<(Symbol, Span)>,
     },
 }
@@ -985,79 +986,79 @@ pub enum TextPart {
 pub enum ComprehensionClause {
     /// A loop: `for name in iterable`.
     For {
-        /// The loop variable.
+        /// The variable that holds the element in each pass of the loop.
         binder: Name,
-        /// The list or range that the loop goes through.
+        /// The list or range whose elements the loop goes through.
         iterable: Expr,
     },
-    /// A filter: `if condition`.
+    /// A filter, which leaves out elements for which the condition is false: `if condition`.
     If(Expr),
 }
 
 /// An argument in parentheses or braces, perhaps with a name: of a call, a motor, a hinge, or of `with`.
 #[derive(Clone, Debug)]
 pub struct Arg {
-    /// The name in front of it, `name: value`; `None` for an argument by position.
+    /// The name in front of the argument, `name: value`; `None` for an argument by position.
     pub name: Option<Name>,
-    /// The value.
+    /// The expression for the value of the argument.
     pub value: Expr,
 }
 
-/// An axis of the frame: a unit vector.
+/// A coordinate axis of the frame, as a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
-    /// The x axis: `X`.
+    /// The unit vector along the x axis: `X`.
     X,
-    /// The y axis: `Y`.
+    /// The unit vector along the y axis: `Y`.
     Y,
-    /// The z axis: `Z`.
+    /// The unit vector along the z axis: `Z`.
     Z,
 }
 
 /// An operator in front of its one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
-    /// Negation: `-a`.
+    /// The negative of a number, quantity or vector: `-a`.
     Neg,
-    /// The value itself: `+a`.
+    /// The operand itself, unchanged: `+a`.
     Plus,
-    /// Logical negation: `not a`.
+    /// The logical negation of a truth value or condition: `not a`.
     Not,
 }
 
 /// An operator between its two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
-    /// Disjunction: `or`.
+    /// The logical disjunction: `a or b`.
     Or,
-    /// Conjunction: `and`.
+    /// The logical conjunction: `a and b`.
     And,
-    /// Equal: `==`.
+    /// The comparison for equality: `a == b`.
     Eq,
-    /// Not equal: `!=`.
+    /// The comparison for inequality: `a != b`.
     Ne,
-    /// Less than: `<`.
+    /// The comparison less than: `a < b`.
     Lt,
-    /// At most: `<=`.
+    /// The comparison at most: `a <= b`.
     Le,
-    /// Greater than: `>`.
+    /// The comparison greater than: `a > b`.
     Gt,
-    /// At least: `>=`.
+    /// The comparison at least: `a >= b`.
     Ge,
     /// The condition that two ports are mated: `a <-> b`.
     Mated,
     /// Concatenation of lists or texts, or plans one after another: `++`.
     Join,
-    /// Addition: `+`.
+    /// The sum of the operands: `a + b`.
     Add,
-    /// Subtraction: `-`.
+    /// The difference of the operands: `a - b`.
     Sub,
-    /// Multiplication: `*`.
+    /// The product of the operands: `a * b`.
     Mul,
-    /// Division: `/`.
+    /// The quotient of the operands: `a / b`.
     Div,
-    /// The remainder of a division: `%`.
+    /// The remainder of a division of the operands: `a % b`.
     Rem,
-    /// Power: `^`.
+    /// The power of the left operand with the right one as exponent: `a ^ b`.
     Pow,
 }

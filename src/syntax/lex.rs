@@ -1,35 +1,35 @@
 //! A lexer for brackets, comments, line beginnings and error messages. The grammar does not use it; it
 //! reads the text itself.
 
-/// A token: bytes `start..end` of the text. White space belongs to none.
+/// A token of the lexer: bytes `start..end` of the text. White space belongs to none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
-    /// The kind of token.
+    /// The kind of the token.
     pub kind: TokenKind,
-    /// The offset in bytes of its first byte.
+    /// The offset of the token's first byte in the text, from 0.
     pub start: usize,
-    /// The offset in bytes after its last byte.
+    /// The offset after the token's last byte in the text.
     pub end: usize,
 }
 
 /// The kinds of tokens, by what the text means to the grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
-    /// A line end.
+    /// A line end, which ends a statement or clause where it may.
     LineBreak,
     /// A line comment, `// ...`, without the line end.
     LineComment,
-    /// A block comment: `/* ... */`.
+    /// A block comment, `/* ... */`, which may contain others.
     BlockComment {
-        /// The depth of its nesting; 1 if no comment is nested in it.
+        /// The depth of comments within each other in it; 1 if no comment is nested.
         depth: usize,
     },
-    /// A name or keyword.
+    /// A word: a name or a keyword.
     Word,
     /// A number with its unit: from the lexer with a simple one, `3m` of `3m/s`; in an
     /// [`Outline`](super::Outline) all of it.
     Number,
-    /// A text, `"..."` or `"""..."""`, with the contents of its `{ }`.
+    /// A text literal, `"..."` or `"""..."""`, with the contents of its `{ }`.
     Text {
         /// The depth of brackets and texts nested in it; 0 without `{ }`.
         depth: usize,
@@ -38,13 +38,13 @@ pub enum TokenKind {
     Open,
     /// A closing bracket: `)`, `]` or `}`.
     Close,
-    /// A sign or mark.
+    /// A sign or mark, such as `+` or `:`.
     Operator,
-    /// A `"` text that is not closed on its line.
+    /// A text literal `"` that is not closed on its line.
     UnclosedText,
-    /// A `"""` text that is never closed.
+    /// A text literal `"""` that is never closed.
     UnclosedRawText,
-    /// A `/*` comment that is never closed.
+    /// A block comment `/*` that is never closed.
     UnclosedComment,
     /// A character with which no token begins.
     Stray,

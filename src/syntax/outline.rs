@@ -25,16 +25,16 @@ pub enum Role {
     Spaced,
 }
 
-/// A run of items that is parsed on its own.
+/// A chunk of a text: a run of items that is parsed on its own.
 #[derive(Clone, Debug)]
 pub struct Chunk {
-    /// The range of bytes of the text.
+    /// The range of bytes that the chunk takes in the text.
     pub range: Range<usize>,
-    /// True if the grammar can parse it.
+    /// True if the grammar can parse the chunk.
     pub sound: bool,
 }
 
-/// The outline of a text: its tokens, and what the grammar makes of them.
+/// The outline of a text: its tokens, and what the grammar makes of them; the formatter works on it.
 #[derive(Debug)]
 pub struct Outline {
     /// The tokens, in order, comments and line breaks included; a number and its unit are one token.

@@ -29,17 +29,18 @@ pub(super) type Node<'i> = pest::iterators::Pair<'i, Rule>;
 /// text are kept.
 pub const DIAGNOSTICS_MAX: usize = 200;
 
-/// The result of [`parse`]: the tree, with `Error` nodes where the text is wrong, and what is wrong there.
+/// The result of [`parse`]: the syntax tree, with `Error` nodes where the text is wrong, and what is wrong there.
 #[derive(Clone, Debug)]
 pub struct Parsed {
-    /// The tree.
+    /// The syntax tree of the file.
     pub file: ast::File,
     /// The diagnostics, in order of position; at most [`DIAGNOSTICS_MAX`], the first ones of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Returns the tree of the file `id`, whose text is `text`. Never fails: pieces that cannot be parsed become `Error`
-/// nodes, and are reported. A text longer than [`TEXT_MAX`] is reported and gives an empty tree.
+/// Returns the syntax tree of the file `id`, whose text is `text`, with diagnostics. Never fails: pieces that cannot
+/// be parsed become `Error` nodes, and are reported. A text longer than [`TEXT_MAX`] is reported and gives an empty
+/// tree.
 pub fn parse(id: FileId, text: &str) -> Parsed {
     if text.len() > TEXT_MAX {
         return too_large(id, text);

@@ -7,7 +7,7 @@ pub const RESERVED: &[&str] = &[
     "X", "Y", "Z",
 ];
 
-/// The words that begin an item other than a statement (`let` begins either).
+/// The keywords that begin an item other than a statement (`let` begins either).
 pub const ITEMS: &[&str] = &[
     "use",
     "let",
@@ -27,7 +27,7 @@ pub const ITEMS: &[&str] = &[
 /// The words that begin a declaration with instances.
 pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
 
-/// The words after which a name is declared, sorted.
+/// The keywords after which a name is declared, sorted.
 pub const DECLARING: &[&str] = &[
     "behavior",
     "cell",
@@ -48,7 +48,7 @@ pub const DECLARING: &[&str] = &[
     "truss",
 ];
 
-/// The words that begin a statement; an expression is one, too.
+/// The keywords that begin a statement; an expression is a statement, too.
 pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
 
 /// The words that begin an item or a statement of a file.
@@ -63,17 +63,17 @@ pub(super) const ITEMS_AND_STATEMENTS: &[&str] = &{
     all
 };
 
-/// The words that begin a clause of a module.
+/// The keywords that begin a clause of a module.
 pub const MODULE: &[&str] = &[
     "mass", "touch", "contact", "link", "joint", "port", "motor", "touching", "alias", "let", "require",
     "if", "for",
 ];
 
-/// The words that begin a clause of a configuration.
+/// The keywords that begin a clause of a configuration.
 pub const CONFIG: &[&str] =
     &["part", "port", "base", "behavior", "connect", "set", "let", "require", "if", "for"];
 
-/// The words that begin a clause of a truss.
+/// The keywords that begin a clause of a truss.
 pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
 
 /// The words with which a clause continues, also on a new line.

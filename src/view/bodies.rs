@@ -16,7 +16,7 @@ const CELLS_MAX: usize = 20_000;
 
 /// A mesh in the world frame, in metres, with its colour.
 pub(super) struct Drawn {
-    /// The mesh in the world frame, in metres.
+    /// The mesh of the body in the world frame, in metres.
     pub mesh: Mesh,
     /// The colour of all its faces.
     pub colour: Rgb,

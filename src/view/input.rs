@@ -2,12 +2,12 @@
 
 use crate::plan::Plan;
 
-/// The input of all renderers: a plan with the texts around it.
+/// The input of all renderers: a plan with the texts that are shown around it.
 #[derive(Clone, Copy, Debug)]
 pub struct RenderInput<'a> {
     /// The name of the robot, lattice or truss, which is the title of the picture.
     pub title: &'a str,
-    /// The plan. One without a verdict is shown as "not judged".
+    /// The plan that is drawn. One without a verdict is shown as "not judged".
     pub plan: &'a Plan,
     /// The source files that the plan's causes name, as (name, text), for the page to show; may be empty.
     pub texts: &'a [(String, String)],

@@ -15,10 +15,10 @@ const SMOOTH: f64 = 0.848;
 /// A triangle mesh with its sharp edges; lengths in metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
-    /// The triangles as (corners, normals at them): corners in metres, counter-clockwise as seen from outside; normals
-    /// of length 1, outwards.
+    /// The triangles as (corners in metres, counter-clockwise as seen from outside; normals at them, of length 1,
+    /// outwards), in the frame of the mesh.
     pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
-    /// The sharp edges by their ends, in metres, drawn as lines.
+    /// The sharp edges by their ends, in metres, in the frame of the mesh; they are drawn as lines.
     pub edges: Vec<[Vec3; 2]>,
 }
 

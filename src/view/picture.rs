@@ -27,20 +27,20 @@ const BELOW: Rgb = Rgb([0.965, 0.957, 0.937]);
 /// The colour of grid lines and shadows on the ground.
 const INK: Rgb = Rgb([0.125, 0.188, 0.235]);
 
-/// The viewpoint of a picture. +x of the world is the front.
+/// The viewpoint of a picture. +x of the world is the front, +z up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The view from the front right, above.
+    /// The view from the front right, and from above.
     Corner,
-    /// The view from +x.
+    /// The view from the front, from +x of the world.
     Front,
-    /// The view from -x.
+    /// The view from behind, from -x of the world.
     Back,
-    /// The view from +y.
+    /// The view from the left, from +y of the world.
     Left,
-    /// The view from -y.
+    /// The view from the right, from -y of the world.
     Right,
-    /// The view from +z, with +x up in the picture.
+    /// The view from above, from +z of the world, with +x up in the picture.
     Top,
 }
 
@@ -62,13 +62,14 @@ impl Side {
 /// The options of a still picture. [`png()`] panics for a width or height of 0.
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
-    /// The time of the picture in seconds; clamped to the part that is played, from 0 to the first failure or the end.
+    /// The time of the picture in the plan, s; clamped to the part that is played, from 0 to the first failure or the
+    /// end.
     pub time: f64,
-    /// The viewpoint of the camera.
+    /// The viewpoint from which the picture is taken.
     pub side: Side,
-    /// The width in pixels, at least 1.
+    /// The width of the picture in pixels, at least 1.
     pub width: usize,
-    /// The height in pixels, at least 1.
+    /// The height of the picture in pixels, at least 1.
     pub height: usize,
 }
 
@@ -78,7 +79,8 @@ impl Default for StillOptions {
     }
 }
 
-/// Returns a picture as the bytes of a PNG file with red, green and blue of 8 bits each.
+/// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. Panics for a
+/// width or height of 0.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let pixels = pixels(&canvas(input, options), options);
     encoded(options, &pixels, None)

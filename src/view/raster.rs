@@ -13,28 +13,28 @@ const LINE_LIFT: f64 = 1.0015;
 /// A camera with orthonormal axes right, up and back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
-    /// The position in the world, m.
+    /// The position of the camera in the world, m.
     pub at: Vec3,
-    /// The unit vector to the right of the picture.
+    /// The unit vector to the right of the picture, in the world.
     pub right: Vec3,
-    /// The unit vector to the top of the picture.
+    /// The unit vector to the top of the picture, in the world.
     pub up: Vec3,
-    /// The unit vector from the target to the camera.
+    /// The unit vector from the target to the camera, in the world.
     pub back: Vec3,
     /// Half the height of what the picture shows: of an orthographic camera in metres, of a perspective one at the
     /// distance 1, thus the tangent of half its angle of view.
     pub half: f64,
-    /// True for an orthographic camera.
+    /// True for an orthographic camera, false for a perspective one.
     pub parallel: bool,
-    /// The distance to the target, m.
+    /// The distance of the camera to the target, m.
     pub distance: f64,
 }
 
 /// An image with its depth buffer.
 pub(super) struct Canvas {
-    /// Width in pixels.
+    /// The width of the canvas in pixels.
     pub width: usize,
-    /// Height in pixels.
+    /// The height of the canvas in pixels.
     pub height: usize,
     /// Red, green and blue of each pixel in 0..1, row by row from the top.
     pub colours: Vec<[f32; 3]>,
@@ -46,11 +46,11 @@ pub(super) struct Canvas {
 /// A projected point: x and y in pixels, and its depth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Projected {
-    /// Pixels from the left edge.
+    /// The distance from the left edge, in pixels.
     pub x: f64,
-    /// Pixels from the top edge.
+    /// The distance from the top edge, in pixels.
     pub y: f64,
-    /// Depth as in [`Canvas::depths`].
+    /// The depth of the point, as in [`Canvas::depths`].
     pub depth: f64,
 }
 

@@ -4,12 +4,12 @@
 pub(super) struct Tolerances {
     /// The tolerance of a panel's corner above or below the sheet, m: rounding of poses.
     pub flat: f64,
-    /// Two edges whose midpoints are nearer than this in the end coincide, m.
+    /// The distance of midpoints below which two edges coincide in the end, m.
     pub meet: f64,
-    /// Angles smaller than this are level creases, rad.
+    /// The fold angle below which creases are level, rad.
     pub crease: f64,
-    /// A base pose is left out where interpolation between its neighbours is within this of it: m for positions,
-    /// 1 for quaternion components.
+    /// The distance of a base pose from interpolation between its neighbours within which it is left out: m for
+    /// positions, 1 for quaternion components.
     pub base: f64,
     /// The tolerance within which a picture's time is that of a failure, s.
     pub picture_time: f64,

@@ -3,12 +3,12 @@
 use crate::plan::PlanFault;
 use std::fmt;
 
-/// The reason why a plan has no model of MuJoCo.
+/// The reason why a plan has no MuJoCo model (MJCF).
 #[derive(Clone, Debug, PartialEq)]
 pub enum MjcfFault {
     /// The plan is one of a lattice or a truss, which has no links and joints.
     NoJoints,
-    /// The plan is not valid.
+    /// The plan is not valid, for the reason given.
     Invalid(PlanFault),
     /// More links hang on each other in a row than MuJoCo reads.
     TooDeep {

@@ -20,7 +20,7 @@ pub use fault::MjcfFault;
 use tree::Trees;
 use xml::{Xml, number, numbers};
 
-/// The end of the names of its files, after the first dot.
+/// The ending of the names of MuJoCo model files, after the first dot.
 pub const ENDING: &str = "mjcf.xml";
 
 /// The step of the simulation, s.
@@ -38,8 +38,8 @@ const FLOOR_FRICTION: f64 = 1e-3;
 /// The greatest number of bodies inside each other that MuJoCo's reader takes, by trial with its version 4.0.
 const DEPTH_MAX: usize = 496;
 
-/// Returns the model of a plan's robot, with the state in which the plan starts as the keyframe `start`: the base
-/// stands where the judge places it. The text is the same for the same plan.
+/// Returns the MuJoCo model (MJCF, XML) of a plan's robot, with the state in which the plan starts as the keyframe
+/// `start`: the base stands where the judge places it. The text is the same for the same plan.
 ///
 /// # Errors
 /// A [`MjcfFault`] for a lattice or truss, for a plan that is not valid, and for a chain of too many links.

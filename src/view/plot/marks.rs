@@ -30,7 +30,7 @@ pub(super) enum Anchor {
 /// A plot laid out.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
-    /// Width and height in pixels.
+    /// The width and height of the drawing, in pixels.
     pub size: [f64; 2],
     /// The marks, in the order in which they are drawn.
     pub marks: Vec<Mark>,

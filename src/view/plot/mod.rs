@@ -22,11 +22,11 @@ pub use text::text;
 /// The kind of a plot: the way in which its values are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
-    /// Lines from point to point.
+    /// A curve: lines from point to point.
     Curve,
-    /// A mark at each point.
+    /// A scatter plot: a mark at each point.
     Scatter,
-    /// Bars: the number of values in each bin.
+    /// A histogram: bars with the number of values in each bin.
     Histogram,
 }
 
@@ -35,14 +35,14 @@ pub enum PlotKind {
 pub struct PlotAxis {
     /// The label without unit; may be empty.
     pub label: String,
-    /// The dimension of the values.
+    /// The dimension of the values along the axis.
     pub dimension: Dimension,
 }
 
 /// A series of a plot: values with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotSeries {
-    /// The name in the legend; may be empty.
+    /// The name of the series in the legend; may be empty.
     pub name: String,
     /// The points (x, y) in SI units, in the order in which a curve joins them; `None` for a missing or infinite value,
     /// which leaves a gap. A histogram reads the second value of each.
@@ -54,7 +54,7 @@ pub struct PlotSeries {
 pub struct Plot {
     /// The kind of plot, the same for all series.
     pub kind: PlotKind,
-    /// The title; may be empty.
+    /// The title above the plot; may be empty.
     pub title: String,
     /// The horizontal axis; of a histogram that of the values.
     pub x: PlotAxis,
@@ -73,7 +73,7 @@ impl Plot {
         self.series.iter().flat_map(|series| series.points.iter().flatten().copied())
     }
 
-    /// Returns the number of missing or infinite values, over all series.
+    /// Returns the number of missing or infinite values in all series together.
     pub fn gaps(&self) -> usize {
         self.series.iter().flat_map(|series| &series.points).filter(|point| point.is_none()).count()
     }

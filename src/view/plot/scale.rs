@@ -19,9 +19,9 @@ const STEPS_DEGREES: [f64; 9] = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.
 /// A scale that maps values in SI units to positions.
 #[derive(Clone, Debug)]
 pub(super) struct Scale {
-    /// The label with the unit: `torque [N·m]`.
+    /// The label of the axis with the unit: `torque [N·m]`.
     pub label: String,
-    /// The ticks as (position in 0..1, text), in ascending order.
+    /// The ticks of the axis as (position in 0..1, text), in ascending order.
     pub ticks: Vec<(f64, String)>,
     /// The smallest value shown, in the unit.
     low: f64,

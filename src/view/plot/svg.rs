@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 /// The fonts of text: the one that the layout was made with, or similar ones.
 const FONTS: &str = "Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
 
-/// Returns a plot as the text of an SVG file, with lengths in pixels.
+/// Returns a plot as the text of an SVG file, with lengths in pixels; missing values leave gaps.
 pub fn svg(plot: &Plot) -> String {
     let sheet = lay_out(plot);
     let [w, h] = sheet.size.map(short);
