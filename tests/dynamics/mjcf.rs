@@ -456,8 +456,11 @@ fn happens(verdict: &Verdict, simulated: &Value) -> bool {
         && simulated["fell"] == false
 }
 
+/// A behaviour of the library: the robot, the call, and the least distance that it gets straight ahead, mm.
+type LibraryBehavior = (&'static str, &'static str, f64);
+
 /// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
-fn of_the_library(few: usize) -> (&'static [(&'static str, &'static str, f64)], Vec<Case>, Vec<Value>) {
+fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some
