@@ -5,8 +5,8 @@
 //! method with an exact line search (Qi and Sun 1993, *A nonsmooth version of Newton's method*), from the guess which of
 //! them push. With those given the springs are linear, and one pass up the tree and one down give the displacements: the
 //! recursion of the articulated-body algorithm with stiffness in the place of inertia (Featherstone, *Rigid Body Dynamics
-//! Algorithms*, 2008, ch. 7), in time linear in the links. What crosses the tree, bonds that close loops and joints
-//! that drive several steps, is joined to it by a small dense system.
+//! Algorithms*, 2008, ch. 7), in time linear in the links. Bonds that close loops, and joints that drive several steps, cross
+//! the tree: a small dense system joins them to it.
 //!
 //! Displacements of links are `[translation; rotation]` of the body at the centre of mass, in level axes, m and rad;
 //! loads on links are `[force; moment]` about it, N and N·m.
@@ -19,7 +19,7 @@ use nalgebra::{Cholesky, Const, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vec
 /// The components in which the ground bears the base: height, roll and pitch.
 const BEARING: [usize; 3] = [2, 3, 4];
 
-/// Which contacts and stops push: a flag for each.
+/// The contacts and stops that push.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pushing {
     /// A flag for each candidate.
@@ -91,7 +91,7 @@ struct Factored {
     pushed: Vec<Vector6<f64>>,
     /// The stiffness along each step that has a driver.
     pivots: Vec<f64>,
-    /// That of the base in height, roll and pitch; `None` for a base that is held.
+    /// The stiffness of the base in height, roll and pitch; `None` for a base that is held.
     base: Option<Cholesky<f64, Const<3>>>,
 }
 
@@ -374,7 +374,7 @@ impl<'a> ElasticTree<'a> {
             let (force, moment) =
                 (Vec3::from_column_slice(&wrench[..3]), Vec3::from_column_slice(&wrench[3..]));
             let at_centre = joined(&force, &(moment + closing.p.cross(&force)));
-            // What supports a link lessens its load.
+            // A wrench that supports a link lessens its load.
             wrenches.push((closing.sides[0], -at_centre));
             wrenches.push((closing.sides[1], at_centre));
         }
