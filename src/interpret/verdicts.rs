@@ -150,7 +150,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Records for each exemption of the user's own files if this verdict needed it: one clause covers many
+    /// Records, for each exemption of the user's own files, if a verdict on a plan needed it: one clause covers many
     /// intervals and many plans.
     pub fn note_exemptions(&mut self, planned: &PlanValue, verdict: &Verdict) {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
@@ -178,8 +178,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Records, for each exemption of the user's own files, if this verdict needed it: one clause covers many
-    /// intervals and many plans.
+    /// Returns a line of text for each exemption of a plan and for each setting of the judge that is less strict than
+    /// by default, each once, to be printed when the plan is written.
     pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();

@@ -8,63 +8,66 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The root node, under which all other nodes are.
+/// A series-parallel graph of actions (Section V-B of the compositional-design paper, Tosun, Jing, Kress-Gazit and
+/// Yim), as a position-servo robot executes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Program {
-    /// The node that all others are under.
+    /// The root node, under which all other nodes are.
     pub root: Arc<Node>,
 }
 
-/// A single action: one command with its end.
+/// A node of the graph: an action, or a series (`Sc`) or parallel (`Pc`) composition of nodes. Nodes are shared where
+/// a behaviour is used twice.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// The series composition `Sc`: behaviours one after the other.
+    /// A single action: one command with its end.
     Action(Action),
-    /// The parallel composition `Pc`: behaviours that begin together; it ends when the last of them has.
+    /// The series composition `Sc`: behaviours one after the other.
     Series(Vec<Arc<Node>>),
-    /// A repetition: a behaviour several times, one after the other.
+    /// The parallel composition `Pc`: behaviours that begin together; it ends when the last of them has.
     Parallel(Vec<Arc<Node>>),
-    /// The behaviour that is repeated.
+    /// A repetition: a behaviour several times, one after the other.
     Repeat {
-        /// The behaviour.
+        /// The behaviour that is repeated.
         body: Arc<Node>,
         /// The number of times that it is carried out.
         times: u64,
     },
-    /// The behaviour whose cycle is shifted.
+    /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.
     Phase {
-        /// The behaviour.
+        /// The behaviour whose cycle is shifted.
         body: Arc<Node>,
         /// The fraction of the cycle, from 0 to 1.
         shift: f64,
-        /// The command of the source that this comes from.
+        /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
-    /// The behaviour to whose shifted cycle the joints move.
+    /// A move of the joints together, in least time, to the positions at which `Phase` of the same body and shift
+    /// begins.
     Approach {
-        /// The behaviour.
+        /// The behaviour to whose shifted cycle the joints move.
         body: Arc<Node>,
         /// The fraction of the cycle, from 0 to 1.
         shift: f64,
-        /// The command of the source that this comes from.
+        /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
-    /// The behaviour whose time is scaled.
+    /// A behaviour whose time is scaled so that it lasts `duration` seconds.
     Stretch {
-        /// The duration after scaling, s.
+        /// The behaviour whose time is scaled.
         body: Arc<Node>,
-        /// The duration, s.
+        /// The duration after scaling, s.
         duration: f64,
-        /// The command of the source that this comes from.
+        /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
-    /// The behaviour that is excused.
+    /// A behaviour excused from checks over its own interval.
     Exempt {
-        /// The behaviour.
+        /// The behaviour that is excused.
         body: Arc<Node>,
         /// The checks that it is excused from.
         kind: ExemptionKind,
-        /// The command of the source that this comes from.
+        /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
 }
@@ -81,7 +84,7 @@ pub struct Action {
     pub timeout: Option<f64>,
     /// The continuation when the timeout comes before `until` holds.
     pub otherwise: Otherwise,
-    /// The command of the source that this comes from.
+    /// The index in the plan's causes of the source command that the action comes from.
     pub cause: CauseId,
 }
 
@@ -100,35 +103,37 @@ pub enum Command {
         /// The time law of the move.
         profile: Profile,
     },
-    /// The joint that is commanded.
+    /// A motion of a joint at a constant speed.
     Spin {
-        /// The speed, rad/s or m/s; negative towards lower positions.
+        /// The joint that is commanded.
         joint: JointId,
-        /// The duration of the motion, s; `None`: until the next command to the joint.
+        /// The speed, rad/s or m/s; negative towards lower positions.
         speed: f64,
-        /// The duration, s; `None`: until the next command to the joint.
+        /// The duration of the motion, s; `None`: until the next command to the joint.
         duration: Option<f64>,
     },
-    /// The joint that is commanded.
+    /// A motion of a joint along a sampled function of the time since the action's start: between two samples it is
+    /// the cubic with their positions and velocities.
     Follow {
-        /// The joint.
+        /// The joint that is commanded.
         joint: JointId,
-        /// A pause, in which nothing moves.
+        /// The samples, each as time (s), position (rad or m) and velocity (rad/s or m/s), in order of time; the first
+        /// at 0.
         keyframes: Vec<[f64; 3]>,
     },
-    /// The duration of the pause, s.
+    /// A pause, in which nothing moves.
     Wait {
-        /// Docking of port `b` to port `a`; the turn is the allowed one nearest to that in which they meet.
+        /// The duration of the pause, s.
         duration: f64,
     },
     /// Docking of port `b` to port `a`; the turn is the allowed one nearest to that in which they meet.
     Dock {
         /// The port that is docked to.
         a: PortRef,
-        /// Undocking: the bond at a port ceases to hold.
+        /// The port that docks.
         b: PortRef,
     },
-    /// The bond at a port ceases to hold.
+    /// Undocking: the bond at a port ceases to hold.
     Undock {
         /// One of the two ports of the bond.
         port: PortRef,
@@ -157,10 +162,10 @@ pub enum Profile {
     Linear,
 }
 
-/// The next action begins, as in the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim, Section V-B).
+/// The continuation when an action's timeout comes before its `until` holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Otherwise {
-    /// The next action begins: the paper's meaning.
+    /// The next action begins, as in the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim, Section V-B).
     Proceed,
     /// The behaviour fails, with a message.
     Abort(String),

@@ -61,9 +61,9 @@ pub enum InvalidTruss {
     },
     /// A shape of an obstacle is not sound, or at a pose that is not.
     NotSolid {
-        /// The fault of the obstacle's shapes.
+        /// The index of the obstacle in [`TrussProblem::obstacles`].
         obstacle: usize,
-        /// The fault of its shapes.
+        /// The fault of the obstacle's shapes.
         why: Unsound,
     },
     /// The limit of the angle between struts is not in [0, π/3) rad.
