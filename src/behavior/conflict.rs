@@ -40,7 +40,7 @@ pub struct Conflicts {
     pub warnings: Vec<Conflict>,
     /// True if more than [`PAIRS_MAX`] pairs of one kind were found, of which the rest was dropped.
     pub more: bool,
-    /// The number of nodes visited and table entries handled, a measure of the work.
+    /// The number of nodes visited and table entries handled: a measure of the work.
     pub work: usize,
 }
 
@@ -48,8 +48,9 @@ pub struct Conflicts {
 /// program in which all commands conflict is answered in bounded time; [`Conflicts::more`] says if pairs were dropped.
 pub const PAIRS_MAX: usize = 100;
 
-/// Returns the conflicts of a program, found on its graph without running it. The work grows as n log n with the n
-/// nodes of a tree; if nodes are shared, with the number of joints times that of distinct edges.
+/// Returns the conflicts of a program (Definition IV.5 of the compositional-design paper, Tosun, Jing, Kress-Gazit
+/// and Yim), found on its graph without running it. The work grows as n log n with the n nodes of a tree; if nodes
+/// are shared, with the number of joints times that of distinct edges.
 pub fn conflicts(program: &Arc<Node>) -> Conflicts {
     let graph = Graph::of(program);
     let mut search = Search { found: Conflicts::default(), seen: BTreeSet::new() };

@@ -31,6 +31,7 @@ pub const RAMP: f64 = 0.25;
 
 /// Returns the least duration, s, of a move by `distance` (rad or m, either sign) from rest to rest under the limits
 /// `able`; 0 for no distance, `None` if no limit bounds it. [`Profile::Linear`] knows no acceleration limit.
+/// `profile`: the time law of the move.
 pub fn least_duration(profile: Profile, distance: f64, able: MotionLimits) -> Option<f64> {
     let distance = distance.abs();
     if distance == 0.0 {
@@ -63,7 +64,7 @@ fn longer(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 /// Returns the motion from rest at `from` to rest at `to` (rad or m) in `duration` seconds, which must be a whole
 /// number of ticks, as pieces in order of time. The ramps of a trapezoid are as short as the acceleration in `able`
 /// allows, and [`RAMP`] of the duration each without a limit; other profiles do not depend on `able`. Limits are not
-/// checked: see [`least_duration`].
+/// checked: see [`least_duration`]. `profile`: the time law of the move; `able`: the limits of the joint.
 pub fn rest_to_rest(profile: Profile, from: f64, to: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     match profile {
         Profile::Smooth => vec![Piece { duration, control: vec![from, from, from, to, to, to] }],
@@ -96,9 +97,10 @@ fn ramp(distance: f64, duration: f64, able: MotionLimits) -> f64 {
     (duration - libm::sqrt(square.max(0.0))) / 2.0
 }
 
-/// Returns the change from `speed` to `to_speed` (rad/s or m/s) at the greatest acceleration, from the position `from`
-/// (rad or m); its duration is rounded up to a tick. `None` if the speeds are equal, and if no acceleration limit is
-/// stated, so that the speed may jump.
+/// Returns the change from `speed` to `to_speed` (rad/s or m/s) at the greatest acceleration, from the position
+/// `from` (rad or m); its duration is rounded up to a tick. `None` if the speeds are equal, and if no acceleration
+/// limit is stated, so that the speed may jump. `able`: the limits of the joint, of which that of acceleration
+/// counts.
 pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: MotionLimits) -> Option<Piece> {
     let duration = tick_after((to_speed - speed).abs() / able.acceleration?);
     let middle = from + speed * duration / 2.0;
@@ -108,7 +110,8 @@ pub fn changed_speed(from: f64, speed: f64, to_speed: f64, able: MotionLimits) -
 
 /// Returns a motion at `speed` (rad/s or m/s) for `duration` seconds, then rest, from the position `from` (rad or m).
 /// If an acceleration limit is stated, it begins at the speed that the joint has, `at_speed`, with ramps within that
-/// time, and a duration too short for the speed lowers it; otherwise the speed jumps.
+/// time, and a duration too short for the speed lowers it; otherwise the speed jumps. `able`: the limits of the
+/// joint, of which that of acceleration counts.
 pub fn spin(from: f64, at_speed: f64, speed: f64, duration: f64, able: MotionLimits) -> Vec<Piece> {
     let Some(a) = able.acceleration else {
         return vec![Piece { duration, control: vec![from, from + speed * duration] }];
@@ -131,8 +134,8 @@ pub fn spin(from: f64, at_speed: f64, speed: f64, duration: f64, able: MotionLim
     pieces
 }
 
-/// Returns the cubic Hermite pieces through keyframes, each a time (s), a position (rad or m) and a speed (rad/s or
-/// m/s), in order of time; times are rounded to ticks. One piece less than there are keyframes.
+/// Returns the cubic Hermite interpolation of `keyframes`, each a time (s), a position (rad or m) and a speed (rad/s or
+/// m/s), in order of time, as pieces in Bernstein form, one less than there are keyframes; times are rounded to ticks.
 pub fn cubic_pieces(keyframes: &[[f64; 3]]) -> Vec<Piece> {
     let piece = |w: &[[f64; 3]]| {
         let duration = tick_near(w[1][0]) - tick_near(w[0][0]);

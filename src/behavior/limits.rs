@@ -17,7 +17,7 @@ pub struct Issue {
     pub cause: CauseId,
     /// The argument of the command that is at fault.
     pub part: Part,
-    /// The demand that cannot be met.
+    /// The demand that the robot cannot meet.
     pub kind: IssueKind,
 }
 

@@ -43,7 +43,7 @@ impl std::fmt::Display for MirrorError {
 
 /// Returns the mirror image of a behaviour in a plane of the base's frame: every command and condition for the image
 /// of its joint, with the sign of its positions there. `holds`: for every bond of the robot, by index, true if it is
-/// closed.
+/// closed. `program`: the behaviour; `plane`: the mirror plane.
 ///
 /// # Errors
 /// [`MirrorError`] for a joint without an image, and for behaviours that dock, undock or test for bonds.

@@ -49,7 +49,7 @@ pub enum Reason {
     NoTimeToStop {
         /// The path name of the joint.
         joint: String,
-        /// The time that stopping takes, s.
+        /// The time that the joint takes to stop, s.
         needed: f64,
         /// The stated duration of the move, s.
         given: f64,
@@ -113,7 +113,7 @@ pub enum Reason {
 }
 
 impl Refusal {
-    /// Returns the refusal for which the action of this cause is to blame.
+    /// Returns the refusal for which the action of this cause is to blame. `reason`: the reason of the refusal.
     pub fn at(cause: CauseId, reason: Reason) -> Refusal {
         Refusal { cause: Some(cause), reason }
     }

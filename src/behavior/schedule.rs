@@ -29,7 +29,7 @@ pub struct Problem {
     pub start_causes: Vec<(JointId, CauseId)>,
     /// The causes of bonds as (index in the robot's bonds, cause), which become those of the tracks.
     pub bond_causes: Vec<(usize, CauseId)>,
-    /// The limits and tolerances of scheduling.
+    /// The limits of scheduling, beyond which it is refused, and its tolerances.
     pub settings: Settings,
 }
 
@@ -86,8 +86,9 @@ pub struct Scheduled {
     pub issues: Vec<Issue>,
 }
 
-/// Schedules a behaviour: runs it undisturbed from event to event. Commands in conflict are not searched
-/// here: see [`conflicts`](super::conflicts).
+/// Schedules a behaviour, a series-parallel action graph (Section V-B of the compositional-design paper, Tosun, Jing,
+/// Kress-Gazit and Yim): runs it undisturbed from event to event. Commands in conflict are not searched here: see
+/// [`conflicts`](super::conflicts).
 ///
 /// # Errors
 /// A [`Refusal`] with the action to blame, if a command cannot be carried out, a condition never

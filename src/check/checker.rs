@@ -64,7 +64,7 @@ pub(super) struct DefInfo<'a> {
     pub name: Symbol,
     /// The span of the name in the declaration.
     pub span: Span,
-    /// The span of the whole declaration.
+    /// The span of the whole declaration, from its keyword to its end.
     pub whole: Span,
     /// The file of the declaration, as an index into [`Loaded::files`](super::load::Loaded::files).
     pub file: usize,

@@ -70,7 +70,7 @@ impl Program {
     }
 
     /// Returns a type as [`type_name`](Self::type_name) does, with the type parameters by their names in `params`, in
-    /// order: `Signal<Quantity<D/s>>`.
+    /// order: `Signal<Quantity<D/s>>`. `ty`: the type, which may have type parameters.
     pub fn type_name_with(&self, ty: &Type, params: &[Symbol]) -> String {
         type_name(ty, &|id| self.def(id).name, params)
     }

@@ -15,9 +15,9 @@ pub enum Family {
     Cell,
     /// The family of `strut` declarations, of which trusses are made.
     Strut,
-    /// The family of `lattice` declarations.
+    /// The family of `lattice` declarations: arrangements of cells.
     Lattice,
-    /// The family of `truss` declarations.
+    /// The family of `truss` declarations: nodes with struts between them.
     Truss,
 }
 

@@ -133,7 +133,8 @@ pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sou
     loader.finish(root, prelude)
 }
 
-/// Returns the sentence that the file at `path` can't be read, with the reason: ``can't read `a.mod`: ...``.
+/// Returns the sentence that the file at `path` can't be read, with the reason: ``can't read `a.mod`: ...``. `error`:
+/// the reason why.
 pub fn why_unreadable(path: &str, error: &ReadError) -> String {
     format!("can't read `{path}`: {}", describe(error))
 }

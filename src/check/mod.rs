@@ -78,9 +78,9 @@ pub fn check(files: &dyn Files, root: &str) -> Checked {
 }
 
 /// Checks the entries of a session with all that they import. All entries have one scope, in which a later
-/// declaration replaces an earlier one of its name, for the earlier entries too. The statements are those
-/// of the newest entry; there are none without entries. An entry never changes the identities of the
-/// declarations before it.
+/// declaration replaces an earlier one of its name, for the earlier entries too. The statements are those of the
+/// newest entry; there are none without entries. An entry never changes the identities of the declarations before it.
+/// `files` gives access to what they import; `entries`: the entries from the oldest to the newest.
 pub fn check_session(files: &dyn Files, entries: &[Entry]) -> Checked {
     check_loaded(load::load_session(files, entries))
 }

@@ -62,7 +62,7 @@ pub struct Def {
     pub file: FileId,
     /// The text of its doc comment; `None` if it has none.
     pub doc: Option<Arc<str>>,
-    /// The typed body of the declaration.
+    /// The typed body of the declaration, by its keyword.
     pub kind: DefKind,
 }
 
@@ -98,7 +98,7 @@ pub enum DefKind {
 pub struct LetDef {
     /// The type of the constant, declared or inferred.
     pub ty: Type,
-    /// The expression that gives the value.
+    /// The expression that gives the value of the constant.
     pub value: Expr,
     /// The number of slots of the frame in which the value is evaluated.
     pub frame: usize,
@@ -111,7 +111,7 @@ pub struct FnDef {
     pub params: Vec<Param>,
     /// The declared or inferred type of the result.
     pub result: Type,
-    /// The expression that gives the result.
+    /// The expression that gives the result of a call.
     pub body: Expr,
     /// The number of slots of the frame in which the body is evaluated.
     pub frame: usize,
@@ -340,7 +340,7 @@ pub struct BehaviorDef {
     pub params: Vec<Param>,
     /// The exemptions from verification, in order.
     pub allows: Vec<Exemption>,
-    /// The expression that gives the result.
+    /// The expression that gives the behaviour.
     pub body: Expr,
     /// The number of slots, for local variables, of the frame in which the body is evaluated.
     pub frame: usize,
@@ -461,7 +461,7 @@ pub struct TrussDef {
 pub enum TrussBody {
     /// A value of the prelude's record `Frame`.
     Value(Box<Expr>),
-    /// Clauses that name nodes and struts.
+    /// The clauses that name nodes and struts, in the order of the text.
     Clauses(Vec<TrussClause>),
 }
 

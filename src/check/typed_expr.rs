@@ -100,13 +100,13 @@ pub enum ExprKind {
     BigInt(Symbol),
     /// A truth value: `true` or `false`.
     Bool(bool),
-    /// A text without interpolation.
+    /// A text without interpolated values.
     Text(Arc<str>),
     /// A text with values: its pieces in order, texts and values, which are shown as `print` shows them.
     Interpolation(Vec<Expr>),
     /// A quantity, or a list or vector of them, shown as text in a stated form.
     Shown {
-        /// The expression of the quantities.
+        /// The expression of the quantity, or of the list or vector of quantities.
         value: Box<Expr>,
         /// The unit, by its name and its factor to SI; `None`: one that suits the value.
         unit: Option<(Arc<str>, f64)>,
@@ -119,9 +119,9 @@ pub enum ExprKind {
     Missing,
     /// The value of a local variable, by its slot in the frame.
     Local(Local),
-    /// The value of a top-level `let`.
+    /// The value of a top-level `let`, by the identity of its declaration.
     Global(DefId),
-    /// A function used as a value.
+    /// A declared function used as a value, by the identity of its declaration.
     FnValue(DefId),
     /// A behaviour used as a value: a function of its parameters.
     BehaviorValue {
@@ -139,7 +139,7 @@ pub enum ExprKind {
         /// The member, by its index in the declaration of the instance.
         member: MemberId,
     },
-    /// A joint of a module instance.
+    /// A joint of a module instance, by its index in the module's declaration.
     Joint {
         /// The expression of the module instance.
         object: Box<Expr>,
@@ -194,14 +194,14 @@ pub enum ExprKind {
         /// The expression of the second end.
         to: Box<Expr>,
     },
-    /// A prefix operator with its operand.
+    /// A prefix operator, such as `-` or `not`, with its operand.
     Unary {
         /// The operator between or before the operands.
         op: UnaryOp,
         /// The expression of the operand.
         operand: Box<Expr>,
     },
-    /// An infix operator with its operands.
+    /// An infix operator, such as `+` or `and`, with its two operands.
     Binary {
         /// The operator between or before the operands.
         op: BinaryOp,
@@ -258,9 +258,9 @@ pub enum ExprKind {
         captures: Vec<(Local, Local)>,
         /// The number of parameters of the lambda.
         params: usize,
-        /// The expression that gives the result.
+        /// The expression that gives the result of the lambda.
         body: Arc<Expr>,
-        /// The number of slots of the lambda's frame.
+        /// The number of slots, for local variables, of the frame in which the lambda's body is evaluated.
         frame: usize,
     },
     /// A call of a user's function or a built-in.
@@ -270,7 +270,7 @@ pub enum ExprKind {
         /// The arguments in the order of the parameters; `None` where the default is taken.
         args: Vec<Option<Expr>>,
     },
-    /// A call of a function value.
+    /// A call of a function value, such as a lambda.
     CallValue {
         /// The expression of the function value.
         callee: Box<Expr>,

@@ -85,7 +85,7 @@ pub struct JointBetween {
     pub parent: usize,
     /// The child link, which the joint moves, as an index into [`ModuleDef::links`].
     pub child: usize,
-    /// The kind of joint: a value of type `JointKind`.
+    /// The expression of the kind of joint: a value of type `JointKind`.
     pub kind: Expr,
     /// The pose of the joint in the parent's frame; `None` for the parent's frame itself.
     pub at: Option<Placement>,
@@ -129,7 +129,7 @@ pub struct MotorDef {
 /// A pose: `at [x, y, z] turned(Z, 90deg)`. Turns apply in order, each in the frame turned so far.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    /// The position: a vector of lengths.
+    /// The expression of the position: a vector of lengths.
     pub position: Expr,
     /// The turns as (axis, angle), in order, each about an axis of the frame turned so far; the axis is a vector of
     /// plain numbers.

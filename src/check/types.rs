@@ -16,9 +16,9 @@ pub enum Type {
     Nothing,
     /// The type of a parameter of a built-in that takes any value.
     Any,
-    /// A quantity of this dimension; `Number` is the one without dimension.
+    /// The type of quantities of this dimension; `Number` is the one without dimension.
     Quantity(Dimension),
-    /// A whole number, `Int`, which is a `Number` too.
+    /// The type of whole numbers, `Int`, which are `Number`s too.
     Int,
     /// The type of truth values: `Bool`.
     Bool,
@@ -26,32 +26,31 @@ pub enum Type {
     Text,
     /// The type of lists, with elements of the given type: `List<T>`.
     List(Arc<Type>),
-    /// A vector of three quantities, `Vec3<T>`; a direction is three plain numbers.
+    /// The type of vectors of three quantities, `Vec3<T>`; a direction is three plain numbers.
     Vec3(Arc<Type>),
-    /// A pose, position and orientation: `Pose`.
+    /// The type of poses, position and orientation: `Pose`.
     Pose,
     /// The type of ranges, with ends of the given type: `Range<T>`.
     Range(Arc<Type>),
-    /// A value that may be missing: `T?`.
+    /// The type of values that may be missing: `T?`.
     Optional(Arc<Type>),
-    /// A function: `fn(A, B) -> C`.
+    /// The type of functions, by parameters and result: `fn(A, B) -> C`.
     Fn(Arc<FnType>),
-    /// A choice of words, types, or both: `auto | Int`.
+    /// The type of a choice of words, types, or both: `auto | Int`.
     Choice(Arc<Choice>),
-    /// A joint, by the dimension of its position: `Joint<Angle>`, `Joint<Length>`.
+    /// The type of joints, by the dimension of their position: `Joint<Angle>`, `Joint<Length>`.
     Joint(Arc<Type>),
     /// The type of ports of modules: `Port`.
     Port,
     /// The type of behaviours: `Behavior`.
     Behavior,
-    /// A value that changes during a behaviour: `Signal<T>`.
+    /// The type of values that change during a behaviour: `Signal<T>`.
     Signal(Arc<Type>),
-    /// A truth value that changes during a behaviour: `Condition`.
+    /// The type of truth values that change during a behaviour: `Condition`.
     Condition,
     /// The type of shapes of links: `Shape`.
     Shape,
-    /// The kind of a joint, which only a `joint` clause takes: `revolute(...)`, `prismatic(...)`,
-    /// `fixed()`.
+    /// The type of kinds of joints, which only a `joint` clause takes: `revolute(...)`, `prismatic(...)`, `fixed()`.
     JointKind,
     /// The type of arrangements of cells: `Cells`.
     Cells,
@@ -61,12 +60,12 @@ pub enum Type {
     Cloud,
     /// The type of height fields: `Terrain`.
     Terrain,
-    /// The instances of a `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
+    /// The type of instances of one `module`, `cell`, `strut`, `config`, `lattice` or `truss` declaration.
     Instance(DefId),
-    /// The instances of all declarations of a family: `Module`, `Config` (every module is one), `Lattice`,
+    /// The type of instances of all declarations of a family: `Module`, `Config` (every module is one), `Lattice`,
     /// ...
     AnyOf(Family),
-    /// A record, declared by `record` or `extern type`.
+    /// The type of a record, declared by `record` or `extern type`.
     Record(DefId),
     /// A type parameter in the signature of a function, by index from 0.
     Param(u8),

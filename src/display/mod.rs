@@ -16,19 +16,20 @@ use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 
 /// Returns a value as text, as `print` shows it: as it could be written in a program, with units that suit its size,
-/// or in a few words. A text stays as it is, and a report of the judge has several lines.
+/// or in a few words. A text stays as it is, and a report of the judge has several lines. `interpreter`: the run that
+/// the value belongs to.
 pub fn show(interpreter: &Interpreter, value: &Value) -> String {
     interpreter.show_value(value)
 }
 
 /// Returns a value by its kind, to be written as JSON for programs in other languages. The bytes that it takes are
-/// drawn from `bytes_left`; what goes beyond is left out.
+/// drawn from `bytes_left`; what goes beyond is left out. `interpreter`: the run that the value belongs to.
 pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -> TypedValue {
     interpreter.typed_value(value, 0, bytes_left)
 }
 
 /// Returns a value as text, as a session shows it, on as many lines as it needs, the first of which can stand alone;
-/// texts are in quotes. After 64 KiB it is cut.
+/// texts are in quotes. After 64 KiB it is cut. `interpreter`: the run that the value belongs to.
 ///
 /// # Errors
 /// A halt while the value is judged or planned.
@@ -37,7 +38,7 @@ pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
 }
 
 /// Returns a line about what a declaration declares, with its defaults, such as `config Walker: order 1, 4 modules,
-/// 600g`.
+/// 600g`. `interpreter`: the run, which elaborates the declaration `def`.
 ///
 /// # Errors
 /// A halt while the declaration is elaborated.

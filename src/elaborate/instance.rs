@@ -26,7 +26,8 @@ impl Interpreter<'_> {
     }
 
     /// Returns the design of a declaration with these arguments, elaborated once; it may be broken. `None` where an
-    /// argument is unknown, the declaration has no instances, or `check` found mistakes in it.
+    /// argument is unknown, the declaration has no instances, or `check` found mistakes in it. `def`: the
+    /// declaration; `args`: its arguments in the order of the parameters.
     ///
     /// # Errors
     /// A fault at `span` where the declaration needs itself, or a halt.

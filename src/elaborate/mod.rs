@@ -34,8 +34,8 @@ use crate::robot::Library;
 use crate::source::Span;
 use std::rc::Rc;
 
-/// Returns an instance of a declaration with these arguments; unknown where it is broken or an argument is
-/// unknown.
+/// Returns an instance of a declaration with these arguments; unknown where it is broken or an argument is unknown.
+/// `def`: the declaration; `args`: its arguments in the order of the parameters; `interpreter`: the run.
 ///
 /// # Errors
 /// A fault at `span` where the declaration needs itself, or a halt.
@@ -43,8 +43,9 @@ pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: 
     interpreter.make_instance(def, args, span)
 }
 
-/// Returns the library of a declaration with its defaults: its module types with their connectors, its cell, or
-/// its strut. `None` where it is broken, a parameter has no default, or it declares none of these.
+/// Returns the library of a declaration with its defaults: its module types with their connectors, its cell, or its
+/// strut. `None` where it is broken, a parameter has no default, or it declares none of these. `def`: the
+/// declaration; `interpreter`: the run, which elaborates it.
 ///
 /// # Errors
 /// A halt, or a fault of a declaration that it needs.
@@ -60,8 +61,8 @@ pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Libr
     }
 }
 
-/// Returns the robot of a design, assembled once; `None` where the design is broken, not complete yet, or no
-/// robot. `span`: the code that asks for it.
+/// Returns the robot of a design, assembled once; `None` where the design is broken, not complete yet, or no robot.
+/// `span`: the code that asks for it. `interpreter`: the run, which keeps the robot.
 ///
 /// # Errors
 /// A halt, a fault at `span` for a configuration without modules, or one of a declaration that the robot needs.
@@ -69,8 +70,8 @@ pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>, span: Span) 
     interpreter.assemble_robot(design, span)
 }
 
-/// Returns the joint of the connection at a port, from either of its sides; unknown where its connector is
-/// broken.
+/// Returns the joint of the connection at a port, from either of its sides; unknown where its connector is broken.
+/// `interpreter`: the run that the port belongs to.
 ///
 /// # Errors
 /// A fault at `span` where nothing is connected there, or the connector has no hinge.
@@ -78,8 +79,8 @@ pub fn hinge_of(interpreter: &mut Interpreter, port: &PortValue, span: Span) -> 
     interpreter.find_hinge(port, span)
 }
 
-/// Elaborates a declaration with its defaults, evaluates all that its body declares, and warns of links that
-/// overlap or are too thin. A `let` is evaluated.
+/// Elaborates a declaration with its defaults, evaluates all that its body declares, and warns of links that overlap
+/// or are too thin. A `let` is evaluated. `def`: the declaration; `interpreter`: the run.
 ///
 /// # Errors
 /// A halt; faults are reported.

@@ -30,8 +30,9 @@ static ROUTINES: Routines = Routines {
     draw_declared: natives::draw_declared,
 };
 
-/// Runs a checked program on a thread of its own, with all built-ins, and returns the outcome. Faults that
-/// `check` reported are not repeated; parts that it could not understand are passed over in silence.
+/// Runs a checked program on a thread of its own, with all built-ins, and returns the outcome. Faults that `check`
+/// reported are not repeated; parts that it could not understand are passed over in silence. `mode`: the part of the
+/// program that is evaluated; `files` and `host` serve its requests; `options`: the choices of the user.
 pub fn run(
     checked: &Checked,
     mode: Mode,

@@ -40,7 +40,7 @@ pub enum RecordCell {
         /// The value of the quantity in SI units.
         si: f64,
     },
-    /// Any other value, in words.
+    /// Any other value, as text in words.
     Text(String),
 }
 

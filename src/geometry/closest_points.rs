@@ -32,7 +32,7 @@ pub struct SegmentPair {
 }
 
 /// Returns the closest points of two segments of one frame (m), by the method of Ericson (*Real-Time Collision
-/// Detection*, 2005, sec. 5.1.9).
+/// Detection*, 2005, sec. 5.1.9). `p` and `q`: the segments, each by its two ends.
 ///
 /// Of parallel segments, which have many closest pairs, one pair is returned; it may jump while the segments move a
 /// little. Segments at an angle of less than 3.2e-5 rad count as parallel; the distance is then too great by at most
@@ -72,7 +72,8 @@ fn pair_at(p: Segment, q: Segment, along: (f64, f64)) -> SegmentPair {
     SegmentPair { distance, normal, along }
 }
 
-/// Returns the distance of two segments of one frame, m, exact to rounding at any angle between them.
+/// Returns the distance of two segments of one frame, m, exact to rounding at any angle between them. `p` and `q`:
+/// the segments, each by its two ends.
 ///
 /// It is the least of the four distances from an end to the other segment, and of the distance of the lines if their
 /// closest points, by Cramer's rule from the common perpendicular, lie inside both segments.
@@ -132,7 +133,7 @@ pub fn point_triangle(point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
 }
 
 /// Returns the signed distance of a point (m) from the surface of a box of the same frame, m: outside the distance
-/// from the box, inside minus the distance from the nearest face.
+/// from the box, inside minus the distance from the nearest face. `around`: the box.
 pub fn point_box(point: Vec3, around: &Aabb) -> f64 {
     let outside = (around.low - point).sup(&(point - around.high));
     if outside.max() < 0.0 { outside.max() } else { outside.sup(&Vec3::zeros()).norm() }

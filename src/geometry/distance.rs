@@ -124,7 +124,7 @@ impl SupportMap for Whole<'_> {
 
 /// Returns the width of the slab between two parts across a unit vector `normal` of a's frame (from a to b), m:
 /// negative where they overlap along it. It is never more than their signed distance, and equal to it for the best
-/// direction (the separating axis theorem).
+/// direction (the separating axis theorem). `X_AB` is the pose of b's frame in a's.
 #[inline]
 pub fn separation_along(a: &Part, b: &Part, X_AB: &Pose, normal: &Vec3) -> f64 {
     let backward = X_AB.rotation.inverse() * -normal;
@@ -135,7 +135,8 @@ pub fn separation_along(a: &Part, b: &Part, X_AB: &Pose, normal: &Vec3) -> f64 {
 /// Returns the signed distance of two solids at their poses `X_WA` and `X_WB` in the world, m: the least of their
 /// parts; if negative, minus the penetration depth of the deepest pair of parts. A solid inside a closed mesh that is
 /// not convex, but not in its hollow, is at minus a lower bound on its depth: its distance from the surface, or the
-/// depth of an inner point if that is more. Infinite if one of the solids is empty.
+/// depth of an inner point if that is more. Infinite if one of the solids is empty. `a` and `b`: the solids, each in
+/// the frame of its link.
 pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64 {
     let X_AB = X_WA.inverse() * X_WB;
     let mut least = f64::INFINITY;

@@ -41,15 +41,15 @@ pub enum Kind {
     Joint,
     /// A port of a robot, `Port`.
     Port,
-    /// A behaviour, `Behavior`.
+    /// A behaviour of a robot, `Behavior`.
     Behavior,
     /// A condition of an action, `Condition`.
     Condition,
     /// A shape of a link, of the type `Shape`.
     Shape,
-    /// A polygon mesh, `Mesh`.
+    /// A polygon mesh of vertices and faces, `Mesh`.
     Mesh,
-    /// A height field, `Terrain`.
+    /// A height field, as the ground is given: `Terrain`.
     Terrain,
     /// A record, by the name of its type.
     Record(&'static str),
@@ -107,9 +107,9 @@ pub struct Positive(pub f64);
 /// An argument that is a word of a choice or a value of another type: `auto | Int`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WordOr<W, T> {
-    /// A word of the choice.
+    /// A word, one of those of the choice.
     Word(W),
-    /// A value of the other type.
+    /// A value of the other type that the argument may have.
     Value(T),
 }
 

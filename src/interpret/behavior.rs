@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 impl Interpreter<'_> {
     /// Returns the one robot that two things belong to, `None` standing for a thing of no robot; `None` if neither
-    /// belongs to one.
+    /// belongs to one. `a` and `b`: the robots of the two things.
     ///
     /// # Errors
     /// A fault at `span` where they belong to two robots.
@@ -36,7 +36,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns the one robot that parts of a behaviour move or sense; `None` if neither names one. Equal robots are
-    /// one; but where the program holds them under two names, it means two.
+    /// one; but where the program holds them under two names, it means two. `a` and `b`: the robots of the two parts.
     ///
     /// # Errors
     /// A fault at `span` where there are two robots, or two names.
@@ -55,8 +55,8 @@ impl Interpreter<'_> {
         Ok(Some(Subject { design: a.design.clone(), identity }))
     }
 
-    /// Returns the robot of a joint, for an action, even if its configuration has mistakes; `None` where it
-    /// can't be assembled, which has been reported.
+    /// Returns the robot of a joint, for an action, even if its configuration has mistakes; `None` where it can't be
+    /// assembled, which has been reported. `design`: the design of the robot.
     ///
     /// # Errors
     /// A fault at `span` where the robot is a configuration whose clauses still run.
@@ -82,8 +82,9 @@ impl Interpreter<'_> {
         robot
     }
 
-    /// Returns a behaviour with the exemptions of `allows unstable, collision(a, b)`, the first outermost;
-    /// unknown where an operand is unknown.
+    /// Returns a behaviour with the exemptions of `allows unstable, collision(a, b)`, the first outermost; unknown
+    /// where an operand is unknown. `behavior`: the behaviour without them; `frame`: the variables that operands of
+    /// exemptions may name.
     ///
     /// # Errors
     /// A fault where an exemption names another robot, or `collision` something that is not a single module.
@@ -239,8 +240,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the cause of an action on a joint, whose path name is the subject of the cause. `args`: the
-    /// spans of the arguments.
+    /// Returns the cause of an action on a joint, whose path name is the subject of the cause. `args`: the spans of
+    /// the arguments. `span`: the command in the source.
     pub fn action_cause(&mut self, span: Span, args: Vec<(Part, Span)>, joint: &JointValue) -> CauseId {
         let subject = joint.name();
         self.cause(span, args, &subject)

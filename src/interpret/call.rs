@@ -29,7 +29,8 @@ struct Written<'e> {
 
 impl Interpreter<'_> {
     /// Evaluates the arguments of a call, which are in the order of the parameters; `None` (the default is wanted)
-    /// stays `None`. `span`: that of the call, which stands for the arguments left out.
+    /// stays `None`. `span`: the span of the call, which stands for the arguments left out. `args`: the arguments as
+    /// written; `frame`: the variables of the body in which the call stands.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
@@ -43,8 +44,10 @@ impl Interpreter<'_> {
         Ok(Args { values, spans })
     }
 
-    /// Calls a declared function or a built-in with arguments in the order of the parameters, `None` where the default
-    /// is wanted; [`Value::Unknown`] for other declarations. `ty` is the type of the call.
+    /// Calls a declared function or a built-in with arguments in the order of the parameters, `None` where the
+    /// default is wanted; [`Value::Unknown`] for other declarations. `ty` is the type of the call. `def`: the
+    /// function; `args`: the arguments as written; `span`: the span of the call; `frame`: the variables of the body
+    /// in which it stands.
     ///
     /// # Errors
     /// A fault of the function or of the built-in, or a halt.
@@ -61,7 +64,8 @@ impl Interpreter<'_> {
     }
 
     /// Builds a record of its fields, in the order of the declaration, `None` where the default is wanted;
-    /// [`Value::Unknown`] where one of them is.
+    /// [`Value::Unknown`] where one of them is. `def`: the record; `span`: the span of the expression; `frame`: the
+    /// variables of the body in which it stands.
     ///
     /// # Errors
     /// A fault of a default, or a halt.
@@ -85,8 +89,9 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns a copy of a record with other values for some of its fields, given by their indices in the declaration;
-    /// [`Value::Unknown`] where `object` or one of the values is.
+    /// Returns a copy of a record with other values for some of its fields, given by their indices in the
+    /// declaration; [`Value::Unknown`] where `object` or one of the values is. `changed`: the indices of the fields
+    /// with their new values; `frame`: the variables of the body in which the expression stands.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`](super::stop::Stop::Halt).
@@ -112,6 +117,8 @@ impl Interpreter<'_> {
     }
 
     /// Evaluates a function value and its arguments, and calls it; [`Value::Unknown`] where the function is.
+    /// `callee`: the function value; `args`: the arguments in order; `span`: the span of the call; `frame`: the
+    /// variables of the body in which it stands.
     ///
     /// # Errors
     /// As [`apply`](Self::apply).
@@ -130,7 +137,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Calls a function value with its arguments, in the order of the parameters and one for each; returns its result.
+    /// Calls a function value with its arguments, in the order of the parameters and one for each; returns its
+    /// result. `callable`: the function value; `values`: the arguments; `span`: the span of the call.
     ///
     /// # Errors
     /// A fault of the function or of the built-in, or a halt.
@@ -243,7 +251,8 @@ impl Interpreter<'_> {
 
     /// Calls a behaviour of an instance, by its index in the declaration, with arguments in the order of the
     /// parameters, `None` where the default is wanted; [`Value::Unknown`] if the instance is of no configuration or
-    /// has no such behaviour.
+    /// has no such behaviour. `object`: the instance; `behavior`: the index; `args`: the arguments as written;
+    /// `span`: the span of the call; `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
     /// A fault of the behaviour, or a halt.
@@ -314,6 +323,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns the behaviour that a declaration gives with all its defaults; `None` where a parameter has none.
+    /// `object`: the instance whose behaviour it is; `behavior`: the declaration of the behaviour.
     ///
     /// # Errors
     /// A fault of the behaviour, or a halt.
@@ -326,8 +336,8 @@ impl Interpreter<'_> {
             .map(Some)
     }
 
-    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; unknown where one
-    /// of them is.
+    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; unknown where one of
+    /// them is. `otherwise`: the behaviour `b`; `span`: the span of the whole expression.
     ///
     /// # Errors
     /// A fault where the two move different robots, or `action` is no single action with a timeout.

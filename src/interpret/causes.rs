@@ -128,7 +128,7 @@ impl PlanCauses {
     }
 
     /// Returns the table of causes that goes into the plan: each as file, line and text, in the order of the plan's
-    /// numbers.
+    /// numbers. `causes`: the causes of the run; `sources`: the texts that their spans are of.
     pub fn table(&self, causes: &Causes, sources: &Sources) -> Vec<Cause> {
         self.ids.iter().map(|id| described(causes.get(*id), sources)).collect()
     }

@@ -292,8 +292,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Runs `body` for every element of a list, or for the whole numbers of a range without its upper end, each
-    /// in the variable `binder`. Returns false if `values` is neither, because it is unknown.
+    /// Runs `body` for every element of a list, or for the whole numbers of a range without its upper end, each in
+    /// the variable `binder`. Returns false if `values` is neither, because it is unknown. `frame`: the variables of
+    /// the body in which the loop stands.
     ///
     /// # Errors
     /// A fault at `span` where an end of the range is no whole number of 64 bits, besides the errors of
@@ -383,6 +384,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns the value of a top-level `let`; it is evaluated once. [`Value::Unknown`] for other declarations.
+    /// `def`: the declaration of the `let`.
     ///
     /// # Errors
     /// A fault at `span` where the value needs itself, or a halt.

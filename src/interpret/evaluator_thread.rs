@@ -84,7 +84,8 @@ impl HostProxy {
         move |line| proxy.send(Request::Progress(line))
     }
 
-    /// Writes a file of the output folder, given by its path from that folder, and returns the path to show.
+    /// Writes a file of the output folder, given by its path from that folder, and returns the path to show. `bytes`:
+    /// the contents of the file.
     ///
     /// # Errors
     /// [`WriteError`] where the path leads out of the output folder, or the system refuses.
@@ -149,8 +150,8 @@ fn with_stack<T, E: ToString>(mut start: impl FnMut(Builder, usize) -> Result<T,
     }
 }
 
-/// Runs `evaluate` on a thread of its own and serves its requests here until it ends. Panics of the evaluator
-/// are resumed here.
+/// Runs `evaluate` on a thread of its own and serves its requests here until it ends. `files` and `host` are what its
+/// requests are answered from. Panics of the evaluator are resumed here.
 ///
 /// # Errors
 /// The system's words where it gives no memory for the thread.
@@ -233,9 +234,10 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
         })
     }
 
-    /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it
-    /// meanwhile; then the job ends by itself at its next checkpoint. Panics if an abandoned job has not been
-    /// waited for. The job must not panic on its thread: this one would wait for it for ever.
+    /// Runs a job and serves its requests here until it is done. Returns `None` if the user abandons it meanwhile;
+    /// then the job ends by itself at its next checkpoint. `files` and `host` are what its requests are answered
+    /// from. Panics if an abandoned job has not been waited for. The job must not panic on its thread: this one would
+    /// wait for it for ever.
     pub fn run(&self, job: J, files: &dyn Files, host: &mut dyn Host) -> Option<R> {
         assert!(!self.abandoned.get(), "the job before was settled");
         let waker = self.waker.clone();

@@ -19,7 +19,8 @@ use super::record::{DeclaredRecord, Field, Record, StateValue, field_names, firs
 
 impl Interpreter<'_> {
     /// Returns a field of a record, vector, range or pose; for a behaviour, that of the plan that it gives, and
-    /// unknown where that fails. Panics for other values and unknown fields, which `check` excludes.
+    /// unknown where that fails. `value`: the record or other value; `span`: the span of the expression. Panics for
+    /// other values and unknown fields, which `check` excludes.
     ///
     /// # Errors
     /// A fault where the behaviour can't be planned.

@@ -22,7 +22,7 @@ pub trait Host {
     fn print_value(&mut self, _value: PrintedValue) {}
 
     /// Writes a whole file below the output folder, or nothing; returns the path to show. `path` is relative to the
-    /// output folder, with forward slashes.
+    /// output folder, with forward slashes. `bytes`: the contents of the file.
     ///
     /// # Errors
     /// [`WriteError`] where the path leads out of the output folder, or the system refuses.

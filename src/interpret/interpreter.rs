@@ -31,7 +31,7 @@ const CALLS_SHOWN: usize = 4;
 pub struct Interpreter<'a> {
     /// The inputs of the run, which never change.
     pub shared: Shared<'a>,
-    /// The findings and outputs so far.
+    /// The findings and outputs of the run so far.
     pub reported: Reported,
     /// The values of declarations that were computed, and what they refer to.
     pub memory: Memory,
@@ -148,7 +148,9 @@ pub struct Binder {
 }
 
 impl<'a> Interpreter<'a> {
-    /// Returns the state at the beginning of a run, with nothing computed.
+    /// Returns the state at the beginning of a run, with nothing computed. `routines`: the functions of the rooms
+    /// above; `checked`: the program; `mode`: the part of it that is evaluated; `options`: the choices of the user;
+    /// `host`: the access to files and terminal.
     pub fn new(
         routines: &'a Routines,
         checked: &'a Checked,
@@ -168,7 +170,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Returns the limits of the run.
+    /// Returns the limits of the run, as its options state them.
     pub fn limits(&self) -> &'a Limits {
         &self.shared.options.limits
     }
@@ -220,7 +222,7 @@ impl<'a> Interpreter<'a> {
         interrupt::progress_checkpoint(|| format!("evaluating: {steps} steps of at most {most}"));
     }
 
-    /// Runs `body` one level of evaluation deeper.
+    /// Runs `body` one level of evaluation deeper. `span`: the expression that is evaluated.
     ///
     /// # Errors
     /// [`Stop::Halt`] where the stack would not bear it, besides the errors of `body`.
@@ -282,7 +284,8 @@ impl<'a> Interpreter<'a> {
         self.halt(diagnostic.hint(CALLS_HINT))
     }
 
-    /// Runs `body` with a loop variable, which errors reported in it name, and returns its result.
+    /// Runs `body` with a loop variable, which errors reported in it name, and returns its result. `value`: the
+    /// present value of the variable.
     pub fn with_binding<T>(&mut self, name: Symbol, value: &Value, body: impl FnOnce(&mut Self) -> T) -> T {
         self.stack.binders.push(Binder { name, value: value.clone() });
         let result = body(self);

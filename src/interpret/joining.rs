@@ -11,8 +11,9 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the plan `p ++ q` or `p ++ b`: one plan after another; a behaviour of the same robot begins in
-    /// the state in which the plan before it ends. Unknown where one of them is, or could not be planned.
+    /// Returns the plan `p ++ q` or `p ++ b`: one plan after another; a behaviour of the same robot begins in the
+    /// state in which the plan before it ends. Unknown where one of them is, or could not be planned. `a` and `b`:
+    /// the two sides; `span`: the span of the whole expression.
     ///
     /// # Errors
     /// A fault where the plans do not fit together, or a behaviour can't be planned.
@@ -38,8 +39,8 @@ impl Interpreter<'_> {
         Ok(Value::Record(Rc::new(Record::Plan(Rc::new(joined)))))
     }
 
-    /// Returns the plan that `change` makes of a plan, as a plan of the same robot with the same causes and
-    /// number of actions, not judged yet.
+    /// Returns the plan that `change` makes of a plan, as a plan of the same robot with the same causes and number of
+    /// actions, not judged yet. `planned`: the plan that is changed.
     ///
     /// # Errors
     /// A fault at `span` where `change` refuses.

@@ -33,12 +33,14 @@ pub struct Native {
 }
 
 impl Native {
-    /// Returns a built-in with this key that does its work whenever it is called.
+    /// Returns a built-in with this key that does its work whenever it is called. `parameters`: the table of its
+    /// parameters; `body`: its Rust function.
     pub const fn pure(key: &'static str, parameters: &'static [Parameter], body: NativeBody) -> Native {
         Native { key, parameters, effect: Effect::None, body }
     }
 
-    /// Returns a built-in with this key that does its work only when the program is run.
+    /// Returns a built-in with this key that does its work only when the program is run. `parameters`: the table of
+    /// its parameters; `body`: its Rust function.
     pub const fn on_run(key: &'static str, parameters: &'static [Parameter], body: NativeBody) -> Native {
         Native { key, parameters, effect: Effect::OnRun, body }
     }
@@ -50,14 +52,14 @@ pub struct Call<'c> {
     pub span: Span,
     /// The built-in that is called, with its table of parameters.
     pub native: &'static Native,
-    /// The declared parameters, in order.
+    /// The declared parameters of the built-in, in order.
     pub params: &'c [Param],
     /// The arguments, one for each of `params`; defaults are filled in, and none is unknown.
     pub args: &'c [Value],
     /// The spans of the arguments, in the order of `params`; that of the whole call for those left out.
     pub spans: &'c [Span],
-    /// The arguments as they are written, in the order of the declaration; `None` for one that is left out. Empty if
-    /// the built-in is called as a value.
+    /// The arguments as expressions, in the order of the declaration; `None` for one that is left out. Empty if the
+    /// built-in is called as a value.
     pub exprs: &'c [Option<Expr>],
     /// True if a built-in that gives a value or a signal is to give the signal.
     pub signal: bool,
@@ -74,6 +76,7 @@ impl<'c> Call<'c> {
     }
 
     /// Returns an argument as [`get`](Self::get) does; messages call it `what`: "the edge", "a number of cells".
+    /// `name`: the parameter.
     ///
     /// # Errors
     /// A fault at the argument where the value is out of range.
@@ -111,7 +114,8 @@ impl<'c> Call<'c> {
         fault(code::BAD_VALUE, self.at(name), message.clone(), message)
     }
 
-    /// Returns the argument of a parameter as a number above zero, in SI units; messages call it `what`.
+    /// Returns the argument of a parameter as a number above zero, in SI units; messages call it `what`. `name`: the
+    /// parameter.
     ///
     /// # Errors
     /// A fault at the argument where the number is not above zero.
@@ -120,7 +124,7 @@ impl<'c> Call<'c> {
     }
 
     /// Returns the argument of a parameter as a number above zero, in SI units; `None` if it is missing. Messages
-    /// call it `what`.
+    /// call it `what`. `name`: the parameter.
     ///
     /// # Errors
     /// A fault at the argument where there is a number that is not above zero.
@@ -128,7 +132,8 @@ impl<'c> Call<'c> {
         Ok(self.get_named::<Option<Positive>>(name, what)?.map(|Positive(x)| x))
     }
 
-    /// Returns the argument of a parameter as a whole number of at least zero; messages call it `what`.
+    /// Returns the argument of a parameter as a whole number of at least zero; messages call it `what`. `name`: the
+    /// parameter.
     ///
     /// # Errors
     /// A fault at the argument where the number is negative or too large.
@@ -154,7 +159,7 @@ impl<'c> Call<'c> {
 
 impl Interpreter<'_> {
     /// Reads the file of the project that the argument `name` names, relative to the file in which the argument
-    /// stands. Returns its path from the project's root, and its bytes.
+    /// stands. Returns its path from the project's root, and its bytes. `call`: the call of the built-in.
     ///
     /// # Errors
     /// A fault where the name leads out of the project or the file can't be read.

@@ -49,7 +49,8 @@ pub(super) struct Judged {
 
 /// A planner's report of its plan: the fields of a record type that `is Plan`.
 pub trait PlannerReport: Any {
-    /// Reads a field of the report; `None` for a field that all plans have.
+    /// Reads a field of the report; `None` for a field that all plans have. `plan`: the plan that the report is
+    /// about; `interpreter`: the run.
     fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value>;
 }
 
@@ -81,7 +82,9 @@ impl std::fmt::Debug for PlanValue {
 }
 
 impl PlanValue {
-    /// Returns a plan that was not judged yet, without a planner's report.
+    /// Returns a plan that was not judged yet, without a planner's report. `robot`: what moves; `body`: the robot as
+    /// an assembly, `None` for a lattice or a truss; `causes`: the run's number of each cause of the plan; `actions`:
+    /// the number of its actions.
     pub fn new(
         robot: Rc<Design>,
         body: Option<Rc<Robot>>,
@@ -132,7 +135,8 @@ impl PlanValue {
     }
 
     /// Returns the judge's quantities at these times (s, ascending), one instant for each; fewer where it took all
-    /// samples that are allowed before the last. Kept for the next call with the same times.
+    /// samples that are allowed before the last. Kept for the next call with the same times. `detail`: the quantities
+    /// that are computed.
     pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
         let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
         if kept.0 != *times {

@@ -44,8 +44,8 @@ pub struct Beginning {
 }
 
 impl Interpreter<'_> {
-    /// Returns the plan of a behaviour from the start pose of its robot; `None` where something is wrong with
-    /// it, which has been reported.
+    /// Returns the plan of a behaviour from the start pose of its robot; `None` where something is wrong with it,
+    /// which has been reported. `behavior`: the behaviour; `span`: the code that asks for the plan.
     ///
     /// # Errors
     /// As [`plan_from`](Self::plan_from).
@@ -53,8 +53,9 @@ impl Interpreter<'_> {
         self.plan_from(behavior, Beginning::default(), span)
     }
 
-    /// Returns the plan of a behaviour from a state and under a world, not judged yet; `None` after an error
-    /// that was reported, and when the program is only checked. A plan that is still kept is returned again.
+    /// Returns the plan of a behaviour from a state and under a world, not judged yet; `None` after an error that was
+    /// reported, and when the program is only checked. A plan that is still kept is returned again. `behavior`: the
+    /// behaviour; `beginning`: the state and the world.
     ///
     /// # Errors
     /// A fault at `span` where no action names a robot, where the behaviour exceeds a limit of its size, or
@@ -107,7 +108,8 @@ impl Interpreter<'_> {
     }
 
     /// Returns the plan of a scheduled behaviour, and an issue for each action that is too fast for the joints'
-    /// limits; their causes have the plan's numbers.
+    /// limits; their causes have the plan's numbers. `design` and `robot`: the robot that moves; `scheduled`: its
+    /// motion; `causes`: the causes that the plan names; `world`: the world that is assumed.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,
@@ -123,8 +125,9 @@ impl Interpreter<'_> {
         (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
-    /// Returns a plan of a motion without a program and without a verdict. `planner`: the name in its
-    /// provenance.
+    /// Returns a plan of a motion without a program and without a verdict. `planner`: the name in its provenance.
+    /// `body`: the motion; `library`: the library that it refers to; `world`: the world that is assumed; `causes`:
+    /// the causes that the plan names.
     pub fn bare_plan(
         &self,
         planner: &str,
@@ -153,8 +156,8 @@ impl Interpreter<'_> {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's number of
-    /// each cause, indexed by the plan's number.
+    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's number
+    /// of each cause, indexed by the plan's number. `issues`: the actions.
     pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
@@ -245,8 +248,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the start pose of a robot as a plan of duration 0, not judged yet; `None` where its design is
-    /// broken or no robot.
+    /// Returns the start pose of a robot as a plan of duration 0, not judged yet; `None` where its design is broken
+    /// or no robot. `world`: the world that is assumed; `span`: the code that asks for the plan.
     ///
     /// # Errors
     /// As [`robot_of`](Self::robot_of).
@@ -273,7 +276,7 @@ impl Interpreter<'_> {
     }
 
     /// Returns the verdict on a plan under these settings, and from its start on under `world` if it is given,
-    /// otherwise under the plan's own worlds. A verdict is computed once and kept with the plan.
+    /// otherwise under the plan's own worlds. A verdict is computed once and kept with the plan. `planned`: the plan.
     pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
         let worlds = match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
@@ -290,7 +293,8 @@ impl Interpreter<'_> {
         verdict
     }
 
-    /// Returns the state at a time (s), which is clamped to 0 and the duration of the plan, as a record.
+    /// Returns the state at a time (s), which is clamped to 0 and the duration of the plan, as a record. `planned`:
+    /// the plan.
     ///
     /// # Errors
     /// A fault at `span` if the plan is of a lattice or a truss.
@@ -301,7 +305,7 @@ impl Interpreter<'_> {
         Ok(state.map_or(Value::Unknown, |state| Value::Record(Rc::new(Record::State(state)))))
     }
 
-    /// Refuses a plan of a lattice or a truss, which has no joints.
+    /// Refuses a plan of a lattice or a truss, which has no joints. `planned`: the plan.
     ///
     /// # Errors
     /// A fault at `span` if the plan is of a lattice or a truss.
@@ -313,9 +317,9 @@ impl Interpreter<'_> {
         Err(fault(code::BAD_VALUE, span, message, "no joints; `show(.., at: ..)` draws it"))
     }
 
-    /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose of
-    /// an instance's robot; `None` for other values, and where a plan could not be made, which has been
-    /// reported.
+    /// Returns the plan that a value is or gives: a plan, a record about one, a behaviour, or the start pose of an
+    /// instance's robot; `None` for other values, and where a plan could not be made, which has been reported.
+    /// `span`: the code that asks for the plan.
     ///
     /// # Errors
     /// As [`plan_from`](Self::plan_from).
@@ -333,7 +337,8 @@ impl Interpreter<'_> {
     }
 
     /// Returns the fault of a behaviour that has no motion, at the action to blame. `ids`: as for
-    /// [`report_issues`](Self::report_issues).
+    /// [`report_issues`](Self::report_issues). `refusal`: the reason why it has none; `span`: the code that asks for
+    /// the plan.
     pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
     }
@@ -341,7 +346,7 @@ impl Interpreter<'_> {
 
 /// Returns the state of a plan's robot at `times[own]`, a time (s) within the plan; `None` for plans of lattices and
 /// trusses. `times`: those of all states that are made together; `base`: the pose of its base in the world, if it is
-/// known already.
+/// known already. `planned`: the plan.
 pub fn state_value(
     planned: &Rc<PlanValue>,
     times: &Rc<Vec<f64>>,

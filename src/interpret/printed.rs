@@ -36,7 +36,7 @@ pub enum TypedValue {
         /// The whole number.
         number: i64,
     },
-    /// A whole number beyond 64 bits.
+    /// A whole number that does not fit in 64 bits.
     Big {
         /// The whole number, rounded to a double; JSON has `null` for one beyond 1.8e308.
         number: f64,
@@ -50,7 +50,7 @@ pub enum TypedValue {
     },
     /// A text of the type `Text`.
     Text {
-        /// The text, as it is.
+        /// The text itself, without quotes.
         text: String,
     },
     /// A word of a choice, such as `auto`.
@@ -86,7 +86,7 @@ pub enum TypedValue {
         #[serde(skip_serializing_if = "is_zero")]
         omitted: usize,
     },
-    /// A record that the program declares.
+    /// A record of a type that the program declares.
     Record {
         /// The name of the record's declaration.
         record: &'static str,

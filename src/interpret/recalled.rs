@@ -40,7 +40,7 @@ impl<C, B: Clone> Recalled<C, B> {
 
     /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key the first 64 calls. If those
     /// offered, the ones beyond 64 included, would then have taken more than two million steps together, all earlier
-    /// ones are forgotten first.
+    /// ones are forgotten first. `behavior`: the result of the call.
     pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {

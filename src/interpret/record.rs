@@ -80,7 +80,8 @@ pub struct StateValue {
 /// The name of a field of a record, with the function that reads it.
 pub type Field<T> = (&'static str, fn(&T) -> Value);
 
-/// Returns the value of a field by its table. Panics if the table has no such field, which `check` excludes.
+/// Returns the value of a field by its table. `fields`: the table; `record`: the value with the fields. Panics if the
+/// table has no such field, which `check` excludes.
 pub fn read_field<T>(fields: &[Field<T>], record: &T, field: &str) -> Value {
     let found = fields.iter().find(|(name, _)| *name == field);
     found.map_or_else(|| unreachable!("`check` knows no field `{field}` here"), |(_, read)| read(record))
@@ -113,7 +114,7 @@ impl StateValue {
     }
 
     /// Returns what `read` makes of the judge's quantities at the time of the state; `None` where the judge did not
-    /// get there. States that were made together are computed together.
+    /// get there. States that were made together are computed together. `detail`: the quantities that are computed.
     pub fn judged<T>(&self, detail: Detail, read: impl FnOnce(&Instant) -> T) -> Option<T> {
         let (times, own) = &self.among;
         self.planned.instants(times, detail).get(*own).map(read)

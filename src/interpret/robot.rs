@@ -43,8 +43,8 @@ impl Robot {
     }
 }
 
-/// Returns the number of a joint, from 0, among those of the assembly, as in a [`JointId`]. Panics if there is no such
-/// joint.
+/// Returns the number of a joint, from 0, among those of the assembly, as in a [`JointId`]. `kinematics`: the
+/// kinematics of the assembly; `owner`: the module or bond that has the joint. Panics if there is no such joint.
 pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
     match owner {
         JointOwner::Module { module, joint } => kinematics.joint(module, joint),

@@ -22,12 +22,12 @@ const VALUES_BYTES_MAX: usize = 1 << 24;
 pub struct Args {
     /// The arguments, in the order of the parameters; `None` where the default is wanted.
     pub values: Vec<Option<Value>>,
-    /// The span of each argument, in the same order; that of the whole call for those left out.
+    /// The span of each argument, in the order of `values`; that of the whole call for those left out.
     pub spans: Vec<Span>,
 }
 
 impl Args {
-    /// Returns arguments that all have one span.
+    /// Returns arguments that all have one span. `values`: the arguments in the order of the parameters.
     pub fn plain(values: Vec<Value>, span: Span) -> Args {
         let spans = vec![span; values.len()];
         Args { values: values.into_iter().map(Some).collect(), spans }
@@ -39,25 +39,27 @@ pub type Assembled = Eval<Option<Rc<Robot>>>;
 
 /// The functions of the rooms above the evaluator. Those that return [`Eval`] fail as the evaluator does.
 pub struct Routines {
-    /// Finds a built-in by its key, such as `move` or `Plan.at`; `None` if there is none.
+    /// The function that finds a built-in by its key, such as `move` or `Plan.at`; `None` if there is none.
     pub native: fn(Symbol) -> Option<&'static Native>,
-    /// Elaborates a declaration with arguments to an instance; unknown where it is broken.
+    /// The function that elaborates a declaration with arguments to an instance; unknown where it is broken.
     pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
-    /// Assembles the robot of a design, once; `None` where the design is broken or no robot.
+    /// The function that assembles the robot of a design, once; `None` where the design is broken or no robot.
     pub robot_of: fn(&mut Interpreter, &Rc<Design>, Span) -> Assembled,
-    /// Finds the joint of the connection at a port; a fault at the span where there is none.
+    /// The function that finds the joint of the connection at a port; a fault at the span where there is none.
     pub hinge_of: fn(&mut Interpreter, &PortValue, Span) -> Eval<Value>,
-    /// Elaborates a declaration with its defaults and checks all that its body declares; faults are reported.
+    /// The function that elaborates a declaration with its defaults and checks all that its body declares; faults are
+    /// reported.
     pub check_declaration: fn(&mut Interpreter, DefId) -> Eval<()>,
-    /// Writes a value on one line.
+    /// The function that writes a value on one line.
     pub show: fn(&Interpreter, &Value) -> String,
-    /// Tells a value by its kind, in as many bytes as are left.
+    /// The function that tells a value by its kind, in as many bytes as are left.
     pub typed: fn(&Interpreter, &Value, &mut usize) -> TypedValue,
-    /// Writes a value on as many lines as it needs, the first of which can stand alone.
+    /// The function that writes a value on as many lines as it needs, the first of which can stand alone.
     pub display: fn(&mut Interpreter, &Value) -> Eval<String>,
-    /// Writes a line about what a declaration declares, with its defaults; a halt ends its elaboration.
+    /// The function that writes a line about what a declaration declares, with its defaults; a halt ends its
+    /// elaboration.
     pub describe_declaration: fn(&mut Interpreter, DefId) -> Eval<String>,
-    /// Draws every robot, lattice and truss that the program declares, through the host.
+    /// The function that draws every robot, lattice and truss that the program declares, through the host.
     pub draw_declared: fn(&mut Interpreter) -> Eval<()>,
 }
 

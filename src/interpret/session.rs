@@ -97,7 +97,8 @@ pub struct Answer {
 }
 
 impl Evaluator {
-    /// Starts an evaluator on a thread of its own.
+    /// Starts an evaluator on a thread of its own. `routines`: the functions of the rooms above; `cancel_state`: the
+    /// token by which the user cancels its tasks.
     ///
     /// # Errors
     /// The system's words where it gives no memory for the thread.
@@ -109,8 +110,9 @@ impl Evaluator {
         thread.map(Evaluator)
     }
 
-    /// Runs a task and returns its result. An abandoned task counts as interrupted. Panics if an abandoned
-    /// task has not been waited for ([`wait_for_abandoned`](Self::wait_for_abandoned)).
+    /// Runs a task and returns its result. An abandoned task counts as interrupted. `files` and `host` serve the
+    /// requests of the task. Panics if an abandoned task has not been waited for
+    /// ([`wait_for_abandoned`](Self::wait_for_abandoned)).
     pub fn run(&self, task: Task, files: &dyn Files, host: &mut dyn Host) -> Answer {
         self.0.run(task, files, host).unwrap_or(Answer { interrupted: true, ..Answer::default() })
     }

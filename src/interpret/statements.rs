@@ -22,7 +22,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Executes a statement; faults are reported.
+    /// Executes a statement; faults are reported. `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -81,7 +81,7 @@ impl Interpreter<'_> {
 
     /// Returns the text in which a message shows a false comparison with the values of its sides, `1.2mm > 2mm is
     /// false`; empty if `condition` is no comparison. `condition` must have come out false: that is not tested. Both
-    /// sides are evaluated again.
+    /// sides are evaluated again. `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

@@ -66,7 +66,7 @@ pub enum Value {
     Condition(Rc<ConditionValue>),
     /// A shape of a link, with what it declares about the link.
     Shape(Rc<Solid>),
-    /// A kind of joint: `revolute(...)`.
+    /// A kind of joint with its axis and limits: `revolute(...)`.
     JointKind(Rc<JointSpec>),
     /// An arrangement of cells of a lattice.
     Cells(Rc<Cells>),
@@ -201,8 +201,8 @@ pub enum Measure {
     Sensed(plan::Signal),
     /// The force (N) or torque (N·m) that the motor of a joint supplies, as the judge computes it.
     Effort(JointId),
-    /// The static stability margin: the distance of the centre of mass inside the support polygon, m; negative
-    /// outside.
+    /// The static stability margin (McGhee and Frank 1968): the distance of the centre of mass inside the support
+    /// polygon, m; negative outside.
     Margin,
     /// The least signed distance of links that may not touch, m.
     Clearance,
@@ -230,7 +230,7 @@ pub enum MovingFrame {
 pub struct ConditionValue {
     /// The robot that the condition is about; `None` where nothing names one.
     pub robot: Option<Subject>,
-    /// The condition, as plans have it.
+    /// The condition, in the form that plans have.
     pub condition: plan::Condition,
 }
 

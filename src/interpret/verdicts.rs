@@ -80,9 +80,9 @@ fn failure_code(kind: CheckKind) -> Code {
 }
 
 impl Interpreter<'_> {
-    /// Reports the failures of a verdict at the commands to blame for them: one finding for all of a kind that
-    /// the same commands caused. Failures after a fall follow from it and are not reported. `span`: the call
-    /// that wants the verdict; `page`: the file that shows the motion, if one was written.
+    /// Reports the failures of a verdict at the commands to blame for them: one finding for all of a kind that the
+    /// same commands caused. Failures after a fall follow from it and are not reported. `span`: the call that wants
+    /// the verdict; `page`: the file that shows the motion, if one was written. `planned`: the plan that was judged.
     pub fn report_failures(
         &mut self,
         planned: &PlanValue,
@@ -151,7 +151,7 @@ impl Interpreter<'_> {
     }
 
     /// Records, for each exemption of the user's own files, if a verdict on a plan needed it: one clause covers many
-    /// intervals and many plans.
+    /// intervals and many plans. `planned`: the plan that was judged.
     pub fn note_exemptions(&mut self, planned: &PlanValue, verdict: &Verdict) {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
             let needed = !verdict.unneeded_exemptions.contains(&index);
@@ -179,7 +179,8 @@ impl Interpreter<'_> {
     }
 
     /// Returns a line of text for each exemption of a plan and for each setting of the judge that is less strict than
-    /// by default, each once, to be printed when the plan is written.
+    /// by default, each once, to be printed when the plan is written. `planned`: the plan; `settings`: the settings
+    /// of the judge.
     pub fn excuses(&self, planned: &PlanValue, settings: &Settings) -> Vec<String> {
         let strict = self.judge_settings();
         let mut lines = Vec::new();
@@ -214,7 +215,8 @@ fn add_label(mut diagnostic: Diagnostic, span: Span, text: String) -> Diagnostic
 }
 
 /// Returns the fault of a behaviour that gives no plan, at the action to blame if there is one, and at `span`. `ids`:
-/// the run's number of each cause, indexed by the plan's number.
+/// the run's number of each cause, indexed by the plan's number. `refusal`: the reason why there is none;
+/// `interpreter`: the run.
 pub fn refused(interpreter: &Interpreter, refusal: &Refusal, ids: &[CauseId], span: Span) -> Stop {
     let diagnostic = Diagnostic::error(refusal_code(&refusal.reason), refusal.reason.to_string());
     let diagnostic = match refusal.cause {

@@ -125,7 +125,8 @@ thread_local! {
 
 /// Runs `work` on this thread under a cancellation token, and returns its result, or `None` when it was cancelled.
 /// `progress_sink` receives each progress report as one line of text. Calls may nest: the inner token and sink
-/// replace the outer ones until the inner work ends. A panic of the work goes on to the caller.
+/// replace the outer ones until the inner work ends. A panic of the work goes on to the caller. `cancel_state`: the
+/// token.
 pub fn catch<T>(
     cancel_state: &CancelState,
     progress_sink: impl Fn(String) + 'static,

@@ -47,7 +47,8 @@ pub fn declarations(library: &Library) -> Vec<Declared> {
     modules.chain(cells).chain((0..library.struts.len()).map(Declared::Strut)).collect()
 }
 
-/// Returns the facts of a declaration. Panics if the library has none of this index.
+/// Returns the facts of a declaration. `declared`: the kind and index of the declaration. Panics if the library has
+/// none of this index.
 pub fn facts(library: &Library, declared: Declared) -> Facts {
     let (kind, words) = match declared {
         Declared::Module(index) => ("module", of_module(&library.modules[index])),
@@ -59,8 +60,8 @@ pub fn facts(library: &Library, declared: Declared) -> Facts {
     Facts { kind, name: name(library, declared).to_owned(), words, digest }
 }
 
-/// Returns the name of a declaration, with its arguments where they differ from the defaults. Panics if the library
-/// has none of this index.
+/// Returns the name of a declaration, with its arguments where they differ from the defaults. `declared`: the kind
+/// and index of the declaration. Panics if the library has none of this index.
 pub fn name(library: &Library, declared: Declared) -> &str {
     match declared {
         Declared::Module(index) => &library.modules[index].name,

@@ -26,7 +26,7 @@ pub enum PlanFault {
     },
     /// A duration that is negative, not finite, or longer than [`DURATION_MAX`].
     Duration {
-        /// The duration that was found, s.
+        /// The duration that the plan states, s.
         duration: f64,
     },
     /// Times that must ascend and do not.
@@ -57,7 +57,7 @@ pub enum PlanFault {
     FirstWorld,
     /// An exemption that ends before it begins.
     ExemptionOrder,
-    /// Gravity that points upwards, or is no number.
+    /// A gravity that points upwards (is negative), or is no number.
     Gravity,
     /// A negative coefficient of friction in a world, or one that is no number.
     Friction,
@@ -133,7 +133,7 @@ pub enum PlanFault {
         /// The dynamics that plans of this family are judged under.
         judged: DynamicsModel,
     },
-    /// A fault of a module type, a connector, a cell or a strut.
+    /// A fault of the library: of a module type, a connector, a cell or a strut.
     Library(LibraryFault),
     /// A pose or a position that is not finite, farther away than
     /// [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX), or no rigid displacement.
@@ -201,12 +201,12 @@ pub enum TracksFault {
     },
     /// A docking or undocking out of order, or after the end.
     EventOrder {
-        /// The time of the event, s.
+        /// The time of the docking or undocking, s.
         time: f64,
     },
     /// A bond that is docked while it holds, or undocked while it does not.
     BondUnchanged {
-        /// The time of the event, s.
+        /// The time of the docking or undocking, s.
         time: f64,
         /// The index of the bond in [`Assembly::bonds`](crate::robot::Assembly::bonds).
         bond: usize,
@@ -245,11 +245,11 @@ pub enum StagesFault {
         /// The greatest number of cells that is allowed.
         most: u64,
     },
-    /// A unit of time that is not positive.
+    /// A unit of time of the lattice that is not positive.
     TimeUnit,
     /// A least size that is not in (0, 1], or a greatest speed that is not positive.
     CellLimits,
-    /// A greatest contact force that is not positive.
+    /// A greatest contact force of the lattice's model that is not positive.
     ContactForce,
     /// A start whose runs name fewer cells than there are.
     Start,
@@ -306,7 +306,7 @@ pub enum NodePathsFault {
     },
     /// A strut between a node and itself.
     StrutEnds,
-    /// An obstacle that is no solid.
+    /// An obstacle that is no solid, with the fault of its shape.
     Obstacle(Unsound),
     /// A height field that is no ground; the fault is given in words.
     Terrain(&'static str),

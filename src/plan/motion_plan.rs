@@ -40,7 +40,7 @@ pub struct Plan {
 
 impl Plan {
     /// Returns the plan of a body in one world, and nothing more: without provenance, program, causes, exemptions and
-    /// verdict. `library` must be the one that the body refers to.
+    /// verdict. `library` must be the one that the body refers to. `settings`: the settings of the judge.
     pub fn bare(library: Arc<Library>, body: Body, world: World, settings: Settings) -> Plan {
         Plan {
             provenance: Provenance::default(),

@@ -149,6 +149,7 @@ pub fn greatest(control: &[f64], tolerance: f64) -> (f64, f64) {
 }
 
 /// Returns the greatest absolute value over 0..1 of a polynomial and its argument, as [`greatest`] finds it.
+/// `control`: its Bernstein control points; `tolerance`: as for [`greatest`].
 pub fn greatest_size(control: &[f64], tolerance: f64) -> (f64, f64) {
     let up = greatest(control, tolerance);
     let negated: Vec<f64> = control.iter().map(|c| -c).collect();

@@ -167,7 +167,7 @@ pub enum Profile {
 pub enum Otherwise {
     /// The next action begins, as in the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim, Section V-B).
     Proceed,
-    /// The behaviour fails, with a message.
+    /// The behaviour is aborted, with this message.
     Abort(String),
     /// Another behaviour, given by its root node, begins.
     Node(Arc<Node>),
@@ -189,13 +189,13 @@ pub enum Signal {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Compare {
-    /// Less than: `<`.
+    /// The comparison less than: `<`.
     Less,
-    /// At most: `<=`.
+    /// The comparison at most: `<=`.
     LessEqual,
-    /// Greater than: `>`.
+    /// The comparison greater than: `>`.
     Greater,
-    /// At least: `>=`.
+    /// The comparison at least: `>=`.
     GreaterEqual,
 }
 
@@ -207,14 +207,14 @@ pub enum Condition {
     Compare {
         /// The signal on the left side.
         signal: Signal,
-        /// The comparison.
+        /// The comparison of the signal with the value.
         compare: Compare,
         /// The value on the right side, in the unit of the signal.
         value: f64,
     },
-    /// Something is docked at a port.
+    /// The condition that something is docked at a port.
     Docked(PortRef),
-    /// Two ports are docked to each other.
+    /// The condition that two ports are docked to each other.
     Mated(PortRef, PortRef),
     /// A conjunction: both conditions hold at once.
     And(Box<Condition>, Box<Condition>),

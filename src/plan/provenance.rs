@@ -80,7 +80,7 @@ pub enum Change {
         /// The fraction of the limits of torque that was to be left.
         reserve: f64,
     },
-    /// Another plan was appended.
+    /// Another plan was appended to this one.
     Joined {
         /// The time at which the other plan begins in this one, s.
         at: f64,

@@ -28,11 +28,11 @@ pub enum CheckKind {
     BondLoad,
     /// Ports are within capture of each other when they dock.
     Docking,
-    /// All modules or cells are connected.
+    /// All modules or cells are connected with each other, so that nothing falls off.
     Connectedness,
-    /// Loops that bonds close stay closed.
+    /// Kinematic loops that bonds close stay closed.
     Closure,
-    /// Nothing penetrates the ground.
+    /// No link or node penetrates the ground.
     Ground,
     /// The robot is statically stable: its centre of mass stays above the support polygon.
     Stability,
@@ -77,11 +77,11 @@ impl CheckKind {
 /// The kind of quantity of a worst value, which decides its unit in texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// A length, m.
+    /// A length, shown in a unit of length; m.
     Length,
     /// A fraction of a limit, without unit.
     Fraction,
-    /// An angle, rad.
+    /// An angle, shown in degrees; rad.
     Angle,
     /// A number without unit.
     Number,
@@ -268,7 +268,7 @@ impl Dynamics {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Verdict {
-    /// All checks, in order of kind.
+    /// All checks of the judge with their outcomes, in order of kind.
     pub checks: Vec<Check>,
     /// All failures, in order of time, at most 100; a note counts the others.
     pub failures: Vec<Failure>,
@@ -279,8 +279,8 @@ pub struct Verdict {
     /// The least signed distance between links that may not touch, cells or struts, and of these from obstacles, m;
     /// `None` if none was measured, as for the other worst values.
     pub clearance: Option<Worst>,
-    /// The least static stability margin, m: the distance of the centre of mass inside the support polygon, negative
-    /// outside; `None` if none was measured.
+    /// The least static stability margin (McGhee and Frank 1968), m: the distance of the centre of mass inside the
+    /// support polygon, negative outside; `None` if none was measured.
     pub margin: Option<Worst>,
     /// The least 1 - effort / limit of joints and motors, with the best contact forces there are; `None` if none was
     /// measured.

@@ -104,7 +104,7 @@ impl Extent {
 }
 
 /// Returns true if two programs are equal: the same nodes in the same order, causes included. Each pair of nodes is
-/// compared once, however often it occurs.
+/// compared once, however often it occurs. `a` and `b`: their root nodes.
 pub fn equal(a: &Arc<Node>, b: &Arc<Node>) -> bool {
     let mut seen = HashSet::new();
     let mut stack = vec![(a, b)];
@@ -159,7 +159,7 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
 }
 
 /// Returns the same graph, sharing kept, with every action rewritten, children first; `rewrite` receives the action
-/// with its `else` branch already rewritten.
+/// with its `else` branch already rewritten. `root`: the root of the graph.
 ///
 /// # Errors
 /// The first error of `rewrite`.

@@ -123,7 +123,7 @@ impl Dynamics {
     /// Returns the wrench that each link needs for its own motion under `gravity` (m/s² in the world, the vector of
     /// free fall), about the point `origin` (m, in the world), by the numbers of the links: the forward pass of
     /// recursive Newton-Euler (Luh, Walker and Paul 1980). Zero for links that are not connected with the root.
-    /// Panics if a slice of `state` is too short.
+    /// `kinematics`: the kinematics of the same robot. Panics if a slice of `state` is too short.
     pub fn link_wrenches(
         &self,
         kinematics: &Kinematics,
@@ -154,7 +154,8 @@ impl Dynamics {
     /// Returns the effort of each joint by [`JointId`](super::JointId), N·m or N, that carries a wrench on each link,
     /// about the point `origin` (m, in the world): the backward pass of recursive Newton-Euler (Luh, Walker and Paul
     /// 1980). On return `wrenches` holds for each link the sum over all that it carries. `poses` are the world poses
-    /// of all links, by their numbers. Panics if a slice is too short.
+    /// of all links, by their numbers. `kinematics`: the kinematics of the same robot. Panics if a slice is too
+    /// short.
     pub fn efforts(
         &self,
         kinematics: &Kinematics,
@@ -179,7 +180,7 @@ impl Dynamics {
     /// Returns the momentum of the robot (N·s) and its angular momentum about the point `origin` (N·m·s), as force
     /// and moment in the world, with the velocity `base` of the base's frame and the velocities of the joints by
     /// [`JointId`](super::JointId) (rad/s or m/s). `poses` are the world poses of all links, by their numbers;
-    /// `origin` is in the world, m. Panics if a slice is too short.
+    /// `origin` is in the world, m. `kinematics`: the kinematics of the same robot. Panics if a slice is too short.
     pub fn momentum(
         &self,
         kinematics: &Kinematics,
@@ -240,7 +241,7 @@ impl Dynamics {
     /// Orin 1982): the kinetic energy is `½ uᵀ M u` (J) with u the linear velocity of the base's origin (m/s, rows 0
     /// to 2), its angular velocity (rad/s, rows 3 to 5), both in the world, and the velocities of the joints by
     /// [`JointId`](super::JointId). Rows of mimics and fixed joints are zero. `poses` are the world poses of all
-    /// links, by their numbers.
+    /// links, by their numbers. `kinematics`: the kinematics of the same robot.
     pub fn mass_matrix(&self, kinematics: &Kinematics, poses: &[Pose]) -> DMatrix<f64> {
         let root = kinematics.link(kinematics.root, 0);
         let origin = position(poses, root);

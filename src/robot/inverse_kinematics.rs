@@ -144,11 +144,12 @@ pub enum StopReason {
 /// The least pivot of `J Jᵀ + λ`: lesser ones, which rounding has made so small, are raised to it.
 const PIVOT_MIN: f64 = 1e-12;
 
-/// Solves a problem of inverse kinematics: changes `q` by damped least squares (Buss 2005) until the problem is solved,
-/// or not. `limits` are the least and greatest position of every joint (rad or m; infinite ones are allowed), to which
-/// every step clamps `q`; a start outside of them that already solves the problem is returned as it is. Returns the
-/// reason that it ended, and the number of steps taken; `q` holds the last positions in any case. Panics if `q` and
-/// `limits` differ in length, or a least position is above the greatest.
+/// Solves a problem of inverse kinematics: changes `q` by damped least squares (Buss 2005) until the problem is
+/// solved, or not. `limits` are the least and greatest position of every joint (rad or m; infinite ones are allowed),
+/// to which every step clamps `q`; a start outside of them that already solves the problem is returned as it is.
+/// Returns the reason that it ended, and the number of steps taken; `q` holds the last positions in any case.
+/// `settings`: the limits and weights of the descent. Panics if `q` and `limits` differ in length, or a least
+/// position is above the greatest.
 pub fn solve(
     problem: &mut dyn IkProblem,
     q: &mut [f64],
@@ -345,9 +346,10 @@ const REST_GAIN: f64 = 0.1;
 const ANGLE_STEP_MAX: f64 = 0.4;
 
 /// Solves the inverse kinematics of a frame of an assembly: finds joint positions (rad or m) that bring it to a pose,
-/// by damped least squares (Buss 2005) from those of `start`, one for every joint of the assembly, by the number in its
-/// `JointId`. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints are not regarded,
-/// nor collisions, nor bonds that close loops. Panics if `start` has too few positions.
+/// by damped least squares (Buss 2005) from those of `start`, one for every joint of the assembly, by the number in
+/// its `JointId`. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints are not
+/// regarded, nor collisions, nor bonds that close loops. `task`: the robot, the frame and its goal; `settings`: the
+/// limits and weights of the descent. Panics if `start` has too few positions.
 pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     let mut joints = start.to_vec();
     let held = task.kinematics.link(task.base.0, 0);

@@ -22,8 +22,8 @@ impl LinkFrame {
         LinkFrame { link, X_LF: Pose::identity() }
     }
 
-    /// Returns the frame of a port: origin on the mating face, +x outward, +z up. Panics if the assembly has no such
-    /// port.
+    /// Returns the frame of a port: origin on the mating face, +x outward, +z up. `robot`: the assembly;
+    /// `kinematics`: the kinematics of the same robot. Panics if the assembly has no such port.
     pub fn of_port(robot: &Assembly, kinematics: &Kinematics, port: PortRef) -> LinkFrame {
         let X_LF = robot.module_type(port.module).ports[port.port].pose;
         LinkFrame { link: kinematics.port_link(robot, port), X_LF }
@@ -80,9 +80,10 @@ impl Step {
     }
 }
 
-/// Returns the geometric Jacobian `J` (6 × n) of a frame F while the link of number `held` stays where it is; `None`
-/// if bonds do not connect the two, so that joints do not determine their relative pose. `poses`: the world poses of
-/// all links, by their numbers.
+/// Returns the geometric Jacobian `J` (6 × n; Siciliano et al., *Robotics*, 2009, sec. 3.1) of a frame F while the
+/// link of number `held` stays where it is; `None` if bonds do not connect the two, so that joints do not determine
+/// their relative pose. `poses`: the world poses of all links, by their numbers. `kinematics`: the kinematics of the
+/// robot.
 ///
 /// `J · q̇` is the velocity of F: rows 0 to 2 the linear velocity of its origin (m/s), rows 3 to 5 its angular
 /// velocity (rad/s), both in the frame of `poses`, the world. Columns are the joints of the assembly by the number in

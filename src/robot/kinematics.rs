@@ -163,13 +163,14 @@ impl Kinematics {
         poses[self.link(module, 0)]
     }
 
-    /// Returns the number of the link of a port among all links. Panics if the assembly has no such port.
+    /// Returns the number of the link of a port among all links. `robot`: the assembly that was compiled. Panics if
+    /// the assembly has no such port.
     pub fn port_link(&self, robot: &Assembly, port: PortRef) -> usize {
         self.link(port.module, robot.module_type(port.module).ports[port.port].link)
     }
 
-    /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers. Panics if the
-    /// assembly has no such port.
+    /// Returns the world pose of a port, `X_WP`, from the world poses of all links, by their numbers. `robot`: the
+    /// assembly that was compiled. Panics if the assembly has no such port.
     pub fn port_pose(&self, robot: &Assembly, port: PortRef, poses: &[Pose]) -> Pose {
         poses[self.port_link(robot, port)] * robot.module_type(port.module).ports[port.port].pose
     }
@@ -200,7 +201,7 @@ impl Kinematics {
 
     /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass
     /// (kg); if they have no mass, the world's origin and 0. `poses` are the world poses of all links, by their
-    /// numbers.
+    /// numbers. `robot`: the assembly that was compiled.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {
@@ -214,15 +215,15 @@ impl Kinematics {
 
     /// Returns the closure errors (m, rad) of the bonds that close loops, ascending by bond. `joints`: the positions
     /// (rad or m) of all joints, by [`super::JointId`]; `poses`: the world poses of all links at these positions, by
-    /// their numbers.
+    /// their numbers. `robot`: the assembly that was compiled.
     pub fn residuals(&self, robot: &Assembly, joints: &[f64], poses: &[Pose]) -> Vec<Residual> {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
     /// Returns the closure error of the bond of this index, which need not hold: the distance (m) and the angle (rad)
     /// of its second port from a perfect mate with the first. `poses` are the world poses of all links, by their
-    /// numbers; `joints` (rad or m, by [`super::JointId`]) matter only for the bond's own hinge. Panics if there is
-    /// no such bond.
+    /// numbers; `joints` (rad or m, by [`super::JointId`]) matter only for the bond's own hinge. `robot`: the
+    /// assembly that was compiled. Panics if there is no such bond.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;
@@ -316,7 +317,7 @@ struct Pair {
 }
 
 /// Returns the pose `X_PQ` of the second port in the frame of the first for a bond (by index) whose hinge, if it has
-/// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`. Panics if there is no such bond.
+/// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`. `robot`: the assembly. Panics if there is no such bond.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     let bond = &robot.bonds[bond];
     let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;

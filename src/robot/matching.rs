@@ -57,7 +57,7 @@ pub enum Mismatch {
     Kind {
         /// The path name of the module in B.
         module: String,
-        /// The name of its module type.
+        /// The name of the type of the module in B.
         kind: String,
     },
     /// One of two modules that the best attempt maps to each other is docked at a port and the other not, or to

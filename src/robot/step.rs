@@ -63,7 +63,8 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Returns the motion of a joint about or along a unit vector, in the frame in which the vector is given.
+    /// Returns the motion of a joint about or along a unit vector, in the frame in which the vector is given. `kind`:
+    /// its degree of freedom; `axis`: the vector.
     pub fn new(kind: JointKind, axis: Vec3) -> Motion {
         match kind {
             JointKind::Revolute => Motion::revolute(axis),
@@ -97,9 +98,10 @@ impl Motion {
 }
 
 impl Step {
-    /// Returns the step from the link `parent` (A) to the link `link` (B), given by their numbers among all links
-    /// and their poses with the joint at zero, in the frame J of the joint, in which `motion` has its axis. `terms`
-    /// are the joints, by the number in their `JointId`, and factors whose sum is the position.
+    /// Returns the step from the link `parent` (A) to the link `link` (B), given by their numbers among all links and
+    /// their poses with the joint at zero, in the frame J of the joint, in which `motion` has its axis. `terms` are
+    /// the joints, by the number in their `JointId`, and factors whose sum is the position. `X_JA` and `X_JB`: the
+    /// two poses.
     pub fn new(
         parent: usize,
         link: usize,
@@ -207,7 +209,8 @@ impl Step {
 
 /// Returns the joints and factors that drive a joint of a module, given by its index in its type: itself, or those it
 /// mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of the
-/// module's first joint, and the joints returned are such numbers. Panics if there is no such joint.
+/// module's first joint, and the joints returned are such numbers. `kind`: the type of the module. Panics if there is
+/// no such joint.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

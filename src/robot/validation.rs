@@ -123,8 +123,8 @@ fn check_module_references(module: &ModuleType, connectors: usize) -> Checked {
     module.touching.iter().try_for_each(|&(a, b)| link(a).and(link(b)))
 }
 
-/// Checks the connector of an index among those that its `mates` are indices of. Panics if there is no connector of
-/// this index.
+/// Checks the connector of an index among those that its `mates` are indices of. `all`: the connectors. Panics if
+/// there is no connector of this index.
 ///
 /// # Errors
 /// Its first fault: turns, mates, held loads, capture or hinge.

@@ -24,7 +24,7 @@ pub struct Change {
 pub enum ChangeKind {
     /// The declaration is new in its file.
     Added,
-    /// The text of the declaration differs.
+    /// The text of the declaration differs from that of the earlier reading.
     Changed,
     /// The declaration is gone from its file.
     Removed,

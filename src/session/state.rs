@@ -105,7 +105,8 @@ impl Reply {
 }
 
 impl Session {
-    /// Returns an empty session in a project. Only the cancellation state of `host` is used.
+    /// Returns an empty session in a project. Only the cancellation state of `host` is used. `options`: the limits,
+    /// seed and threads of its runs.
     ///
     /// # Errors
     /// The system's words where it gives no memory for the evaluator's thread.
@@ -157,9 +158,9 @@ impl Session {
         Ok(())
     }
 
-    /// Checks and evaluates a text as the next entry. A new declaration replaces an earlier one of its name. If
-    /// the entry fails, or `input` says not to keep it, the session is as it was. Panics if abandoned work has
-    /// not been waited for.
+    /// Checks and evaluates a text as the next entry. A new declaration replaces an earlier one of its name. If the
+    /// entry fails, or `input` says not to keep it, the session is as it was. `host` gets what the entry prints and
+    /// writes. Panics if abandoned work has not been waited for.
     pub fn enter(&mut self, input: &Input, host: &mut dyn Host) -> Reply {
         self.count += 1;
         let entry = Entry {
@@ -312,9 +313,10 @@ impl Session {
         (stale, notes)
     }
 
-    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome like that
-    /// of an entry; a file that can't be read or declares nothing is an error in it. The path is remembered in any
-    /// case: [`reload`](Self::reload) tries it again. Panics if abandoned work has not been waited for.
+    /// Loads a file, by its path in the project: enters an import of all its public names. Returns an outcome like
+    /// that of an entry; a file that can't be read or declares nothing is an error in it. The path is remembered in
+    /// any case: [`reload`](Self::reload) tries it again. `host` gets what the evaluation prints and writes. Panics
+    /// if abandoned work has not been waited for.
     pub fn load(&mut self, path: &str, host: &mut dyn Host) -> Reply {
         if !self.loaded.iter().any(|known| known == path) {
             self.loaded.push(path.to_owned());

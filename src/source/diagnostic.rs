@@ -58,7 +58,8 @@ impl Diagnostic {
         Diagnostic { code, severity, message: message.into(), labels: Vec::new(), hints: Vec::new() }
     }
 
-    /// Returns the diagnostic with one more label on `span`; the first one added is the primary one.
+    /// Returns the diagnostic with one more label on `span`; the first one added is the primary one. `text`: the
+    /// words about the span.
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: text.into() });
         self

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub struct LineColumn {
     /// The number of the line, from 1.
     pub line: usize,
-    /// The column in characters, from 1.
+    /// The number of the column in characters, from 1.
     pub column: usize,
 }
 
@@ -71,13 +71,14 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a text, and returns its identity. `library` is true for a file of the standard library. Panics on the
-    /// 2^32nd text.
+    /// Adds a text, and returns its identity. `library` is true for a file of the standard library. `name`: the name
+    /// in diagnostics and plans. Panics on the 2^32nd text.
     pub fn add(&mut self, name: &str, text: &str, library: bool) -> FileId {
         self.add_piece(name, text, library, 1)
     }
 
-    /// Adds a piece of a longer input that begins at line `first_line` of it, and returns its identity.
+    /// Adds a piece of a longer input that begins at line `first_line` of it, and returns its identity. `name`,
+    /// `text` and `library`: as for [`add`](Self::add).
     pub fn add_piece(&mut self, name: &str, text: &str, library: bool, first_line: usize) -> FileId {
         let starts = std::iter::once(0)
             .chain(text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i as u32 + 1))

@@ -146,7 +146,7 @@ pub enum UseSource {
 /// A name between the braces of an import, with the one that it gets: `Chain3 as Chain`.
 #[derive(Clone, Debug)]
 pub struct UseName {
-    /// The name in the imported file.
+    /// The name that the declaration has in the imported file.
     pub name: Name,
     /// The name after `as`, which it has in the importing file; `None` if it keeps its own.
     pub rename: Option<Name>,
@@ -194,7 +194,7 @@ pub struct ExternFn {
 /// A type parameter of a function, `D: Dimension`, which each call determines by its arguments.
 #[derive(Clone, Debug)]
 pub struct TypeParam {
-    /// The name of the type parameter.
+    /// The name of the type parameter, by which types in the signature refer to it.
     pub name: Name,
     /// The bound after `:`, one of `Dimension`, `Quantity`, `Module` and `Config` in a correct program; `None` if the
     /// parameter may be any type.
@@ -216,7 +216,7 @@ pub struct Record {
 /// A record type of the standard library: `extern type Folding is Plan { layout: Layout fn at(t: Time) -> State }`.
 #[derive(Clone, Debug)]
 pub struct ExternType {
-    /// The name of the record type.
+    /// The name that the declaration gives the record type.
     pub name: Name,
     /// The record that it extends; `None` if it stands alone.
     pub is: Option<Name>,
@@ -227,7 +227,7 @@ pub struct ExternType {
     pub methods: Vec<(Option<String>, ExternFn)>,
 }
 
-/// A field of an `extern type`.
+/// A field of a record type of the standard library (`extern type`), with its documentation.
 #[derive(Clone, Debug)]
 pub struct ExternField {
     /// The text of the `///` lines before it, without the marks; `None` if there are none.
@@ -403,7 +403,7 @@ pub enum ModuleClauseKind {
     Port(ModulePort),
     /// A motor that drives several joints: `motor p = tilt + pan (max_speed: ..., max_torque: ...)`.
     Motor {
-        /// The name of the motor.
+        /// The name of the motor, for messages and plans.
         name: Name,
         /// The linear combination of the joints that it drives.
         value: Expr,
@@ -664,7 +664,7 @@ pub struct Require {
 pub struct Path {
     /// The span of the whole path in the source text.
     pub span: Span,
-    /// The first name of the path.
+    /// The first name of the path, which the steps begin at.
     pub root: Name,
     /// The steps behind `root`, in order; empty for a single name.
     pub steps: Vec<PathStep>,
@@ -780,7 +780,7 @@ pub enum TrussClauseKind {
 /// A test: `test "name" { statements }`.
 #[derive(Clone, Debug)]
 pub struct Test {
-    /// The name, a text without interpolation.
+    /// The name of the test, a text without interpolation.
     pub name: String,
     /// The span of the name, quotes included.
     pub name_span: Span,
@@ -802,7 +802,7 @@ pub struct Stmt {
 pub enum StmtKind {
     /// A definition: `let name = value`.
     Let(Let),
-    /// An expression as a statement.
+    /// An expression as a statement, whose value may be printed.
     Expr(Expr),
     /// A test of a condition: `expect condition, message`.
     Expect {
@@ -874,7 +874,7 @@ pub enum ExprKind {
         /// The clauses, in order; the first is a loop.
         clauses: Vec<ComprehensionClause>,
     },
-    /// A prefix operator with its operand.
+    /// A prefix operator, such as `-` or `not`, with its operand.
     Unary {
         /// The operator between or before the operands.
         op: UnaryOp,
@@ -883,7 +883,7 @@ pub enum ExprKind {
         /// The operand behind the operator.
         operand: Box<Expr>,
     },
-    /// An infix operator with its operands.
+    /// An infix operator, such as `+` or `and`, with its two operands.
     Binary {
         /// The operator between or before the operands.
         op: BinaryOp,
@@ -940,7 +940,7 @@ pub enum ExprKind {
     If {
         /// The condition, an expression that has to be of type `Bool`.
         condition: Box<Expr>,
-        /// The block if the condition holds.
+        /// The block that gives the value if the condition holds.
         then: Box<Expr>,
         /// The block, or the next `If`, behind `else`; `None` without `else`.
         otherwise: Option<Box<Expr>>,
@@ -1015,7 +1015,7 @@ pub enum Axis {
     Z,
 }
 
-/// An operator in front of its one operand.
+/// A prefix operator, in front of its one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryOp {
     /// The negative of a number, quantity or vector: `-a`.
@@ -1026,7 +1026,7 @@ pub enum UnaryOp {
     Not,
 }
 
-/// An operator between its two operands.
+/// An infix operator, between its two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BinaryOp {
     /// The logical disjunction: `a or b`.

@@ -4,7 +4,7 @@
 /// A token of the lexer: bytes `start..end` of the text. White space belongs to none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
-    /// The kind of the token.
+    /// The kind of the token, by its first characters.
     pub kind: TokenKind,
     /// The offset of the token's first byte in the text, from 0.
     pub start: usize,

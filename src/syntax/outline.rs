@@ -15,7 +15,7 @@ pub enum Role {
     Prefix,
     /// An opening bracket attached to what is before it: a call, an index, parameters.
     Tight,
-    /// The braces of `use a.{b, c}`.
+    /// The braces around the names of an import, `use a.{b, c}`.
     Names,
     /// `<` or `>` around the arguments of a type.
     Angle,

@@ -39,9 +39,9 @@ pub fn number(value: f64) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_string()
 }
 
-/// Returns a value in SI units as text, in a unit given as (name, factor to SI) and with a number of decimals. Without
-/// a unit it is one that suits the value, without decimals the digits are those of [`number`]. An infinite value is
-/// `infinite` or `-infinite`, without unit.
+/// Returns a value in SI units as text, in a unit given as (name, factor to SI) and with a number of decimals.
+/// Without a unit it is one that suits the value, without decimals the digits are those of [`number`]. An infinite
+/// value is `infinite` or `-infinite`, without unit. `dimension`: the dimension of the value.
 pub fn quantity_in(
     value: f64,
     dimension: Dimension,

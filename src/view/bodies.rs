@@ -18,7 +18,7 @@ const CELLS_MAX: usize = 20_000;
 pub(super) struct Drawn {
     /// The mesh of the body in the world frame, in metres.
     pub mesh: Mesh,
-    /// The colour of all its faces.
+    /// The colour of all faces of the body.
     pub colour: Rgb,
 }
 

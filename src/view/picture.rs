@@ -79,8 +79,8 @@ impl Default for StillOptions {
     }
 }
 
-/// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. Panics for a
-/// width or height of 0.
+/// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. `input`: the
+/// plan with its title; `options`: time, viewpoint and size. Panics for a width or height of 0.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     let pixels = pixels(&canvas(input, options), options);
     encoded(options, &pixels, None)

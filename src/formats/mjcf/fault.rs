@@ -14,7 +14,7 @@ pub enum MjcfFault {
     TooDeep {
         /// The number of links in the longest row.
         depth: usize,
-        /// The greatest number that MuJoCo reads.
+        /// The greatest number of links in a row that MuJoCo reads.
         most: usize,
     },
 }

@@ -162,7 +162,8 @@ impl TimeScaling {
 
     /// Compares a bound on the squared peak speed as [`TimeScaling::compare_speed_squared`] does, but only while the
     /// path parameter is in a window: the least of the peak of the stage and of the speeds that the ramps allow at
-    /// the ends of the window. On a ramp the square of `σ'` is linear in `σ`.
+    /// the ends of the window. On a ramp the square of `σ'` is linear in `σ`. `distance` and `lines`: as for that
+    /// function; `limit`: the greatest squared speed, in squared cells per squared time unit.
     pub fn compare_speed_squared_within(
         &self,
         window: Window,

@@ -22,7 +22,7 @@ pub struct NodePaths {
     /// The limits beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
-    /// The obstacles and the terrain.
+    /// The obstacles and the terrain, in the world's frame.
     #[serde(default, skip_serializing_if = "Surroundings::is_none")]
     pub surroundings: Surroundings,
 }

@@ -22,11 +22,11 @@ pub struct Stages {
     pub time_unit: f64,
     /// The least size and the greatest speed of a cell.
     pub limits: CellLimits,
-    /// The conditions on the cells' forces.
+    /// The conditions on the forces of the cells and their contacts.
     pub model: Model,
     /// The position of every cell at the start. If two runs name a cell, the later holds.
     pub start: Vec<Run>,
-    /// The stages, in order of time.
+    /// The stages of the motion, in order of time; they follow each other without pause.
     pub stages: Vec<Stage>,
 }
 

@@ -32,7 +32,7 @@ pub struct Tracks {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Track {
-    /// The joint that moves.
+    /// The joint of which the trajectory is.
     pub joint: JointId,
     /// The segments, in order of time.
     pub segments: Vec<Segment>,
@@ -70,7 +70,7 @@ pub enum DockingKind {
 pub struct DockingEvent {
     /// The time of the event from the start of the plan, s.
     pub time: f64,
-    /// The change of the bond.
+    /// The change of the bond: it begins or ceases to hold.
     pub kind: DockingKind,
     /// The index of the bond in [`Assembly::bonds`].
     pub bond: usize,
@@ -101,7 +101,7 @@ impl Segment {
     }
 
     /// Returns the piece of the segment between two times (s), which are clipped to the segment; `None` if no time is
-    /// left.
+    /// left. `t0` and `t1`: the two times, the lesser first.
     pub fn between(&self, t0: f64, t1: f64) -> Option<Segment> {
         let (start, end) = (t0.max(self.start), t1.min(self.end));
         if start >= end {
@@ -149,7 +149,8 @@ impl Track {
 }
 
 impl Tracks {
-    /// Returns the motion of a robot that stays in a state: it lasts no time, and nothing has a cause.
+    /// Returns the motion of a robot that stays in a state: it lasts no time, and nothing has a cause. `start`: the
+    /// state.
     pub fn at_rest(robot: Assembly, start: State) -> Tracks {
         Tracks {
             robot,

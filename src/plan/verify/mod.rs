@@ -18,8 +18,9 @@ use super::{
 };
 use crate::robot::{Assembly, State};
 
-/// Returns the verdict on a plan under its own worlds and settings; the verdict that the plan states is not
-/// read. A plan that [`validation::check`] refuses gets a verdict whose only check, the form, has failed.
+/// Returns the verdict on a plan under its own worlds and settings (Definition V.3 of the compositional-design paper,
+/// Tosun, Jing, Kress-Gazit and Yim); the verdict that the plan states is not read. A plan that [`validation::check`]
+/// refuses gets a verdict whose only check, the form, has failed.
 pub fn verify(plan: &Plan) -> Verdict {
     if let Err(fault) = validation::check(plan) {
         return malformed(&fault);
@@ -32,7 +33,8 @@ pub fn verify(plan: &Plan) -> Verdict {
 }
 
 /// Returns the verdict on one state of a robot, judged as a plan that lasts no time, under one world and without
-/// exemptions: Definition V.2 of the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim).
+/// exemptions: Definition V.2 of the compositional-design paper (Tosun, Jing, Kress-Gazit and Yim). `settings`: the
+/// settings of the judge.
 pub fn verify_state(robot: &Assembly, state: &State, world: &World, settings: &Settings) -> Verdict {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     verify(&Plan::bare(robot.library.clone(), Body::Tracks(tracks), *world, *settings))

@@ -6,7 +6,8 @@ use crate::plan::tolerances::TOLERANCES;
 /// A point on the ground: x and y in the world, m.
 pub(super) type Point = [f64; 2];
 
-/// The position of a point, such as the projected centre of mass, relative to a support polygon.
+/// The position of a point, such as the projected centre of mass, relative to a support polygon: the static stability
+/// margin (McGhee and Frank 1968).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// The distance of the point to the nearest edge, m: positive inside, negative outside.

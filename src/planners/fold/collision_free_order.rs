@@ -34,8 +34,9 @@ pub struct OrderSearch<'t> {
 }
 
 impl<'t> OrderSearch<'t> {
-    /// Sets up the search; `limits`: those of ground and hinges under gravity, `None` without; `samples`: the greatest
-    /// number of steps that [`order`](Self::order) samples in all.
+    /// Sets up the search; `limits`: the limits of ground and hinges under gravity, `None` without; `samples`: the
+    /// greatest number of steps that [`order`](Self::order) samples in all. `target` and `layout`: the surface and
+    /// how it is unfolded; `solids`: the panels with their thickness.
     pub fn new(
         target: &'t Target,
         layout: &'t Layout,

@@ -67,7 +67,8 @@ const AT_REST: Moving = Moving {
 
 impl<'t> Dynamics<'t> {
     /// Sets up the dynamics with all hinges at rest; `bodies`: one for each face of the target, in the order of
-    /// [`Target::faces`], in the frame of the target; `gravity`: the vector in that frame, m/s².
+    /// [`Target::faces`], in the frame of the target; `gravity`: the vector in that frame, m/s². `layout`: the layout
+    /// of the target whose hinges turn.
     pub fn new(target: &'t Target, layout: &'t Layout, bodies: &'t [Body], gravity: Vec3) -> Dynamics<'t> {
         Dynamics { target, layout, bodies, gravity, faces: vec![AT_REST; bodies.len()] }
     }

@@ -13,8 +13,9 @@ const TRIED_MAX: usize = 256;
 const SUMS: usize = 64;
 
 /// Returns a greedy tree grown from `root` (an index in [`Target::faces`]): in each step the face is added whose path
-/// from the root costs the least for it, N·m for steps of one second; of equal ones the first. Panics if the hinges do
-/// not connect all faces.
+/// from the root costs the least for it (N·m for steps of one second); of equal ones the first. `target`: the
+/// surface; `weights`: the costs of its hinges for the faces that they carry. Panics if the hinges do not connect all
+/// faces.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
     // For each face: the hinges between it and the root, once it belongs to the tree.
@@ -48,13 +49,13 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
 /// Returns a layout of no greater energy with the same root, improved by exchanges of one hinge of the tree for
 /// another on the cycle that it closes, as long as that lowers the energy (steepest descent). `steps` counts down the
 /// exchanges weighed and the sums that are computed anew after each exchange made; at 0 the search ends with what it
-/// has.
+/// has. `target`: the surface; `weights`: the costs of its hinges for the faces that they carry.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
     improved_where(target, weights, layout, steps, &|_| true)
 }
 
 /// Returns a layout improved as by [`improved`], by exchanges that lead to layouts for which `allowed` returns true;
-/// `steps` counts down as there.
+/// `steps` counts down as for [`improved`]. `target` and `weights`: as for [`improved`].
 pub fn improved_where(
     target: &Target,
     weights: &Weights,
@@ -65,7 +66,7 @@ pub fn improved_where(
     improved_by(target, weights, layout, steps, &Rules { fits: &|_, _| true, allowed })
 }
 
-/// The conditions on exchanges of hinges besides a lesser energy.
+/// The rules that exchanges of hinges keep to, besides that the energy has to become less.
 pub struct Rules<'r> {
     /// A filter of every exchange that lowers the energy: called with a layout and two indices in [`Target::hinges`],
     /// it returns true if the first hinge, which folds, may be exchanged for the second.
@@ -74,7 +75,8 @@ pub struct Rules<'r> {
     pub allowed: &'r dyn Fn(&Layout) -> bool,
 }
 
-/// Returns a layout improved as by [`improved`], by exchanges that keep to the rules; `steps` counts down as there.
+/// Returns a layout improved as by [`improved`], by exchanges that keep to the rules; `steps` counts down as for
+/// [`improved`]. `target` and `weights`: as for [`improved`].
 pub fn improved_by(
     target: &Target,
     weights: &Weights,
@@ -192,7 +194,8 @@ fn side_of_cycle(layout: &Layout, depths: &[usize], a: usize, b: usize, way: &mu
 }
 
 /// Returns the hinges (indices in [`Target::hinges`]) of the tree between two faces: those from `a` upwards, then
-/// those from `b` upwards, both without the part that they share; empty for the same face.
+/// those from `b` upwards, both without the part that they share; empty for the same face. `layout`: the tree; `a`
+/// and `b`: the faces as indices in [`Target::faces`](super::target::Target::faces).
 pub fn path(layout: &Layout, a: usize, b: usize) -> Vec<usize> {
     let up = |mut face: usize| {
         let mut way = Vec::new();

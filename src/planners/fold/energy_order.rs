@@ -16,9 +16,10 @@ use crate::geometry::{Pose, Vec3};
 /// with its factorial.
 pub const HEIGHT_MAX: usize = 8;
 
-/// Returns an order of all faces but the root (indices in [`Target::faces`]) of least energy without gravity, with the
-/// moving joint counted, and that energy (N·m for steps of one second); `None` for trees that are higher than
+/// Returns an order of all faces but the root (indices in [`Target::faces`]) of least energy without gravity, with
+/// the moving joint counted, and that energy (N·m for steps of one second); `None` for trees that are higher than
 /// [`HEIGHT_MAX`]. `masses`: by face, kg. The method is dynamic programming over the orders on each face's path.
+/// `target` and `layout`: the surface and how it is unfolded; `inertia`: how the mass of a panel is spread.
 pub fn least_energy(
     target: &Target,
     layout: &Layout,
@@ -43,15 +44,16 @@ pub fn least_energy(
 }
 
 /// Returns the energy of an order of faces (indices in [`Target::faces`], one hinge after the other) without gravity,
-/// with the moving joint counted, N·m for steps of one second; `masses`: by face, kg. Panics if the order names the
-/// root.
+/// with the moving joint counted, N·m for steps of one second; `masses`: by face, kg. `target` and `layout`: the
+/// surface and how it is unfolded; `inertia`: how the mass of a panel is spread. Panics if the order names the root.
 pub fn energy(target: &Target, layout: &Layout, masses: &[f64], inertia: Inertia, order: &[usize]) -> f64 {
     means(target, layout, masses, inertia, order).iter().sum()
 }
 
-/// Returns the mean absolute torque of the hinge of every face while it folds, N·m for steps of one second, by face; 0
-/// for the root and for faces that `order` leaves out. The hinges fold one after the other in `order` (indices in
-/// [`Target::faces`]), without gravity; poses are computed anew for each. `masses`: by face, kg. Panics if the order
+/// Returns the mean absolute torque of the hinge of every face while it folds, N·m for steps of one second, by face;
+/// 0 for the root and for faces that `order` leaves out. The hinges fold one after the other in `order` (indices in
+/// [`Target::faces`]), without gravity; poses are computed anew for each. `masses`: by face, kg. `target` and
+/// `layout`: the surface and how it is unfolded; `inertia`: how the mass of a panel is spread. Panics if the order
 /// names the root.
 pub fn means(
     target: &Target,

@@ -57,8 +57,8 @@ pub struct Settings {
 pub struct TooManyFaces;
 
 /// Computes the energy of every layout (spanning tree) with every root asked for, with the leaves folded first,
-/// within the budget. `observer` receives progress and may end the enumeration. Panics if the settings name a root
-/// that is no face.
+/// within the budget. `observer` receives progress and may end the enumeration. `target`: the surface; `weights`: the
+/// costs of its hinges for the faces that they carry. Panics if the settings name a root that is no face.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than [`FACES_MAX`] faces.
@@ -128,8 +128,9 @@ pub struct Traversal {
     pub complete: bool,
 }
 
-/// Calls `visit` with every layout, given by the indices in [`Target::hinges`] of its hinges in ascending order, until
-/// `budget` layouts were visited (at least one). The order of the visits is the lexicographic one of their hinges.
+/// Calls `visit` with every layout, given by the indices in [`Target::hinges`] of its hinges in ascending order,
+/// until `budget` layouts were visited (at least one). The order of the visits is the lexicographic one of their
+/// hinges. `target`: the surface whose hinges are chosen.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than [`FACES_MAX`] faces; nothing is visited then.

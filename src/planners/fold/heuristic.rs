@@ -38,7 +38,7 @@ impl Measure {
     }
 
     /// Returns χ of a layout (Eq. 6, 9, 10 of [Yao et al.](super)) with the leaves folded first, kg·m²; less is
-    /// better.
+    /// better. `target`: the surface that the layout is of.
     ///
     /// Distances are from the root's centroid, at the beginning and at the end of the face's own step:
     /// everything below it has folded, nothing above it has.

@@ -27,7 +27,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// Returns the rigid body of a panel from its corners (m) and mass (kg), in the frame of the corners.
+    /// Returns the rigid body of a panel from its corners (m) and mass (kg), in the frame of the corners. `inertia`:
+    /// how the mass is spread.
     pub fn of_panel(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> Body {
         let centre = corners.iter().sum::<Vec3>() / 3.0;
         let second = second_moment(&corners.map(|c| c - centre), inertia) * mass;
@@ -35,7 +36,8 @@ impl Body {
     }
 
     /// Returns the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`];
-    /// `masses`: one for each face in that order, kg. Panics if there are too few.
+    /// `masses`: one for each face in that order, kg. `inertia`: how the mass of a panel is spread. Panics if there
+    /// are too few.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()

@@ -7,7 +7,8 @@ use crate::geometry::{Pose, Vec3};
 
 /// Returns the displacement of every face from its pose in the target, in the frame of the target, in the order of
 /// [`Target::faces`], when the hinges of the faces for which `folded(face)` is true have folded and the others are
-/// level. That of the root is the identity; a face at its pose in the target has it, too.
+/// level. That of the root is the identity; a face at its pose in the target has it, too. `layout`: the tree of the
+/// target's hinges that fold.
 ///
 /// A child's displacement is its parent's after a rotation about the line of the hinge in the target by the difference
 /// between the hinge's angle and its fold angle.
@@ -20,7 +21,8 @@ pub fn poses(target: &Target, layout: &Layout, folded: impl Fn(usize) -> bool) -
 
 /// Returns the displacement of every face from its pose in the target, in the frame of the target, in the order of
 /// [`Target::faces`], when the hinge between each face but the root and its parent is at `angle(face)`, rad: 0 is
-/// level, [`Hinge::angle`](super::target::Hinge::angle) is folded. That of the root is the identity.
+/// level, [`Hinge::angle`](super::target::Hinge::angle) is folded. That of the root is the identity. `layout`: the
+/// tree of the target's hinges that fold.
 pub fn poses_at(target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Pose> {
     let mut poses = vec![Pose::identity(); target.faces.len()];
     for &face in &layout.order[1..] {

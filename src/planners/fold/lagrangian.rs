@@ -127,7 +127,7 @@ impl<'t> Lagrangian<'t> {
     /// Raises the lower bound on the layouts with this root (an index in [`Target::faces`]) over the arcs allowed by
     /// subgradient ascent from given multipliers (Held and Karp 1971), with Polyak's steps. Arcs that no layout below
     /// the cutoff uses are removed from `allowed` (fixing by reduced costs). `steps` counts down the faces settled on
-    /// paths and the sums over multipliers; at zero the ascent ends.
+    /// paths and the sums over multipliers; at zero the ascent ends. `limits`: the limits at which the ascent ends.
     ///
     /// In the first and in every 20th round `layouts` is called with the arc (3 · face + side) chosen into each face,
     /// by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no meaning. If it returns

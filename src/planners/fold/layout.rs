@@ -66,7 +66,8 @@ impl Layout {
         Layout::of_hinges(target, &hinges?, root)
     }
 
-    /// Returns the sides at which a face and its parent are joined. Panics for the root.
+    /// Returns the sides at which a face and its parent are joined. `target`: the surface that the layout is of.
+    /// Panics for the root.
     pub fn across(&self, target: &Target, face: usize) -> Across {
         let hinge = &target.hinges[self.hinge[face].expect("only the root has none")];
         let parent = self.parent[face];
@@ -74,7 +75,7 @@ impl Layout {
     }
 
     /// Returns the fold angle of the hinge to a face's parent, rad, positive where the edge is convex; 0 for the
-    /// root. Panics if there is no such face.
+    /// root. `target`: the surface that the layout is of. Panics if there is no such face.
     pub fn angle(&self, target: &Target, face: usize) -> f64 {
         self.hinge[face].map_or(0.0, |hinge| target.hinges[hinge].angle)
     }
@@ -87,7 +88,8 @@ impl Layout {
     }
 
     /// Returns the layout with the hinge `added` instead of `dropped` (indices in [`Target::hinges`]), with the same
-    /// root. Panics if `added` does not join the two parts into which the layout falls without `dropped`.
+    /// root. `target`: the surface that the layout is of. Panics if `added` does not join the two parts into which
+    /// the layout falls without `dropped`.
     pub fn exchanged(&self, target: &Target, dropped: usize, added: usize) -> Layout {
         let hinges: Vec<usize> =
             self.hinges().into_iter().map(|hinge| if hinge == dropped { added } else { hinge }).collect();

@@ -48,7 +48,7 @@ pub enum Violation {
 impl LoadLimits {
     /// Returns the first violation of a limit in the samples of a step; `None` if they show none. `folded`: for each
     /// face, in the order of [`Target::faces`], true if its hinge has folded before; `moving`: the faces whose hinges
-    /// fold from level in the step.
+    /// fold from level in the step. `target` and `layout`: the surface and how it is unfolded.
     pub fn violation(
         &self,
         target: &Target,

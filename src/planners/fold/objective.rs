@@ -114,6 +114,7 @@ pub struct Objective<'t> {
 
 impl<'t> Objective<'t> {
     /// Returns the objective of a target; `masses`: one for each face in the order of [`Target::faces`], kg.
+    /// `conventions`: the conventions under which torques and energy are computed; `minimise`: the quantity.
     pub fn new(
         target: &'t Target,
         masses: Vec<f64>,

@@ -83,9 +83,10 @@ fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Returns the corners of all faces of a target whose sides are all equal, in the order of [`Target::faces`], as whole
-/// numbers of the triangular lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1). They
-/// are exact: a face's free corner is the mirror image of its parent's, `a + b - c`.
+/// Returns the corners of all faces of a target whose sides are all equal, in the order of [`Target::faces`], as
+/// whole numbers of the triangular lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1).
+/// They are exact: a face's free corner is the mirror image of its parent's, `a + b - c`. `layout`: the tree of
+/// hinges across which faces are laid side by side.
 pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
     let mut corners = vec![[[0, 0]; 3]; target.faces.len()];
     corners[layout.root] = [[0, 0], [1, 0], [0, 1]];

@@ -11,7 +11,7 @@ use crate::planners::random::SplitMix64;
 /// energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The number of random orders.
+    /// The number of random orders that were compared.
     pub orders: u64,
     /// The number of orders that cost more than the reference by more than `TOLERANCES.tie` of it.
     pub worse: u64,
@@ -23,9 +23,9 @@ pub struct Sample {
     pub greatest: f64,
 }
 
-/// Compares the costs of `orders` random orders of a layout's faces with a reference cost. `takes` returns the cost of
-/// an order that was laid into steps by [`steps::of_order`], in the unit of `reference`. The same `seed` gives the
-/// same orders.
+/// Compares the costs of `orders` random orders of a layout's faces with a reference cost. `takes` returns the cost
+/// of an order that was laid into steps by [`steps::of_order`], in the unit of `reference`. The same `seed` gives the
+/// same orders. `observer` receives reports and may end the sampling.
 pub fn sample(
     layout: &Layout,
     orders: u64,

@@ -100,7 +100,7 @@ pub struct NoFolding {
     pub need: Option<TorqueNeed>,
     /// The torque that the weakest hinge holds, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
-    /// True if the problem has gravity.
+    /// True if the problem has gravity, so that torques of hinges are limited.
     pub is_under_gravity: bool,
 }
 

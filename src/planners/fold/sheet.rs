@@ -55,8 +55,8 @@ impl Sheet {
         Ok(Sheet { assembly, joints, flat })
     }
 
-    /// Returns the state in which every hinge is at its fold angle in the target, all bonds are closed, and the root's
-    /// panel is at the origin. `target` and `layout`: those that the sheet was made from.
+    /// Returns the state in which every hinge is at its fold angle in the target, all bonds are closed, and the
+    /// root's panel is at the origin. `target` and `layout`: the surface and the layout that the sheet was made from.
     pub fn folded(&self, target: &Target, layout: &Layout) -> State {
         let mut state = self.flat.clone();
         for (joint, face) in self.joints.iter().zip(&layout.order[1..]) {
@@ -65,8 +65,8 @@ impl Sheet {
         state
     }
 
-    /// Returns the joint of the hinge between a face (an index in [`Target::faces`]) and its parent. Panics for the
-    /// root, which has none.
+    /// Returns the joint of the hinge between a face (an index in [`Target::faces`]) and its parent. `layout`: the
+    /// layout that the sheet was made from. Panics for the root, which has none.
     pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
         let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
         self.joints[place - 1]
@@ -74,7 +74,8 @@ impl Sheet {
 
     /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces (indices
     /// in [`Target::faces`]) whose hinges fold at the same time. Hinges that stay level get no action, steps without
-    /// motion are left out, and all actions have cause 0. Panics if `order` names the root.
+    /// motion are left out, and all actions have cause 0. `target` and `layout`: the surface and the layout that the
+    /// sheet was made from. Panics if `order` names the root.
     pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
         let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
             let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));

@@ -29,7 +29,7 @@ pub fn head(arc: Arc) -> (usize, usize) {
 }
 
 /// Restricts `allowed` to layouts with an arc: its face is entered by it alone, and the opposite arc is removed.
-/// Panics if the side has no hinge.
+/// `target`: the surface; `an_arc`: the arc. Panics if the side has no hinge.
 pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
     let (face, side) = head(an_arc);
     allowed[face] = 1 << side;
@@ -38,6 +38,7 @@ pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
 }
 
 /// Returns for each face and each of its sides 0 to 2 the number of paths that enter there; a path is a list of arcs.
+/// `target`: the surface that the paths are on.
 pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
     let mut uses = vec![[0u32; 3]; target.faces.len()];
     for &an_arc in paths.iter().flat_map(|path| path.iter()) {
@@ -61,7 +62,8 @@ pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
 }
 
 /// Returns the layout that agreeing paths form. `paths`: for each face in their order, its arcs from the face back to
-/// the root; the root's is empty. Panics if they form no tree.
+/// the root; the root's is empty. `target`: the surface that the paths are on; `root`: the face from which they lead.
+/// Panics if they form no tree.
 pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     let arcs = paths.iter().filter_map(|path| path.first());
     let hinge = |a: &Arc| {
@@ -119,7 +121,8 @@ const UNREACHED: Arc = Arc::MAX;
 
 impl<'t> ShortestPaths<'t> {
     /// Returns the search with the costs of the shortest paths between all pairs of faces over all arcs, computed by
-    /// Dijkstra's algorithm; they are the heuristic of A*.
+    /// Dijkstra's algorithm (1959); they are the heuristic of A* (Hart, Nilsson and Raphael 1968). `target`: the
+    /// surface; `weights`: the costs of its hinges for the faces that they carry.
     pub fn new(target: &'t Target, weights: &'t Weights) -> ShortestPaths<'t> {
         let n = target.faces.len();
         let mut routes = ShortestPaths {
@@ -256,7 +259,8 @@ impl<'t> ShortestPaths<'t> {
     }
 }
 
-/// Returns the face (an index in [`Target::faces`]) from which an arc comes. Panics if its side has no hinge.
+/// Returns the face (an index in [`Target::faces`]) from which an arc comes. `target`: the surface that the arc is
+/// on. Panics if its side has no hinge.
 #[inline]
 pub fn tail(target: &Target, arc: Arc) -> usize {
     let (face, side) = head(arc);
@@ -264,7 +268,8 @@ pub fn tail(target: &Target, arc: Arc) -> usize {
     target.hinges[hinge].other(face)
 }
 
-/// Returns the arc across the same hinge in the opposite direction. Panics if the arc's side has no hinge.
+/// Returns the arc across the same hinge in the opposite direction. `target`: the surface that the arc is on;
+/// `an_arc`: the arc. Panics if the arc's side has no hinge.
 #[inline]
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
     let (face, side) = head(an_arc);

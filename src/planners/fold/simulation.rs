@@ -42,7 +42,8 @@ const HALVES: [f64; 2] = [0.25, 0.75];
 
 /// Simulates a folding in steps by inverse dynamics (Alg. 1 of [Yao et al.](super)): in each step the hinges of its
 /// faces go from level to folded by the quintic law, and all others are locked. `bodies`: one for each face, in the
-/// order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold.
+/// order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold. `target` and `layout`:
+/// the surface and how it is unfolded; `circumstances`: the duration of a step, and gravity.
 pub fn simulate(
     target: &Target,
     layout: &Layout,

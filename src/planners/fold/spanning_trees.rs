@@ -4,9 +4,9 @@ use super::target::Target;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-/// Returns the number of layouts of a target without regard to their roots, which are the spanning trees of its faces:
-/// the determinant of the Laplacian without one face, by elimination without fractions (Bareiss), in which every
-/// division is exact.
+/// Returns the number of layouts of a target without regard to their roots, which are the spanning trees of its
+/// faces: the determinant of the Laplacian without one face (Kirchhoff's matrix-tree theorem), by elimination without
+/// fractions (Bareiss 1968), in which every division is exact.
 pub fn layouts(target: &Target) -> BigInt {
     let n = target.faces.len() - 1;
     let mut m = vec![vec![BigInt::zero(); n]; n];

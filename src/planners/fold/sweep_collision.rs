@@ -16,7 +16,7 @@ const SAMPLES: usize = 24;
 
 type Triangle = [Vec3; 3];
 
-/// A collision of two panels in a step.
+/// A collision of two panels in a step of folding, as a sample shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Collision {
     /// The index of the first step in which they collide, from 0.
@@ -25,10 +25,10 @@ pub struct Collision {
     pub faces: [usize; 2],
 }
 
-/// Returns the first collision of panels without thickness in the samples of a layout that folds in steps, each a list
-/// of faces (indices in [`Target::faces`]) whose hinges fold at the same time; `None` if no sample shows one.
+/// Returns the first collision of panels without thickness in the samples of a layout that folds in steps, each a
+/// list of faces (indices in [`Target::faces`]) whose hinges fold at the same time; `None` if no sample shows one.
 /// `shrunk`: the part, 0 to 1, by which triangles are shrunk towards their centroids, so that neighbours do not
-/// collide.
+/// collide. `target`: the surface that the layout is of.
 pub fn first_collision(
     target: &Target,
     layout: &Layout,
@@ -54,8 +54,9 @@ pub struct Solids {
     pub touch: f64,
 }
 
-/// Returns the pairs of panels (indices in [`Target::faces`], the lesser first) that penetrate each other by more than
-/// `touch` in the target itself, neighbours included; ordered by the greater face, then by the lesser.
+/// Returns the pairs of panels (indices in [`Target::faces`], the lesser first) that penetrate each other by more
+/// than `touch` in the target itself, neighbours included; ordered by the greater face, then by the lesser. `solids`:
+/// the panels.
 pub fn target_collisions(target: &Target, solids: &Solids) -> Vec<[usize; 2]> {
     let parts = placed(target, solids);
     let reach = reach(target, &parts);
@@ -102,7 +103,8 @@ enum Form {
 
 impl<'t> SweepCheck<'t> {
     /// Returns the check for panels without thickness: triangles shrunk towards their centroids by the fraction
-    /// `shrunk` (0 to 1), so that neighbours do not collide.
+    /// `shrunk` (0 to 1), so that neighbours do not collide. `target` and `layout`: the surface and how it is
+    /// unfolded.
     pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);
@@ -117,7 +119,8 @@ impl<'t> SweepCheck<'t> {
     }
 
     /// Returns the check for panels with thickness; panels that a hinge of the layout joins are built to touch, and
-    /// are not checked against each other.
+    /// are not checked against each other. `target` and `layout`: the surface and how it is unfolded; `solids`: the
+    /// panels.
     pub fn thick(target: &'t Target, layout: &'t Layout, solids: &Solids) -> SweepCheck<'t> {
         let parts = placed(target, solids);
         let reach = reach(target, &parts);
@@ -218,8 +221,8 @@ fn place(target: &Target, face: usize) -> Pose {
     panel_pose(&target.corners(face), &target.normal(face))
 }
 
-/// Returns the pose of the panel frame ([`Solids`]) of a triangle with these corners (m) and this outward unit normal,
-/// in the frame of the corners.
+/// Returns the pose of the panel frame ([`Solids`]) of a triangle with these corners (m) and this outward unit
+/// normal, in the frame of the corners. `z`: the normal.
 pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
     let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();

@@ -4,9 +4,9 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// Returns for each face of the target, in their order, the least index of a face of its orbit under the isometries of
-/// the target, mirrors included, that keep every weight up to `TOLERANCES.symmetry`; two faces with the same one are
-/// equal as roots.
+/// Returns for each face of the target, in their order, the least index of a face of its orbit under the isometries
+/// of the target, mirrors included, that keep every weight up to `TOLERANCES.symmetry`; two faces with the same one
+/// are equal as roots. `weights`: the costs of the target's hinges for the faces that they carry.
 pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let n = target.faces.len();
     let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();

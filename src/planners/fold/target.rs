@@ -159,8 +159,9 @@ impl Target {
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// Returns the hinges of a face in order of its sides, each as its index in [`Target::hinges`] with the index of
-    /// the face across it; sides without a hinge are left out. Panics if there is no such face.
+    /// Returns the hinges of a face (an index in [`Target::faces`]) in order of its sides, each as its index in
+    /// [`Target::hinges`] with the index of the face across it; sides without a hinge are left out. Panics if there
+    /// is no such face.
     #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))

@@ -47,9 +47,9 @@ pub(super) struct Task<'p> {
 
 /// A layout with an order that the judge lets through.
 pub(super) struct Outcome {
-    /// The plan with its verdict.
+    /// The plan of the folding with its verdict.
     pub solution: Solution<Judged>,
-    /// The layout that folds.
+    /// The layout by which the surface folds.
     pub layout: Layout,
     /// For each step, in their order, the faces (indices in [`Target::faces`]) whose hinges fold in it.
     pub steps: Vec<Vec<usize>>,

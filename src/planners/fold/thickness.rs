@@ -16,9 +16,9 @@ pub fn least_opening(thickness: f64, radius: f64) -> f64 {
     2.0 * libm::asin((thickness / 2.0 / radius).clamp(0.0, 1.0))
 }
 
-/// Returns the faces of a layout whose hinges would have to close farther than to the angle `opening` (rad) between the
-/// panels, as ascending indices in [`Target::faces`]: their absolute fold angle is greater than π - `opening` by more
-/// than `TOLERANCES.closing`.
+/// Returns the faces of a layout whose hinges would have to close farther than to the angle `opening` (rad) between
+/// the panels, as ascending indices in [`Target::faces`]: their absolute fold angle is greater than π - `opening` by
+/// more than `TOLERANCES.closing`. `target`: the surface that the layout is of.
 pub fn too_thick(target: &Target, layout: &Layout, opening: f64) -> Vec<usize> {
     let angle = |face: &usize| layout.hinge[*face].map_or(0.0, |hinge| target.hinges[hinge].angle.abs());
     (0..target.faces.len()).filter(|face| angle(face) > PI - opening + TOLERANCES.closing).collect()

@@ -24,8 +24,8 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Returns the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg. Panics if
-    /// there are too few.
+    /// Returns the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg. `inertia`:
+    /// how the mass of a panel is spread. Panics if there are too few.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());

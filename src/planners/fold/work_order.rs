@@ -32,7 +32,8 @@ pub struct WorkOrder {
 
 /// Returns the order of least work against gravity of a layout whose root lies on the ground with its outside down,
 /// by dynamic programming over subsets of hinges, branch by branch of the root; `weights`: by face, N. Of a branch
-/// too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and root first.
+/// too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and root first. `target`: the surface
+/// that the layout is of.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
     let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
@@ -47,7 +48,7 @@ pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrde
 }
 
 /// Returns a lower bound on the work of all orders of a layout, J: the sum over the root's branches of the absolute
-/// change of their potential energy; `weights`: by face, N.
+/// change of their potential energy; `weights`: by face, N. `target`: the surface that the layout is of.
 pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
     let flat = super::kinematics::poses(target, layout, |_| false);
     let gain = |face: usize| {
@@ -63,7 +64,8 @@ pub fn bound(target: &Target, layout: &Layout, weights: &[f64]) -> f64 {
 }
 
 /// Returns the work of Eq. 17 of [Yao et al.](super) for an order of all faces but the root (indices in
-/// [`Target::faces`]), J, computed step by step from the poses of all faces; `weights`: by face, N.
+/// [`Target::faces`]), J, computed step by step from the poses of all faces; `weights`: by face, N. `target` and
+/// `layout`: the surface and how it is unfolded.
 pub fn work(target: &Target, layout: &Layout, weights: &[f64], order: &[usize]) -> f64 {
     let mut folded = vec![false; target.faces.len()];
     let mut height = potential(target, layout, weights, &folded);

@@ -105,8 +105,9 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans a motion along the path, as far as it gets: a search that gets stuck, or that `progress` ends, gives
-/// the motion so far, and the report says why. The body is node paths for a world with gravity and ground.
+/// Plans a motion along the path, as far as it gets (Section IV of [Usevitch et al.](super::truss)): a search that
+/// gets stuck, or that `progress` ends, gives the motion so far, and the report says why. The body is node paths for
+/// a world with gravity and ground. `problem`: the truss and the path; `settings`: the settings of the search.
 ///
 /// # Errors
 /// [`Refusal`] if the truss, its rest on the ground or the path rules out any motion.

@@ -21,18 +21,21 @@ pub enum Objective {
     Springs,
     /// Eq. 14 of [Usevitch et al.](crate::planners::truss): the squared rates of length are least.
     Lengths {
-        /// The weight of the squared displacements, without unit.
+        /// The weight of the squared displacements of the nodes (m²), relative to that of the squared changes of
+        /// length (m²), without unit.
         damping: f64,
     },
     /// Eq. 14 of [Usevitch et al.](crate::planners::truss) about rates that bring the struts back to their mean
     /// length at the start.
     Restoring {
-        /// The weight of the squared displacements, without unit.
+        /// The weight of the squared displacements of the nodes (m²), relative to that of the squared changes of
+        /// length (m²), without unit.
         damping: f64,
     },
     /// The least sum of the absolute rates of length, so that few struts move (a linear program but for the damping).
     Fewest {
-        /// The weight of the squared displacements, 1/m.
+        /// The weight of the squared displacements of the nodes (m²), relative to that of the absolute changes of
+        /// length (m), 1/m.
         damping: f64,
     },
 }
@@ -48,7 +51,7 @@ impl Objective {
 
 /// Returns the quadratic cost of the displacements of the nodes at `x` (m, in the world's frame, by index) in one
 /// step. `pace`: the displacement in the step, m, for a speed of 1 m/s, by which the velocities of `Springs` and the
-/// rates of `Restoring` are scaled.
+/// rates of `Restoring` are scaled. `objective`: the quantity; `truss`: the truss with its limits.
 pub fn cost(objective: Objective, truss: &Structure, x: &[Vec3], pace: f64) -> QuadraticCost {
     match objective {
         Objective::Springs => springs(truss, x, pace),

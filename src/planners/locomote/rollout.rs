@@ -256,7 +256,7 @@ pub(super) struct Rollout<'a> {
     pub settings: &'a Settings,
     /// The distance of the centre of mass in one step, m.
     pub stride: f64,
-    /// The policy of the present steps.
+    /// The policy by which the present steps are made.
     pub policy: StepPolicy,
     /// The positions of the nodes in the world's frame, by index, m.
     pub x: Vec<Vec3>,

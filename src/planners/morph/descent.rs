@@ -100,8 +100,10 @@ pub struct Descent {
 }
 
 /// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the mean of the
-/// nodes. With [`Settings::orientations`], each is screened for some steps, and the truss descends to the best. The
-/// truss must have nodes and struts. If `progress` ends it, the result is the descent at hand, so far.
+/// nodes (Section V of [Usevitch et al.](crate::planners::truss)). With [`Settings::orientations`], each is screened
+/// for some steps, and the truss descends to the best. The truss must have nodes and struts. If `progress` ends it,
+/// the result is the descent at hand, so far. `truss`: the truss with its limits; `settings`: the settings of the
+/// descent.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///

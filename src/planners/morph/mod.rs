@@ -124,9 +124,10 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans a motion towards the target, as near as it gets: a search that gets stuck, or that `progress` ends,
-/// gives the motion to the best fit so far, and the report says why. The body is node paths for a world
-/// without gravity and ground.
+/// Plans a motion towards the target, as near as it gets (Section V of [Usevitch et al.](super::truss)): a search
+/// that gets stuck, or that `progress` ends, gives the motion to the best fit so far, and the report says why. The
+/// body is node paths for a world without gravity and ground. `problem`: the truss and the target; `settings`: the
+/// settings of the descent.
 ///
 /// # Errors
 /// [`Refusal`] if the truss or the target rules out any motion.

@@ -14,7 +14,7 @@ pub struct Open {
 
 /// Returns the outer triangles of struts with the nodes at `x`, m, each as three indices of nodes, counter-clockwise
 /// as seen from outside: the boundary of the convex hull if struts triangulate it, else that of the union of the
-/// tetrahedra of struts.
+/// tetrahedra of struts. `truss`: the truss with its struts.
 ///
 /// # Errors
 /// [`Open`] if neither boundary is closed.

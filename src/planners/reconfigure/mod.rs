@@ -110,7 +110,8 @@ impl fmt::Display for Refusal {
 impl Error for Refusal {}
 
 /// Plans the motion from one configuration of RoFI modules to another, through the snake: the first half unwinds the
-/// start, as [`tosnake`] does; the second half is the unwinding of the goal, run backwards.
+/// start, as [`tosnake`] does; the second half is the unwinding of the goal, run backwards. `settings`: the settings
+/// of both searches and of the judge; `progress` receives reports and may end the search.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
 /// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
@@ -157,7 +158,7 @@ pub fn plan(
 
 /// Plans as [`plan()`] does, and takes the steps of either half from `cache` if they were found before from the same
 /// configuration with the same gravity and the same settings of the search, but for the number of threads; stores
-/// those that it finds.
+/// those that it finds. `problem`: the start and the goal; `progress` receives reports and may end the search.
 ///
 /// # Errors
 /// As [`plan()`].

@@ -107,7 +107,7 @@ impl LatticeSheet {
     }
 
     /// Returns the connections on the path between two panels, given by index, that at `to` first; empty for the same
-    /// panel. Panics if there is no such panel.
+    /// panel. `from` and `to`: the indices of the panels. Panics if there is no such panel.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
         let mut queue = std::collections::VecDeque::from([from]);

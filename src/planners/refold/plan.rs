@@ -126,8 +126,9 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans the motion from one shape to another: it unfolds, changes connections in the plane, and folds again,
-/// with as few changes as are found, without gravity. All actions of the program have cause 0.
+/// Plans the motion from one shape to another: it unfolds, changes connections in the plane, and folds again, with as
+/// few changes as are found, without gravity. All actions of the program have cause 0. `progress` receives reports
+/// and may end the search.
 ///
 /// # Errors
 /// A [`Refusal`]: shapes of different numbers of panels, or a search that ended without a motion that the

@@ -46,7 +46,8 @@ struct Node {
 
 /// Searches for fewer than `most` strokes, free of collisions in their samples, that change the sheet `start` into
 /// `goal`, by best-first search over at most `steps` states taken from the queue. Returns the strokes in order and
-/// the sheet after them; `None` if none were found. No strokes are needed from a sheet that is the goal.
+/// the sheet after them; `None` if none were found. No strokes are needed from a sheet that is the goal. `panels`:
+/// the panels as solids, for samples of collisions.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,

@@ -7,7 +7,7 @@ use super::motion::{Builder, Motion, PlanLimits};
 
 /// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i,
 /// 0, 0), to a column of them along y, in which the row folds up and unrolls like an accordion; all cells keep their
-/// size.
+/// size. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -20,7 +20,7 @@ const QUARTER: i64 = WHOLE / 4;
 
 /// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i,
 /// 0, 0), to a column along y, by [Reif and Slee](super)'s folds (Lemmas 2 to 5). Cells must be able to shrink to
-/// half their size.
+/// half their size. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

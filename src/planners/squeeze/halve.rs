@@ -12,7 +12,7 @@ const QUARTER: i64 = WHOLE / 4;
 /// Returns the motion from a box with the sides `from` along x, y, z, in cells, to one with the sides `to`, by folds
 /// of boxes (Lemma 4 of [Reif and Slee](super)); `None` unless they have as many cells and each pair of sides differs
 /// by a power of two. Cells are numbered from 0, along x first, then y, then z. They must be able to shrink to half
-/// their size, and sides be positive; neither is checked, and a side of 0 panics.
+/// their size, and sides be positive; neither is checked, and a side of 0 panics. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -174,12 +174,12 @@ pub enum Refusal {
     },
     /// The method that was asked for does not apply to these shapes.
     Method {
-        /// The method that was asked for.
+        /// The method that the settings ask for.
         method: Method,
     },
     /// The model asks for zero angular momentum, and no motion of the method is known that keeps it.
     Unbalanced {
-        /// The method that was asked for.
+        /// The method that the settings ask for.
         method: Method,
     },
     /// A number of the plan, which is exact, does not fit 64 bits.

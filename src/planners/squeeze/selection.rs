@@ -15,9 +15,10 @@ use crate::units::{Dimension, quantity};
 /// The greatest squared speed limit, in units: no plan reaches greater ones.
 const SPEED_SQUARED_MAX: f64 = 1e6;
 
-/// Plans a motion from one shape to the other: the fastest candidate that the model allows. The body is lattice
-/// stages, in exact rational numbers of cells and units of time. If `progress` ends the search, the result is the
-/// fastest candidate so far.
+/// Plans a motion from one shape to the other, after [Reif and Slee](super): the fastest candidate that the model
+/// allows. The body is lattice stages, in exact rational numbers of cells and units of time. If `progress` ends the
+/// search, the result is the fastest candidate so far. `problem`: the two shapes and the cell; `settings`: the method
+/// and the limits.
 ///
 /// # Errors
 /// [`Refusal`], of which [`Refusal::Defect`] is a failure of the planner, not of the problem.

@@ -22,7 +22,7 @@ pub fn always_touch(tree: &Tree, a: usize, b: usize, docked: &[(usize, usize)]) 
 }
 
 /// Returns the pairs of shoes docked to each other by closed bonds, as indices in the tree's order ([`Tree::shoe`]),
-/// the smaller first, in ascending order.
+/// the smaller first, in ascending order. `robot`: the configuration; `tree`: its kinematic tree.
 pub fn docked(robot: &Robot, tree: &Tree) -> Vec<(usize, usize)> {
     let mut all: Vec<(usize, usize)> = robot
         .held()

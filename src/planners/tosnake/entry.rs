@@ -46,8 +46,8 @@ pub struct Report {
     pub actions: u64,
 }
 
-/// Plans the motion from a configuration of RoFI modules to a snake: one straight chain of all modules,
-/// dock -Z on dock -Z.
+/// Plans the motion from a configuration of RoFI modules to a snake, after [Mrázek et al.](super): one straight chain
+/// of all modules, dock -Z on dock -Z. `settings`: the settings of the search.
 ///
 /// All causes of the solution are cause 0; its program is a series of steps, in each of which all joints
 /// move at once. The robot never falls apart and its modules never overlap, as far as the planner checks and provided
@@ -87,7 +87,8 @@ pub fn plan(
 
 /// Plans as [`plan`] does, and takes the steps from `cache` if the same robot was unwound from the same start (joint
 /// positions and bonds) with the same gravity and the same settings, but for the number of threads. Otherwise it
-/// searches, and stores what it finds. A failed search stores nothing.
+/// searches, and stores what it finds. A failed search stores nothing. `problem`: the robot with its start and world;
+/// `progress` receives reports and may end the search.
 ///
 /// # Errors
 /// As [`plan`].

@@ -48,7 +48,7 @@ pub struct Chain {
 impl Chain {
     /// Returns the chain from the shoulder of dock `a`'s tentacle over both tips, which are to meet with their docks
     /// -Z, to the shoulder of `b`'s. A shoulder is a shoe of the module of the common ancestor of both docks in the
-    /// tree, which does not move.
+    /// tree, which does not move. `state`: the robot with its tree and poses.
     pub fn new(state: &State, a: Dock, b: Dock) -> Chain {
         let tree = &state.tree;
         let path = tree.path(tree.index[a.shoe()], tree.index[b.shoe()]);
@@ -80,7 +80,7 @@ impl Chain {
     /// Closes the chain by FABRIK (Aristidou and Lasenby 2011) from given joint positions (rad, by module). Returns
     /// the positions of all joints of the robot, rad, by module, or `None` if it does not converge; and the number of
     /// iterations in either case. With `avoid`, tilts keep out of positions in which a ball would overlap one that
-    /// does not move, where they can. `work` counts forward kinematics.
+    /// does not move, where they can. `work` counts forward kinematics. `settings`: the settings of FABRIK.
     pub fn solve(
         &self,
         from: &Joints,

@@ -131,7 +131,7 @@ pub struct LoopClosure<'a> {
     pub lp: &'a Loop,
     /// The mode of the inverse kinematics.
     pub mode: IkMode,
-    /// The settings of the descent.
+    /// The settings of the descent of inverse kinematics.
     pub settings: &'a Settings,
 }
 

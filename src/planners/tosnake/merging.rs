@@ -140,7 +140,7 @@ pub struct Attempt<'a> {
     pub spread: f64,
     /// The side of the loop whose joints move.
     pub side: MovingSide,
-    /// Settings of the inverse kinematics.
+    /// The settings of the inverse kinematics that closes the loop.
     pub settings: &'a inverse_kinematics::Settings,
 }
 
@@ -158,7 +158,8 @@ pub enum MovingSide {
 impl Attempt<'_> {
     /// Returns a path in joint space whose last posture has the docks together and whose straight segments are free;
     /// the postures come in order, without the first, `here` (rad, by module). `None` if this attempt finds none.
-    /// `work` counts forward kinematics.
+    /// `work` counts forward kinematics. `scene`: the robot as checks of collisions see it; `rng`: the generator of
+    /// random starts.
     pub fn path(
         &self,
         scene: &Scene,
@@ -218,7 +219,8 @@ impl Attempt<'_> {
 
     /// Returns a posture (rad, by module) with the docks together and without overlap, found by inverse kinematics
     /// from a random start near the positions `from`; the motion there is not checked. `None` if the descent does not
-    /// close the loop. `work` counts forward kinematics.
+    /// close the loop. `work` counts forward kinematics. `scene`: the robot as checks of collisions see it; `rng`:
+    /// the generator of random starts.
     pub fn closed_posture(
         &self,
         scene: &Scene,
@@ -259,7 +261,8 @@ impl Attempt<'_> {
 }
 
 /// Docks the ends of pairs that were brought together, and undocks for each of them one of the bonds that it can
-/// replace, of which that which frees the most docks -Z; rebuilds the tree. Panics if a pair is of one chain.
+/// replace, of which that which frees the most docks -Z; rebuilds the tree. `state`: the robot, which is changed.
+/// Panics if a pair is of one chain.
 pub fn merge(state: &mut State, pairs: &[Pair]) {
     let replaced: Vec<usize> = pairs.iter().map(|pair| replaceable_bonds(state, pair)[0]).collect();
     for (pair, bond) in pairs.iter().zip(replaced) {

@@ -26,7 +26,7 @@ const LASTING_STEP_MAX: f64 = 0.2;
 /// Skin of a list that is to last, in pitches: five such steps, of which two balls take two.
 const SKIN: f64 = 1.0;
 
-/// A neighbour list (Verlet list): pairs of balls that may be near each other, kept from one call to the next.
+/// A neighbour list (Verlet 1967): pairs of balls that may be near each other, kept from one call to the next.
 pub struct NeighbourList<'a> {
     scene: &'a Scene<'a>,
     /// Two indices whose balls come as near as their docks ask, and are left out.
@@ -45,7 +45,7 @@ pub struct NeighbourList<'a> {
 impl<'a> NeighbourList<'a> {
     /// Returns an empty neighbour list. `docking_pair`: the indices in the tree's order, the smaller first, of two
     /// shoes whose docks are to meet; `parts`: the rigid part of each shoe, see
-    /// [`Tree::parts`](super::tree::Tree::parts).
+    /// [`Tree::parts`](super::tree::Tree::parts). `scene`: the robot as checks of collisions see it.
     pub fn new(scene: &'a Scene<'a>, docking_pair: (usize, usize), parts: Vec<usize>) -> NeighbourList<'a> {
         let (list, listed, before) = (Vec::new(), Vec::new(), Vec::new());
         NeighbourList { scene, docking_pair, parts, list, reach: 0.0, listed, before }

@@ -82,7 +82,8 @@ pub struct StepSequence {
 
 /// Searches for the steps from a configuration to the snake. With a gravity model, no joint exceeds its torque limit
 /// during the motion, as far as the planner checks; without one the robot floats. The method of [Mrázek et
-/// al.](super), chosen by [`Settings::collisions`], ignores the gravity model.
+/// al.](super), chosen by [`Settings::collisions`], ignores the gravity model. `settings`: the settings of the
+/// search.
 ///
 /// # Errors
 /// [`Refusal`]: the start is invalid, torque limits or the budget do not suffice, the paper's method has tried all

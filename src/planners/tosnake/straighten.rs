@@ -12,8 +12,9 @@ use std::f64::consts::FRAC_PI_4;
 /// The least number of joints that are turned at once.
 const TOGETHER_MIN: usize = 2;
 
-/// Turns tilts to zero, together and one by one in random order, until no more are free to; returns the number of tilts
-/// that are left. Under gravity no joint exceeds [`State::load_share`] on the way.
+/// Turns tilts to zero, together and one by one in random order, until no more are free to; returns the number of
+/// tilts that are left. Under gravity no joint exceeds [`State::load_share`] on the way. `state`: the robot, which is
+/// moved; `rng`: the generator of random orders.
 pub fn straighten(state: &mut State, rng: &mut SplitMix64) -> usize {
     loop {
         let joints = tilted(state);
@@ -86,9 +87,10 @@ fn holds_loads(state: &mut State, joint: JointRef, to: f64) -> bool {
     holds
 }
 
-/// Perturbs the robot by random turns of single joints: tilts to multiples of 45°, gamma by multiples of 45°. `turns`:
-/// the number of turns tried. A turn is made if it is free of collisions, takes no joint beyond [`State::load_share`],
-/// and reduces the spread by at most a random fraction of it between 0 and `slack`. Returns the number of turns made.
+/// Perturbs the robot by random turns of single joints: tilts to multiples of 45°, gamma by multiples of 45°.
+/// `turns`: the number of turns tried. A turn is made if it is free of collisions, takes no joint beyond
+/// [`State::load_share`], and reduces the spread by at most a random fraction of it between 0 and `slack`. Returns
+/// the number of turns made. `state`: the robot, which is moved; `rng`: the generator of random turns.
 pub fn perturb(state: &mut State, rng: &mut SplitMix64, turns: usize, slack: f64) -> usize {
     let joints = state.tree.all_joints();
     let mut made = 0;

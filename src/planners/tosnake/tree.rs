@@ -115,8 +115,9 @@ impl Tree {
         }
     }
 
-    /// Recomputes the poses of some shoes, given by their indices in the tree's order, ascending; the others stay, and
-    /// those of their parents must be right. `joints`: rad, by module; poses in pitches, in the frame of the root.
+    /// Recomputes the poses of some shoes, given by their indices in the tree's order, ascending; the others stay,
+    /// and those of their parents must be right. `joints`: rad, by module; poses in pitches, in the frame of the
+    /// root. `moved`: the indices.
     pub fn poses_of(&self, moved: &[usize], joints: &[[f64; 3]], poses: &mut [RigidTransform]) {
         for &index in moved {
             poses[index] = self.pose(index, joints, poses);
@@ -172,8 +173,8 @@ impl Tree {
 
     /// Returns the closure residual of a bond, given by its index in [`Robot::bonds`]: the greatest absolute
     /// deviation of an entry of its second shoe's pose from the pose that the bond asks for, in pitches for positions
-    /// and without unit for rotation matrices. `poses`: of the shoes, in the tree's order, in pitches. Panics if
-    /// there is no such bond.
+    /// and without unit for rotation matrices. `poses`: of the shoes, in the tree's order, in pitches. `robot`: the
+    /// configuration of which it is a bond. Panics if there is no such bond.
     pub fn residual(&self, robot: &Robot, bond: usize, poses: &[RigidTransform]) -> f64 {
         let ends = robot.bonds[bond];
         let wanted = poses[self.index[ends.a.shoe()]].then(&mate(ends.a.face(), ends.turn, ends.b.face()));

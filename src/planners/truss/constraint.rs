@@ -84,7 +84,8 @@ impl Constraint {
     }
 
     /// Returns the gradient of [`value`](Constraint::value) as (index of a node, derivative by its position), without
-    /// unit, for each node that it depends on; gradients of a node that is named twice add up.
+    /// unit, for each node that it depends on; gradients of a node that is named twice add up. `truss`: the truss
+    /// with its limits; `x`: the positions of the nodes, m.
     pub fn gradient(self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         match self {
             // d|a - b| is the unit vector along the strut: a row of the rigidity matrix.

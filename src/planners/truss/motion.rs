@@ -35,6 +35,7 @@ impl Default for TimeLaw {
 impl TimeLaw {
     /// Returns the least duration (s) of a move from positions `x` of the nodes (m): that in which the speed of the
     /// struts suffices, or of a roll its angle divided by `roll_speed`. It is not rounded up to `step_duration_min`.
+    /// `truss`: the truss with its limits; `step`: the move.
     pub fn duration(&self, truss: &Structure, x: &[Vec3], step: &Move) -> f64 {
         match step {
             Move::Linear(y) => truss.rates(x, y).fold(0.0, f64::max) / truss.speed,
@@ -43,7 +44,8 @@ impl TimeLaw {
     }
 }
 
-/// Returns the positions of the nodes after a move from `x`, both in m and in the order of the nodes.
+/// Returns the positions of the nodes after a move from `x`, both in m and in the order of the nodes. `step`: the
+/// move.
 pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
     match step {
         Move::Linear(y) => y.clone(),
@@ -53,6 +55,7 @@ pub fn moved(x: &[Vec3], step: &Move) -> Vec<Vec3> {
 
 /// Returns the length of the path of the centre of mass over the ground, m: the sum of the straight lines between its
 /// positions at the ends of the moves, seen from above. `start`: the positions of the nodes before the first move, m.
+/// `truss`: the truss with its masses.
 pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> f64 {
     let mut x = start.to_vec();
     let mut distance = 0.0;
@@ -67,7 +70,8 @@ pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> 
 
 /// Returns the moves from `start` as node paths: a keyframe for the start at time 0 s, then one for the end of each
 /// move, in the order of `moves`. Each move takes the least time that the struts' speed allows, but no less than the
-/// law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`].
+/// law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`]. `truss`: the
+/// structure made of the problem.
 ///
 /// `start`: the position of each node in the order of the problem's, m, in the world's frame. The strut's kind is
 /// taken to be at index 0 of the plan's library, and the cause of all keyframes is 0.

@@ -77,10 +77,10 @@ pub struct WarmStart {
     neighbours: Option<NeighbourList>,
 }
 
-/// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of the
-/// [paper](super), mended). Every constraint holds there up to the tolerance `rounding`, and all but the rigidity hold
-/// while the nodes move there linearly, clearances and angles up to the tolerance `clearance_margin`
-/// ([`Structure::tightened`] makes up for it).
+/// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of
+/// [Usevitch et al.](super), mended). Every constraint holds there up to the tolerance `rounding`, and all but the
+/// rigidity hold while the nodes move there linearly, clearances and angles up to the tolerance `clearance_margin`
+/// ([`Structure::tightened`] makes up for it). `problem`: the truss, its positions and the cost.
 ///
 /// # Errors
 /// [`StepError`] if no step is found; the active constraints of `warm_start` are then of no use.

@@ -50,9 +50,9 @@ pub struct Limits {
 }
 
 impl Structure {
-    /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits,
-    /// obstacles or terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is
-    /// no node panics.
+    /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits, obstacles
+    /// or terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is no node
+    /// panics. `strut`: the kind of the struts.
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
         let mut mass_fractions = vec![0.0; start.len()];
         for &(a, b) in struts {

@@ -24,8 +24,8 @@ pub struct Surroundings {
     pub parts: Vec<(usize, Part)>,
     /// The ground as a height field in the world's frame; `None` for a plane at height 0.
     pub terrain: Option<HeightField>,
-    /// The depth to which struts may be below the ground that nodes stand on, m: nodes are thicker.
-    /// Planners leave the tolerance `ground_margin` of it unused.
+    /// The depth to which the axes of struts may be below the ground that nodes stand on, m, since nodes are thicker
+    /// than struts. Planners leave the tolerance `ground_margin` of it unused.
     pub sink_depth: f64,
     /// The greatest slope of the terrain, height over distance, without unit; 0 without terrain.
     pub slope_max: f64,

@@ -68,7 +68,8 @@ pub struct Body {
 }
 
 impl Bodies {
-    /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts.
+    /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts. `robot`: the
+    /// assembly.
     ///
     /// # Errors
     /// [`UnsoundLink`] for the first link whose shape is not sound.
@@ -114,7 +115,7 @@ impl Bodies {
     }
 
     /// Returns the allowed penetration depth of two modules, given by index, m: the smaller of those that the two
-    /// allow.
+    /// allow. `a` and `b`: the indices in the assembly.
     pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))

@@ -64,7 +64,8 @@ pub struct Collision {
 
 /// Returns the collisions and the clearance of a plan's body over all instants, by exact collision checking with
 /// motion bounds (Schwarzer, Saha and Latombe 2005), a form of conservative advancement (Mirtich 1996). `tracks` must
-/// be valid, or it panics; `exemptions`: those of the plan.
+/// be valid, or it panics; `exemptions`: those of the plan. `settings`: the settings of the judge; `precision`: how
+/// deep and how early penetrations are found.
 ///
 /// # Errors
 /// [`UnsoundLink`] for the first link whose shape is not sound.

@@ -71,6 +71,7 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
 
 /// Returns the world pose of the base module's body (`X_WB`) at the last sample up to a time (s), as standing,
 /// rolling and tipping have brought it there. `None` for plans of other families, and for plans that are not valid.
+/// `plan`: the plan of an articulated robot.
 pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
     visit(plan, time, &Tolerances::default(), &mut |sample| {

@@ -8,9 +8,10 @@ use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Settings, Tracks, World, WorldFrom};
 use crate::robot::{Assembly, State};
 
-/// Returns the corners of the support polygon, the convex hull of the contact points, of a robot that rests on level
-/// ground under standard gravity, counter-clockwise from above, in the frame of the base module's body as it rests, m.
-/// Fewer than three if the contacts span no area. The state must be valid, or it panics.
+/// Returns the corners of the support polygon, the convex hull of the contact points (McGhee and Frank 1968), of a
+/// robot that rests on level ground under standard gravity, counter-clockwise from above, in the frame of the base
+/// module's body as it rests, m. Fewer than three if the contacts span no area. The state must be valid, or it
+/// panics.
 pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
     let tracks = Tracks::at_rest(robot.clone(), state.clone());
     let rollout = Rollout {

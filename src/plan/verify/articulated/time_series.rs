@@ -19,9 +19,9 @@ pub struct Instant {
     pub time: f64,
     /// The world pose of the base module's body (`X_WB`), in metres.
     pub base: Pose,
-    /// The static stability margin, m: the distance of the centre of mass inside the support, by the plan's rule of
-    /// stability; negative outside, 0 in a support without area. `None` without a ground or weight, and while the
-    /// base is held because support is missing.
+    /// The static stability margin (McGhee and Frank 1968), m: the distance of the centre of mass inside the support,
+    /// by the plan's rule of stability; negative outside, 0 in a support without area. `None` without a ground or
+    /// weight, and while the base is held because support is missing.
     pub margin: Option<f64>,
     /// The torque (N·m) or force (N) that a motor supplies at each joint, by the number in its
     /// [`JointId`](crate::robot::JointId), in the joint's positive direction. An entry is `None` without weight, if
@@ -55,7 +55,8 @@ pub struct GroundForce {
 /// Returns the judge's quantities at these times (s), one instant for each, in the order of `times`. `times` must
 /// ascend (equal ones may follow each other) and lie between 0 and the duration of the plan; a negative one panics.
 /// The list ends early if the judge took all samples that are allowed before it got there, or if `times` do not
-/// ascend. It is empty for plans of other families, and for plans that are not valid.
+/// ascend. It is empty for plans of other families, and for plans that are not valid. `detail`: the quantities that
+/// are computed.
 pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     if validation::check(plan).is_err() {
