@@ -67,14 +67,14 @@ pub enum Reason {
     Aborted {
         /// The message that `abort` states.
         message: String,
-        /// The time at which it aborts, s from the start of the run.
+        /// The time at which the behaviour aborts, s from the start of the run.
         time: f64,
     },
     /// A port to be docked has a bond.
     PortTaken {
         /// The path name of the port.
         port: String,
-        /// The path name of the port that is docked to it.
+        /// The path name of the port that is docked to the port.
         by: String,
     },
     /// A port to be undocked has no bond.

@@ -29,7 +29,7 @@ pub struct Problem {
     pub start_causes: Vec<(JointId, CauseId)>,
     /// The causes of bonds as (index in the robot's bonds, cause), which become those of the tracks.
     pub bond_causes: Vec<(usize, CauseId)>,
-    /// The limits of scheduling, beyond which it is refused, and its tolerances.
+    /// The limits of scheduling, beyond which the behaviour is refused, and its tolerances.
     pub settings: Settings,
 }
 

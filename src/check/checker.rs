@@ -103,7 +103,7 @@ pub(super) struct Signature {
 pub(super) struct TypeParam {
     /// The name of the type parameter.
     pub name: Symbol,
-    /// The types that it may stand for.
+    /// The types that the type parameter may stand for.
     pub bound: Bound,
 }
 
@@ -237,7 +237,7 @@ pub(super) struct Checker<'a> {
     pub loaded: &'a Loaded,
     /// The texts that were read, to which spans refer.
     pub sources: &'a Sources,
-    /// All declarations, by [`DefId`]: the index is the number in it.
+    /// All declarations, by [`DefId`]: the index in this list is the number in the identity.
     pub defs: Vec<DefInfo<'a>>,
     /// The scope of each file; entries of a session use that of the first entry.
     scopes: Vec<HashMap<Symbol, Entity>>,

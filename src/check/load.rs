@@ -66,9 +66,10 @@ pub struct Entry {
     pub text: String,
     /// The line, from 1, of a longer input at which the entry begins; 1 if it is the whole input.
     pub first_line: usize,
-    /// The name under which the value of its last expression is declared; `None` if it is not.
+    /// The name under which the value of the entry's last expression is declared; `None` if the value is not
+    /// declared.
     pub value: Option<Symbol>,
-    /// The name of the declaration that `_` stands for in it; `None` if there is no value before it.
+    /// The name of the declaration that `_` stands for in the entry; `None` if there is no value before the entry.
     pub last: Option<Symbol>,
 }
 

@@ -14,7 +14,7 @@ pub(crate) struct Inside {
     pub name: Symbol,
     /// The text of the declaration without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the member's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
 }
 

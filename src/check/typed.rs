@@ -60,7 +60,7 @@ pub struct Def {
     pub whole: Span,
     /// The file that contains the declaration.
     pub file: FileId,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the declaration's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
     /// The typed body of the declaration, by its keyword.
     pub kind: DefKind,
@@ -145,7 +145,7 @@ pub struct Param {
     /// The default value, evaluated in the frame of the callee after the parameters before it; `None` if an
     /// argument is needed.
     pub default: Option<Expr>,
-    /// True if it takes all remaining positional arguments as one list; `ty` is then that of an element.
+    /// True if the parameter takes all remaining positional arguments as one list; `ty` is then that of an element.
     pub variadic: bool,
 }
 
@@ -154,9 +154,9 @@ pub struct Param {
 pub struct RecordDef {
     /// The record that this one extends, as a `Folding` is a `Plan`; `None` if it stands alone.
     pub is: Option<DefId>,
-    /// Its own fields, in the order of the text; inherited ones are in the record it extends.
+    /// The record's own fields, in the order of the text; inherited ones are in the record that it extends.
     pub fields: Vec<RecordField>,
-    /// Its own methods, in the order of the text: natives whose first parameter is the record.
+    /// The record's own methods, in the order of the text: natives whose first parameter is the record.
     pub methods: Vec<DefId>,
     /// The fields as a call by name takes them; `None` for an `extern type`, which only built-ins build.
     pub build: Option<RecordBuild>,
@@ -178,19 +178,20 @@ pub struct RecordField {
     pub name: Symbol,
     /// The type of the value that the field has.
     pub ty: Type,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the field's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
 }
 
 /// A connector, `connector`, with its clauses as expressions not yet evaluated.
 #[derive(Clone, Debug)]
 pub struct ConnectorDef {
-    /// The connectors that mate with it, each with the span of its name in the clause, in the order of the text.
+    /// The connectors that mate with this one, each with the span of its name in the clause, in the order of the
+    /// text.
     pub mates: Vec<(DefId, Span)>,
-    /// The number of turns at which it mates, evenly over a full turn; `None` if the clause is missing.
+    /// The number of turns at which the connector mates, evenly over a full turn; `None` if the clause is missing.
     pub turns: Option<Expr>,
-    /// The greatest forces and torques that it holds; the type of an expression distinguishes a force from a
-    /// torque.
+    /// The greatest forces and torques that a bond of the connector holds; the type of an expression distinguishes a
+    /// force from a torque.
     pub holds: Vec<Expr>,
     /// The tolerances of docking, as (distance, a length; angle between the ports, `None` if it is not written);
     /// `None` if the clause is missing.
@@ -215,14 +216,14 @@ pub struct Member {
     pub ty: Type,
     /// The kind of the member, with the expression that gives its value.
     pub kind: MemberKind,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the member's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
 }
 
 /// The meaning of a member, with the expression that gives its value or the index of its declaration.
 #[derive(Clone, Debug)]
 pub enum MemberKind {
-    /// The parameter at this index of the declaration's `params`.
+    /// A parameter of the declaration, by its index in the declaration's `params`.
     Param(usize),
     /// A `let` at the top of the body with its value, which is evaluated when first needed.
     Let(Expr),
@@ -233,7 +234,7 @@ pub enum MemberKind {
         /// The declared length of a list of ports; `None` for a single port, and where no length is
         /// written.
         count: Option<Expr>,
-        /// The port, or the list of ports, that it names.
+        /// The expression of the port, or of the list of ports, that the member names.
         value: Expr,
     },
     /// A behaviour: an index into [`ConfigDef::behaviors`].
@@ -250,7 +251,7 @@ pub struct Require {
     pub span: Span,
     /// The condition that must hold, an expression of type `Bool`.
     pub condition: Expr,
-    /// The message if it does not hold, a text; `None` if none is written.
+    /// The message if the condition does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
 }
 
@@ -302,7 +303,7 @@ pub struct PartDef {
     pub name: Symbol,
     /// The span of the name in the declaration.
     pub span: Span,
-    /// The module or configuration of which it is an instance; after a mistake the configuration itself, and
+    /// The module or configuration of which the part is an instance; after a mistake the configuration itself, and
     /// the type of the member is then an error.
     pub of: DefId,
     /// The length of a list of parts; `None` for a single part.
@@ -334,7 +335,7 @@ pub struct BehaviorDef {
     pub name: Symbol,
     /// The span of the name in the declaration.
     pub span: Span,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the behaviour's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
     /// The parameters, in order: the first locals of the body.
     pub params: Vec<Param>,
@@ -433,7 +434,7 @@ pub struct LatticeDef {
     pub params: Vec<Param>,
     /// The members of the declaration, which are its parameters, in order.
     pub members: Vec<Member>,
-    /// The cell that it is made of.
+    /// The declaration of the cell that the lattice is made of.
     pub of: DefId,
     /// The cells: an expression of type `Cells`.
     pub value: Expr,
@@ -448,7 +449,7 @@ pub struct TrussDef {
     pub params: Vec<Param>,
     /// The members of the declaration: its parameters, `let`s and nodes.
     pub members: Vec<Member>,
-    /// The strut that it is made of.
+    /// The declaration of the strut that the truss is made of.
     pub of: DefId,
     /// The nodes and struts of the truss.
     pub body: TrussBody,

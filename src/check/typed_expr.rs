@@ -52,7 +52,7 @@ pub enum StmtKind {
     Expect {
         /// The condition that the test expects to hold.
         condition: Expr,
-        /// The message if it does not hold, a text; `None` if none is written.
+        /// The message if the condition does not hold, a text; `None` if none is written.
         message: Option<Expr>,
     },
     /// A branch of statements: `if condition { ... } else { ... }`.
@@ -96,7 +96,7 @@ pub enum ExprKind {
     Number(f64),
     /// A whole number that fits in 64 bits.
     Int(i64),
-    /// A whole number that does not fit, by its decimal digits.
+    /// A whole number that does not fit in 64 bits, by its decimal digits.
     BigInt(Symbol),
     /// A truth value: `true` or `false`.
     Bool(bool),
@@ -108,7 +108,7 @@ pub enum ExprKind {
     Shown {
         /// The expression of the quantity, or of the list or vector of quantities.
         value: Box<Expr>,
-        /// The unit, by its name and its factor to SI; `None`: one that suits the value.
+        /// The unit in which the quantities are shown, as (name, factor to SI); `None`: one that suits the value.
         unit: Option<(Arc<str>, f64)>,
         /// The number of decimals; `None`: as `print` shows them.
         decimals: Option<usize>,

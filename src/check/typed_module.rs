@@ -63,7 +63,7 @@ pub struct JointDef {
     /// The dimension of the joint's position: length for a prismatic joint, angle for a revolute or fixed one, and
     /// for a mimic joint that of the first joint that it follows.
     pub dimension: Dimension,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the joint's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
     /// The kind of the joint: between two links, or a mimic joint.
     pub kind: JointDefKind,
@@ -105,7 +105,7 @@ pub struct PortGroup {
     pub span: Span,
     /// True for an array of ports.
     pub array: bool,
-    /// The text of its doc comment; `None` if it has none.
+    /// The text of the port's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
 }
 
@@ -116,7 +116,8 @@ pub struct MotorDef {
     pub name: Symbol,
     /// The span of the name in the declaration.
     pub span: Span,
-    /// The linear combination of joints that its limits are about, as (index into [`ModuleDef::joints`], factor).
+    /// The linear combination of joints that the motor's limits are about, as (index into [`ModuleDef::joints`],
+    /// factor).
     pub joints: Vec<(usize, Expr)>,
     /// The greatest speed of the motor, an angular speed; `None` if it is not stated.
     pub max_speed: Option<Expr>,

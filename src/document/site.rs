@@ -41,9 +41,9 @@ pub struct Site {
 /// A link in documentation whose target the site does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkFault {
-    /// The title of the page that contains it: `std.smores`, or the path of a program.
+    /// The title of the page that contains the link: `std.smores`, or the path of a program.
     pub file: String,
-    /// The declaration whose documentation contains it; empty for the documentation of a file.
+    /// The declaration whose documentation contains the link; empty for the documentation of a file.
     pub entry: String,
     /// The target of the link as it is written.
     pub link: String,

@@ -6,8 +6,8 @@ pub(super) struct Tolerances {
     pub node_distance: f64,
     /// The length by which struts may be outside of their range, m: a rounding of what was meant.
     pub strut_length: f64,
-    /// The difference between a turn of a bond and an allowed one, as a fraction of a whole turn, below which it
-    /// counts as that: a rounding of `360deg / 4`.
+    /// The difference between a turn of a bond and an allowed one, as a fraction of a whole turn, below which the
+    /// turn counts as the allowed one: a rounding of `360deg / 4`.
     pub turn: f64,
     /// The distance by which loops of bonds may miss closing, m: rounding, not slack.
     pub closure_distance: f64,

@@ -33,7 +33,7 @@ pub enum FormatFault {
         /// The number of vertices of the file.
         count: usize,
     },
-    /// A corner of some face of an OBJ file is no vertex of it.
+    /// A corner of some face of an OBJ file is no vertex of the file.
     NoSuchVertex,
     /// The first word of an OFF file is none of the format's.
     NotOff {

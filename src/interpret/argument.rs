@@ -15,7 +15,7 @@ use std::rc::Rc;
 /// The type of a parameter as its native reads it, which a test compares with the type that the declaration states.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// Any value: the declaration has a type parameter there, or several types.
+    /// A value of any type: the declaration has a type parameter there, or several types.
     Value,
     /// A truth value: `true` or `false`.
     Bool,

@@ -101,7 +101,7 @@ pub struct PartGroup {
     pub elements: Vec<PartElement>,
 }
 
-/// One part of a configuration, an element of a list of parts too, with the place of its modules among all.
+/// A part of a configuration, single or an element of a list of parts, with the place of its modules among all.
 pub struct PartElement {
     /// The elaborated declaration of the part.
     pub design: Rc<Design>,

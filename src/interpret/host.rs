@@ -65,7 +65,7 @@ pub struct Options {
     pub seed: u64,
     /// True if a page is drawn of every plan that is emitted, and of the declared robots if the run wrote no `.html`.
     pub pages: bool,
-    /// The command that runs the program again, for the pages that it draws; may be empty.
+    /// The command that runs the program again, for the pages that the run draws; may be empty.
     pub command: String,
     /// The width and the height of still pictures, pixels; `None`: their natural size.
     pub picture: Option<(usize, usize)>,

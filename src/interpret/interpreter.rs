@@ -82,7 +82,7 @@ pub struct Reported {
     pub unknown_at: Option<Span>,
 }
 
-/// The computed values that stay: for the rest of the run, and in a session for the next entries.
+/// The values that were computed and stay: for the rest of the run, and in a session for the next entries.
 #[derive(Clone, Default)]
 pub struct Memory {
     /// The values of top-level lets, by the declaration's [`DefId`]; others stay [`Lazy::Waiting`].

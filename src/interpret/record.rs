@@ -19,7 +19,7 @@ use std::rc::Rc;
 pub enum Record {
     /// A record that a `record` declares.
     Declared(DeclaredRecord),
-    /// A `Plan`, or what a planner makes of it.
+    /// A `Plan`, or a record that a planner makes and that is a plan.
     Plan(Rc<PlanValue>),
     /// A `Report`: the verdict of the judge, and the headline under which it is shown.
     Report(Rc<Verdict>, String),

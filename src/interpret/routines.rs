@@ -18,7 +18,7 @@ use std::rc::Rc;
 /// The greatest size of the values of one run that are told besides their text, as JSON, in bytes.
 const VALUES_BYTES_MAX: usize = 1 << 24;
 
-/// The arguments in the order of the parameters; `None`: the default is wanted.
+/// The arguments of a call with their spans, in the order of the parameters.
 pub struct Args {
     /// The arguments, in the order of the parameters; `None` where the default is wanted.
     pub values: Vec<Option<Value>>,

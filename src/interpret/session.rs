@@ -122,9 +122,9 @@ impl Evaluator {
         self.0.is_abandoned()
     }
 
-    /// Waits for an abandoned task; returns true if it went well after all and changed the memory. `None` if the user
-    /// abandons the wait, too. There must be one ([`is_abandoned`](Self::is_abandoned)): otherwise the wait does not
-    /// end by itself.
+    /// Waits for an abandoned task; returns true if the task went well after all and changed the memory. `None` if
+    /// the user abandons the wait, too. There must be such a task ([`is_abandoned`](Self::is_abandoned)): otherwise
+    /// the wait does not end by itself.
     pub fn wait_for_abandoned(&self) -> Option<bool> {
         self.0.wait_for_abandoned().map(|answer| answer.kept)
     }

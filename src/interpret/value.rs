@@ -121,7 +121,7 @@ pub enum Callable {
 /// the whole.
 #[derive(Clone, Debug)]
 pub struct JointValue {
-    /// The outermost robot that it belongs to.
+    /// The outermost robot that the joint belongs to.
     pub robot: Subject,
     /// The module or the connection that has the joint.
     pub owner: JointOwner,
@@ -133,7 +133,7 @@ pub struct JointValue {
 /// port of a part is a port of the whole: `leg[2].m[0].top`.
 #[derive(Clone, Debug)]
 pub struct PortValue {
-    /// The outermost robot that it belongs to.
+    /// The outermost robot that the port belongs to.
     pub robot: Subject,
     /// The index of the module, from 0, among the modules of that robot in the order in which its parts list them.
     pub module: usize,
@@ -255,7 +255,7 @@ pub struct Solid {
 pub struct JointSpec {
     /// The degree of freedom: revolute, prismatic or fixed.
     pub kind: JointKind,
-    /// The axis in the joint's frame as it is written; it need not be of unit length.
+    /// The axis as a vector in the joint's frame, as written; it need not be of unit length.
     pub axis: Vec3,
     /// The limits of position, speed, acceleration and effort, in rad or m, s, and N·m or N.
     pub limits: Limits,

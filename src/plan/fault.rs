@@ -170,12 +170,12 @@ pub enum TracksFault {
     },
     /// A start pose without one position for each joint.
     StartJoints {
-        /// The number of joints, which is the number of positions that it must have.
+        /// The number of joints, which is the number of positions that the start pose must have.
         joints: usize,
     },
     /// A start pose without one flag for each bond.
     StartBonds {
-        /// The number of bonds, which is the number of flags that it must have.
+        /// The number of bonds, which is the number of flags that the start pose must have.
         bonds: usize,
     },
     /// Tracks that are not in ascending order of joint.
@@ -215,7 +215,7 @@ pub enum TracksFault {
     },
     /// A joint that is moved farther from 0 than is allowed.
     FarJoint {
-        /// The greatest absolute value of its position that is allowed, rad or m.
+        /// The greatest absolute value of a joint's position that is allowed, rad or m.
         limit: f64,
     },
     /// A track of a joint that takes no commands.
@@ -291,7 +291,7 @@ pub enum NodePathsFault {
     KeyframeNodes {
         /// The time of the keyframe, s.
         time: f64,
-        /// The number of nodes, which is the number of positions that it must have.
+        /// The number of nodes, which is the number of positions that the keyframe must have.
         nodes: usize,
     },
     /// A roll about two nodes that are one.

@@ -20,7 +20,8 @@ pub enum OperationError {
     },
     /// Two plans of different families of robots: articulated, lattice, truss.
     Families,
-    /// Two articulated robots of which the one at its end does not match the other at its start.
+    /// Two articulated robots of which the first at its end does not match the second at its start, for the reason
+    /// given.
     Robots(Mismatch),
     /// Two trusses that differ in their struts, or in the position of a node where the plans meet.
     Trusses {

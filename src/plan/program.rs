@@ -30,7 +30,7 @@ pub enum Node {
     Repeat {
         /// The behaviour that is repeated.
         body: Arc<Node>,
-        /// The number of times that it is carried out.
+        /// The number of times that the behaviour is carried out.
         times: u64,
     },
     /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.
@@ -65,7 +65,7 @@ pub enum Node {
     Exempt {
         /// The behaviour that is excused.
         body: Arc<Node>,
-        /// The checks that it is excused from.
+        /// The check that the behaviour is excused from.
         kind: ExemptionKind,
         /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,

@@ -23,7 +23,7 @@ pub struct Provenance {
     /// The value of the plan that the bound is about, not below it; `None` as for the bound.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reached: Option<ObjectiveValue>,
-    /// The tool that planned it, with its version: `modl 0.1.0`.
+    /// The tool that planned the motion, with its version: `modl 0.1.0`.
     pub tool: String,
     /// The changes of the plan since it was made, in order of time.
     pub history: Vec<Change>,

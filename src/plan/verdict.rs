@@ -77,11 +77,11 @@ impl CheckKind {
 /// The kind of quantity of a worst value, which decides its unit in texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// A length, shown in a unit of length; m.
+    /// A length in m, which texts show in a unit that suits it.
     Length,
     /// A fraction of a limit, without unit.
     Fraction,
-    /// An angle, shown in degrees; rad.
+    /// An angle in rad, which texts show in degrees.
     Angle,
     /// A number without unit.
     Number,
@@ -202,7 +202,7 @@ pub struct Failure {
     pub message: String,
     /// The amount found, in SI units; 0 where there is none.
     pub value: f64,
-    /// The limit that it violates, in SI units; 0 where there is none.
+    /// The limit that the amount violates, in SI units; 0 where there is none.
     pub limit: f64,
     /// The commands to blame, at most three, as indices in the plan's causes: each of them held still removes the
     /// failure; if none does alone, those that move at its time. Empty if none was found or sought.

@@ -10,9 +10,10 @@ use nalgebra::DMatrix;
 pub struct Drive {
     /// The path name of the joint or motor.
     pub name: String,
-    /// Its limits, in rad or m and N·m or N.
+    /// The limits of the drive, in rad or m and N·m or N.
     pub limits: Limits,
-    /// The joints, by the numbers in their [`JointId`](super::JointId), and factors whose sum is its position.
+    /// The terms of the drive's position, as joints, by the numbers in their [`JointId`](super::JointId), with
+    /// factors.
     pub terms: Vec<(usize, f64)>,
     /// True for positions in rad, false for m.
     pub turns: bool,

@@ -79,9 +79,9 @@ pub enum LibraryFault {
     Shape(Unsound),
     /// A drawn shape that sticks out of the shape that is judged, farther than the link states.
     LeftOut {
-        /// A lower bound on the distance by which it does, m.
+        /// A lower bound on the distance by which the drawn shape sticks out, m.
         found: f64,
-        /// The distance that the link states, m.
+        /// The distance that the link states as left out, m.
         stated: f64,
     },
     /// A centre of mass outside the axis-aligned box around its module.
@@ -116,11 +116,11 @@ pub enum LibraryFault {
     Axis,
     /// A range that ends before it begins.
     RangeOrder,
-    /// A joint that follows itself, directly or over others.
+    /// A joint of a module that follows itself, directly or over other joints.
     MimicCycle,
     /// A joint that follows others over too many steps.
     MimicDepth {
-        /// The greatest number of steps from a joint to the last that it follows that is allowed.
+        /// The greatest number of steps, from a joint to the last one that it follows, that is allowed.
         most: usize,
     },
     /// A cell whose contracted edge is not shorter than its expanded one.

@@ -26,13 +26,13 @@ pub struct Library {
 pub struct Connector {
     /// The declared name of the connector.
     pub name: String,
-    /// The connectors that it mates with, as indices in [`Library::connectors`]; the relation is symmetric.
+    /// The connectors that this one mates with, as indices in [`Library::connectors`]; the relation is symmetric.
     pub mates: Vec<usize>,
     /// The number of allowed turns, at least 1: `k · 360° / turns` about the common normal, k from 0 to `turns` - 1.
     pub turns: u32,
     /// The greatest pull along the port's normal that a bond holds, N; `None`: no limit stated.
     pub holds_force: Option<f64>,
-    /// The greatest moment across the bond that it holds, N·m; `None`: no limit stated.
+    /// The greatest moment across a bond that the bond holds, N·m; `None`: no limit stated.
     pub holds_moment: Option<f64>,
     /// The greatest error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
@@ -81,7 +81,7 @@ pub struct ModuleType {
     pub touching: Vec<(usize, usize)>,
     /// The greatest depth of a penetration that counts as touching, m; a deeper one is a collision.
     pub touch: f64,
-    /// The greatest distance from the ground at which a link touches it, m.
+    /// The greatest distance from the ground at which a link counts as touching the ground, m.
     pub contact: f64,
 }
 
@@ -207,7 +207,7 @@ pub struct Limits {
 pub struct Motor {
     /// The declared name of the motor.
     pub name: String,
-    /// The joints that it drives, each as (index in [`ModuleType::joints`], factor).
+    /// The joints that the motor drives, each as (index in [`ModuleType::joints`], factor).
     pub joints: Vec<(usize, f64)>,
     /// The limits of the motor: range, speed, acceleration and effort, in the units of `factor · joint position`.
     pub limits: Limits,
@@ -235,9 +235,9 @@ pub struct Port {
 pub struct Cell {
     /// The declared name of the cell.
     pub name: String,
-    /// The edge of the cube when it is expanded, m.
+    /// The edge of the cube when the cell is expanded, m.
     pub size: f64,
-    /// The edge of the cube when it is contracted, m.
+    /// The edge of the cube when the cell is contracted, m.
     pub shrinks_to: f64,
     /// The mass of the cell, kg.
     pub mass: f64,
@@ -261,6 +261,6 @@ pub struct Strut {
     pub force: f64,
     /// The mass of the strut, kg.
     pub mass: f64,
-    /// The least distance of its axis from those of struts that share no node with it, and from obstacles, m.
+    /// The least distance of the strut's axis from those of struts that share no node with it, and from obstacles, m.
     pub clearance: f64,
 }

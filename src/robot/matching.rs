@@ -51,7 +51,7 @@ pub enum Mismatch {
         /// The number of modules of B.
         b: usize,
     },
-    /// B is not connected, so that its bonds do not identify its modules.
+    /// B is not connected, so that the bonds do not identify the modules.
     Pieces,
     /// A module of B is of another type than the module of A that the best attempt maps it to.
     Kind {

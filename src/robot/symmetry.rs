@@ -14,11 +14,11 @@ const TOL_SAME: f64 = 1e-9;
 /// the index of its image among the parts of its sort.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Symmetry {
-    /// The image of each link: the link whose pose it takes.
+    /// The image of each link: the index of the link whose pose the link takes.
     pub links: Vec<usize>,
-    /// The image of each joint: the joint whose axis it takes.
+    /// The image of each joint: the index of the joint whose axis the joint takes.
     pub joints: Vec<usize>,
-    /// The image of each port: the port whose frame it takes.
+    /// The image of each port: the index of the port whose frame the port takes.
     pub ports: Vec<usize>,
 }
 

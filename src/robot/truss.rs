@@ -24,7 +24,8 @@ pub(super) struct RigidityTolerances {
     /// The least singular value, as a fraction of the largest, above which a truss is clearly rigid, so that the banded
     /// decomposition decides. 1e-7: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
     pub clearly_rigid: f64,
-    /// The relative change of its value up to which an iteration counts as converged. 1e-11: below what is shown.
+    /// The relative change of the value of an iteration up to which the iteration counts as converged. 1e-11: below
+    /// what is shown.
     pub converged: f64,
     /// The distance from a line, as a fraction of its length, below which nodes lie on it. 1e-6: far above rounding.
     pub on_line: f64,

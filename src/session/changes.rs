@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 /// A declaration of a file that is new, changed or gone since the file was read before.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// The name of the file that declares it.
+    /// The name of the file that contains the declaration.
     pub file: String,
     /// The name of the declaration that changed.
     pub name: String,
     /// The kind of change: added, changed or removed.
     pub kind: ChangeKind,
-    /// The visible names of the session that depend on it, sorted; empty if it is gone.
+    /// The visible names of the session that depend on the declaration, sorted; empty if it is gone.
     pub users: Vec<String>,
 }
 

@@ -7,7 +7,7 @@ pub struct FileId(pub u32);
 /// A half-open range of bytes `start..end` of one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
-    /// The file of which it is a range, by its identity among [`Sources`](super::Sources).
+    /// The file of which the span is a range, by its identity among [`Sources`](super::Sources).
     pub file: FileId,
     /// The offset of the first byte in the file, from 0.
     pub start: u32,

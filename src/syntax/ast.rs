@@ -122,7 +122,7 @@ impl ItemKind {
 /// An import: `use std.smores.{Smores, Chain3 as Chain}`, `use "parts/claw.mod".{Claw}`, `use std.gaits`.
 #[derive(Clone, Debug)]
 pub struct Use {
-    /// The imported file, or the path that names it.
+    /// The imported file, or the module path that names the file.
     pub source: UseSource,
     /// The imported names, in order. `None` for a bare `use std.gaits`, which imports the last word of the path: a
     /// file, or an item of the file that the path before it names. `check` refuses `use "claw.mod"` without names.
@@ -218,7 +218,7 @@ pub struct Record {
 pub struct ExternType {
     /// The name that the declaration gives the record type.
     pub name: Name,
-    /// The record that it extends; `None` if it stands alone.
+    /// The record that the type extends; `None` if it stands alone.
     pub is: Option<Name>,
     /// The fields of the record, in order.
     pub fields: Vec<ExternField>,
@@ -230,7 +230,7 @@ pub struct ExternType {
 /// A field of a record type of the standard library (`extern type`), with its documentation.
 #[derive(Clone, Debug)]
 pub struct ExternField {
-    /// The text of the `///` lines before it, without the marks; `None` if there are none.
+    /// The text of the `///` lines before the field, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// The name of the field, as the declaration states it.
     pub name: Name,
@@ -311,11 +311,11 @@ pub struct Connector {
 /// A clause between the braces of a connector, by its keyword, with what was written after it.
 #[derive(Clone, Debug)]
 pub enum ConnectorClause {
-    /// The connectors that it mates with, by name: `mates Plug, Socket`.
+    /// The connectors that the declared one mates with, by name: `mates Plug, Socket`.
     Mates(Vec<Name>),
-    /// The number of turns at which it mates, evenly over a full turn: `turns 4`.
+    /// The number of turns at which the connector mates, evenly over a full turn: `turns 4`.
     Turns(Expr),
-    /// The greatest force or torque that it holds: `holds 88N`, `holds 1.9N*m`.
+    /// The greatest force or torque that a bond of the connector holds: `holds 88N`, `holds 1.9N*m`.
     Holds(Expr),
     /// The error of position and angle that docking tolerates: `capture 4mm 5deg`.
     Capture {
@@ -353,7 +353,7 @@ pub struct Module {
 pub struct ModuleClause {
     /// The span of the clause in the source text.
     pub span: Span,
-    /// The text of the `///` lines before it, without the marks; `None` if there are none.
+    /// The text of the `///` lines before the clause, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// The kind of the clause, with what was written after its keyword.
     pub kind: ModuleClauseKind,
@@ -374,7 +374,7 @@ pub enum ModuleClauseKind {
         name: Name,
         /// The shape that is drawn, and that collides unless `collides` is written.
         shape: Expr,
-        /// The shape behind `collides`, if it is written.
+        /// The shape behind `collides`; `None` if the word is not written.
         collides: Option<Expr>,
         /// The pose of the shape in the link's frame; `None` for the link's frame itself.
         at: Option<Placement>,
@@ -396,7 +396,7 @@ pub enum ModuleClauseKind {
     Mimic {
         /// The name of the joint, by which programs command it.
         name: Name,
-        /// The linear combination of joints that it follows.
+        /// The linear combination of joints that the joint follows.
         value: Expr,
     },
     /// A port or an array of ports: `port side[4] : Face on base at ... facing +X up +Z`.
@@ -405,7 +405,7 @@ pub enum ModuleClauseKind {
     Motor {
         /// The name of the motor, for messages and plans.
         name: Name,
-        /// The linear combination of the joints that it drives.
+        /// The linear combination of the joints that the motor drives.
         value: Expr,
         /// The limits in the parentheses; empty if there are none.
         args: Vec<Arg>,
@@ -528,7 +528,7 @@ pub struct Config {
 pub struct ConfigClause {
     /// The span of the clause in the source text.
     pub span: Span,
-    /// The text of the `///` lines before it, without the marks; `None` if there are none.
+    /// The text of the `///` lines before the clause, without the marks; `None` if there are none.
     pub doc: Option<String>,
     /// The kind of the clause, with what was written after its keyword.
     pub kind: ConfigClauseKind,
@@ -546,7 +546,7 @@ pub enum ConfigClauseKind {
         name: Name,
         /// The declared length of an array; `None` for a single port.
         count: Option<Expr>,
-        /// The port, or the list of ports, that it names.
+        /// The expression of the port, or of the list of ports, that the clause names.
         value: Expr,
     },
     /// The path of the base module, whose pose is that of the robot: `base path`.
@@ -559,7 +559,7 @@ pub enum ConfigClauseKind {
         a: Path,
         /// The path of the second port.
         b: Path,
-        /// The angle behind `turn`, if it is written.
+        /// The angle behind `turn`; `None` if the word is not written.
         turn: Option<Expr>,
     },
     /// A start position: `set joint = value`.
@@ -602,7 +602,7 @@ pub struct Part {
     pub name: Name,
     /// The length of a list of parts; `None` for a single part.
     pub count: Option<PartCount>,
-    /// The path of the module or configuration that it is an instance of.
+    /// The path of the module or configuration that the part is an instance of.
     pub ty: Vec<Name>,
     /// The arguments, in order; `None` if no parentheses are written.
     pub args: Option<Vec<Arg>>,
@@ -655,7 +655,7 @@ pub struct Require {
     pub span: Span,
     /// The condition that must hold, an expression of type `Bool`.
     pub condition: Expr,
-    /// The message if it does not hold, a text; `None` if none is written.
+    /// The message if the condition does not hold, a text; `None` if none is written.
     pub message: Option<Expr>,
 }
 
@@ -693,9 +693,9 @@ pub struct Lattice {
     pub name: Name,
     /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The path of the declaration that it is made of: a name, or several with dots between them.
+    /// The path of the cell that the lattice is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
-    /// The expression of type `Cells` for the places of its cells.
+    /// The expression of type `Cells` that gives the places of the cells.
     pub value: Expr,
 }
 
@@ -706,7 +706,7 @@ pub struct Truss {
     pub name: Name,
     /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
-    /// The path of the declaration that it is made of: a name, or several with dots between them.
+    /// The path of the strut that the truss is made of: a name, or several with dots between them.
     pub of: Vec<Name>,
     /// The nodes and struts, as a value or as clauses.
     pub body: TrussBody,
@@ -808,7 +808,7 @@ pub enum StmtKind {
     Expect {
         /// The condition that the test expects to hold.
         condition: Expr,
-        /// The message if it does not hold, a text, if one is written.
+        /// The message if the condition does not hold, a text; `None` if none is written.
         message: Option<Expr>,
     },
     /// A requirement on the declared values: `require condition, message`.

@@ -21,7 +21,7 @@ pub enum TokenKind {
     LineComment,
     /// A block comment, `/* ... */`, which may contain others.
     BlockComment {
-        /// The depth of comments within each other in it; 1 if no comment is nested.
+        /// The depth of comments within each other in the comment; 1 if no comment is nested.
         depth: usize,
     },
     /// A word: a name or a keyword.
@@ -31,7 +31,7 @@ pub enum TokenKind {
     Number,
     /// A text literal, `"..."` or `"""..."""`, with the contents of its `{ }`.
     Text {
-        /// The depth of brackets and texts nested in it; 0 without `{ }`.
+        /// The depth of brackets and texts nested in the text; 0 without `{ }`.
         depth: usize,
     },
     /// An opening bracket: `(`, `[` or `{`.

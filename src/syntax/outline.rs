@@ -13,13 +13,13 @@ use std::ops::Range;
 pub enum Role {
     /// A sign or `not` before its operand.
     Prefix,
-    /// An opening bracket attached to what is before it: a call, an index, parameters.
+    /// An opening bracket attached to the token before it: a call, an index, parameters.
     Tight,
     /// The braces around the names of an import, `use a.{b, c}`.
     Names,
     /// `<` or `>` around the arguments of a type.
     Angle,
-    /// The `for` or `if` of a comprehension, which does not continue the expression before it.
+    /// The `for` or `if` of a comprehension, which does not continue the expression in front.
     Each,
     /// The `:` after the name of a joint or port, which is spaced on both sides.
     Spaced,

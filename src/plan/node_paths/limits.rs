@@ -68,31 +68,31 @@ impl TrussLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Margins {
-    /// The least distance of a strut's length to the nearer end of its range, m; `None` if it is not stated.
+    /// The least distance of a strut's length to the nearer end of its range, m; `None` if the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
     /// The least distance between struts that share no node minus the clearance, m; `None` if none are nearer than
-    /// twice the clearance, or it is not stated.
+    /// twice the clearance, or the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The least distance of a strut from an obstacle minus the clearance, m; `None` if none is nearer than twice the
-    /// clearance, or it is not stated.
+    /// clearance, or the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<f64>,
     /// The distance of the centre of mass inside the hull of the nodes on the ground, m; `None` without ground, or if
-    /// it is not stated.
+    /// the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub support: Option<f64>,
-    /// The least angle between struts that share a node minus the limit, rad; `None` without a limit, or if it is not
-    /// stated.
+    /// The least angle between struts that share a node minus the limit, rad; `None` without a limit, or if the
+    /// margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
-    /// The least singular value of the rigidity matrix minus its limit, without unit; `None` without a limit, or if it
-    /// is not stated.
+    /// The least singular value of the rigidity matrix minus its limit, without unit; `None` without a limit, or if
+    /// the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<f64>,
-    /// The least distance of a sum of lengths to the nearer end of its range, m; `None` without limited sums, or if it
-    /// is not stated.
+    /// The least distance of a sum of lengths to the nearer end of its range, m; `None` without limited sums, or if
+    /// the margin is not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sum: Option<f64>,
 }

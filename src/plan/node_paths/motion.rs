@@ -19,7 +19,7 @@ pub struct NodePaths {
     pub struts: Vec<(usize, usize)>,
     /// The keyframes, in order of time; the first at 0.
     pub keyframes: Vec<Keyframe>,
-    /// The limits beside those of its struts.
+    /// The limits of the truss beside those of its struts.
     #[serde(default, skip_serializing_if = "TrussLimits::is_none")]
     pub limits: TrussLimits,
     /// The obstacles and the terrain, in the world's frame.

@@ -8,7 +8,7 @@ use serde::ser::{self, Serialize};
 pub enum Unwritable {
     /// A number that is not finite.
     Number {
-        /// The name of the last named field that holds it; empty if there is none.
+        /// The name of the last named field that holds the number; empty if there is none.
         field: &'static str,
         /// The number that was found: infinite or NaN.
         value: f64,

@@ -8,7 +8,7 @@ use super::target::Target;
 pub struct Protrusion {
     /// The index of the face in [`Target::faces`].
     pub face: usize,
-    /// The depth of its lowest corner below that plane, m.
+    /// The depth of the face's lowest corner below the plane of the root, m.
     pub depth: f64,
 }
 

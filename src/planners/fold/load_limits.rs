@@ -33,7 +33,7 @@ pub enum Violation {
     Ground {
         /// The index of the face in [`Target::faces`].
         face: usize,
-        /// The depth of its lowest corner below the root's plane, m.
+        /// The depth of the face's lowest corner below the root's plane, m.
         depth: f64,
     },
     /// A hinge that is overloaded, named by the face that it carries.

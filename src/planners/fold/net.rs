@@ -27,7 +27,7 @@ pub struct Net {
 /// An edge of a net: a hinge of the layout, or an edge of the outline.
 #[derive(Clone, Debug)]
 pub struct Edge {
-    /// The indices of its ends in [`Net::vertices`], in the direction in which its first face runs along it.
+    /// The indices of the edge's ends in [`Net::vertices`], in the direction in which its first face runs along it.
     pub vertices: [usize; 2],
     /// The indices in [`Target::faces`] of the faces at the edge: the one on its left, which for a hinge is the
     /// parent; for a hinge then the child, on its right.

@@ -25,16 +25,16 @@ pub struct Panel {
     pub sides: [f64; 3],
     /// The thickness of a uniform plate of the same mass with the same second moment along its normal, m.
     pub thickness: f64,
-    /// The greatest speed and acceleration of the hinges at its edges, rad/s and rad/s²; each `None` where no limit is
-    /// stated.
+    /// The greatest speed and acceleration of the hinges at the panel's edges, rad/s and rad/s²; each `None` where no
+    /// limit is stated.
     pub able: law::MotionLimits,
     /// The greatest torque that the panel's hinges hold, N·m; `None` where no limit is stated.
     pub torque: Option<f64>,
     /// The depth to which a panel may enter another panel or the ground before that is a collision, m.
     pub touch: f64,
-    /// The height over the ground below which a panel touches it, m.
+    /// The height over the ground below which a panel touches the ground, m.
     pub contact: f64,
-    /// The convex parts of its collision shape, in the panel frame of [`Solids`].
+    /// The convex parts of the panel's collision shape, in the panel frame of [`Solids`].
     pub parts: Vec<Part>,
 }
 

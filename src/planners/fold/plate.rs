@@ -22,9 +22,9 @@ pub struct Plate {
     pub thickness: f64,
     /// The distance by which the plate ends inside the sides of its face, so that plates side by side do not meet, m.
     pub gap: f64,
-    /// The mass of the motors of one plate, whatever its size, spread over it evenly, kg.
+    /// The mass of the motors of one plate, whatever its size, spread evenly over the plate, kg.
     pub motors: f64,
-    /// The mass of the plate by its area, kg/m².
+    /// The mass of the plate per area, without its motors, kg/m².
     pub density: f64,
     /// The limits of the hinges at the plate's edges: range (rad), speed (rad/s), acceleration (rad/s²) and torque
     /// (N·m).

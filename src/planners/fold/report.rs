@@ -15,7 +15,7 @@ use num_bigint::BigInt;
 pub struct Report {
     /// The surface that is folded, as the problem states it.
     pub target: Target,
-    /// The layout that folds, rooted at its root.
+    /// The layout by which the surface folds, with its root.
     pub layout: Layout,
     /// The number of layouts of the target, without regard to roots (Kirchhoff's theorem).
     pub layouts: BigInt,

@@ -24,13 +24,13 @@ pub struct Tolerances {
     /// The fraction of a side by which triangles of unequal sides may enter each other without an overlap: the
     /// rounding of corners that were laid side by side.
     pub overlap: f64,
-    /// The length of a separating axis, as a fraction of the square of a side, below which it is rounding.
+    /// The length of a separating axis, as a fraction of the square of a side, below which the axis is rounding.
     pub axis: f64,
     /// The part of the energy that perturbations of costs may come to in all; proofs hold up to it.
     pub perturbation: f64,
     /// The fraction of their value below which a difference of layouts counts as none, so that they are equally good.
     pub tie: f64,
-    /// The fraction of its value by which the bound may be below that of an optimal folding: what perturbations, ties
+    /// The fraction of the value of an optimal folding by which the bound may be below it: what perturbations, ties
     /// and rounding come to together.
     pub proof: f64,
     /// The fraction by which bounds are lowered, and within which they reach the best energy: rounding of sums.
@@ -47,7 +47,7 @@ pub struct Tolerances {
     pub gravity_bound: f64,
     /// The fraction of their work below which a difference of orders counts as none: rounding of sums.
     pub work: f64,
-    /// The excess of a fold angle over the limit of thick panels, rad, below which it is rounding.
+    /// The excess of a fold angle over the limit of thick panels, rad, below which the excess is rounding.
     pub closing: f64,
     /// The fold angle below which a hinge is level, rad.
     pub level: f64,

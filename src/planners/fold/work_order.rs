@@ -26,7 +26,7 @@ pub struct WorkOrder {
     /// The lower bound on the work of all orders of the layout, J.
     pub bound: f64,
     /// True if it is proved that no order takes less work: always, unless a branch of the root has more than
-    /// [`BRANCH_MAX`] hinges and neither usual order of it reaches its bound.
+    /// [`BRANCH_MAX`] hinges and neither usual order of the branch reaches its bound.
     pub optimal: bool,
 }
 

@@ -107,11 +107,11 @@ pub enum End {
     Stuck(StepError),
     /// The truss stands on one node, has no contact, or rolls without end.
     Falls,
-    /// The truss would topple over an edge, and violate this constraint while it rolls.
+    /// The truss would topple over an edge, and violate the given constraint while it rolls.
     Blocked(Constraint),
     /// The greatest number of steps was made before the end of the path was reached.
     Steps,
-    /// The observer of the search ended it.
+    /// The observer ended the search.
     Cancelled,
 }
 
@@ -120,7 +120,7 @@ pub enum End {
 pub struct Travel {
     /// The moves in order of time, from the positions given as the start.
     pub moves: Vec<Move>,
-    /// The reason why there are no more moves.
+    /// The reason why the motion ends after the last move.
     pub end: End,
     /// The number of points of the path that the centre of mass reached.
     pub reached: usize,

@@ -81,7 +81,7 @@ pub enum End {
     Steps,
     /// No step was found, not even a shortened one; the error is that of the longest.
     Stuck(StepError),
-    /// The observer of the search ended it.
+    /// The observer ended the search.
     Cancelled,
 }
 
@@ -95,7 +95,7 @@ pub struct Descent {
     pub start: Distance,
     /// The distances between surface and target after the last of `steps`.
     pub distance: Distance,
-    /// The reason why the search ended, which it may have done some steps after the last of `steps`.
+    /// The reason why the search ended, which may have been some steps after the last of `steps`.
     pub end: End,
 }
 

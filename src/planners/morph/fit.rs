@@ -68,7 +68,7 @@ struct Residual {
 
 /// The distances of a truss from its target, with the residuals that they come from.
 pub(super) struct Fit {
-    /// The distances between the outer surface and the target, m.
+    /// The distances between the outer surface of the truss and the target, m.
     pub distance: Distance,
     forward: Vec<Residual>,
     backward: Vec<Residual>,

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 /// The reason why a truss has no outer surface of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Open {
-    /// The edges of its convex hull that do not lie between exactly two triangles of struts, as pairs of indices of
-    /// nodes, the lesser first; empty if the hull has no such triangle.
+    /// The edges of the truss's convex hull that do not lie between exactly two triangles of struts, as pairs of
+    /// indices of nodes, the lesser first; empty if the hull has no such triangle.
     pub edges: Vec<(usize, usize)>,
 }
 

@@ -34,7 +34,8 @@ pub struct Stroke {
     /// The connections that fold from level to `angle` before the change, and open again after it; the one that is
     /// undone does not open, and the one that is made does. Empty if nothing folds.
     pub fold: Vec<[Side; 2]>,
-    /// The fold angle, rad, positive or negative for the side to which the fan folds; 0 if nothing folds.
+    /// The fold angle of those connections, rad, positive or negative for the side to which the fan folds; 0 if
+    /// nothing folds.
     pub angle: f64,
     /// The connection that the stroke makes.
     pub make: [Side; 2],

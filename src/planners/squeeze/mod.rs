@@ -177,7 +177,8 @@ pub enum Refusal {
         /// The method that the settings ask for.
         method: Method,
     },
-    /// The model asks for zero angular momentum, and no motion of the method is known that keeps it.
+    /// The model asks for zero angular momentum, and no motion of the method is known that keeps the angular momentum
+    /// zero.
     Unbalanced {
         /// The method that the settings ask for.
         method: Method,

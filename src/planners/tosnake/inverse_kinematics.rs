@@ -21,11 +21,11 @@ use std::f64::consts::FRAC_PI_2;
 /// The mode of the inverse kinematics that closes a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IkMode {
-    /// The loop's joints alone move, and the last posture alone has to be free of overlap: before it balls repel each
-    /// other, and may pass through each other.
+    /// The endpoint mode: the loop's joints alone move, and the last posture alone has to be free of overlap; before
+    /// that, balls repel each other, and may pass through each other.
     Endpoint,
-    /// All joints of the robot move, and constraints keep balls in contact from approaching, so that the whole descent
-    /// is nearly free of overlap; its motions are to be checked.
+    /// The collision-free mode: all joints of the robot move, and constraints keep balls in contact from approaching,
+    /// so that the whole descent is nearly free of overlap; its motions are to be checked.
     CollisionFree,
 }
 

@@ -260,9 +260,9 @@ impl Attempt<'_> {
     }
 }
 
-/// Docks the ends of pairs that were brought together, and undocks for each of them one of the bonds that it can
-/// replace, of which that which frees the most docks -Z; rebuilds the tree. `state`: the robot, which is changed.
-/// Panics if a pair is of one chain.
+/// Docks the ends of pairs that were brought together, undocks for each pair one of the bonds that the new one can
+/// replace (that which frees the most docks -Z), and rebuilds the tree. `state`: the robot, which is changed. Panics
+/// if a pair is of one chain.
 pub fn merge(state: &mut State, pairs: &[Pair]) {
     let replaced: Vec<usize> = pairs.iter().map(|pair| replaceable_bonds(state, pair)[0]).collect();
     for (pair, bond) in pairs.iter().zip(replaced) {

@@ -45,7 +45,7 @@ pub enum Refusal {
 /// The reason why an assembly is no robot of RoFI modules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRofi {
-    /// The module of this index, from 0, has other joints or ports than RoFI's.
+    /// The module of this index, from 0, has other joints or ports than the RoFI universal module.
     Kind(usize),
     /// The module of this index, from 0, has another pitch than the first.
     Pitch(usize),

@@ -11,9 +11,9 @@ pub struct Settings {
     /// Greatest number of forward kinematics of the whole robot, a measure of work that does not depend
     /// on the machine; it is compared between attempts, which may exceed it a little. Default [`BUDGET`].
     pub budget: u64,
-    /// Greatest fraction of the robot's spread (sum of squared distances of balls from their centroid) by which one
-    /// turn of a perturbation may reduce it. Default 0.02: the robot spreads in the long run, and yet gets past
-    /// bottlenecks.
+    /// The greatest fraction of the robot's spread (sum of squared distances of balls from their centroid) by which
+    /// one turn of a perturbation may reduce the spread. Default 0.02: the robot spreads in the long run, and yet
+    /// gets past bottlenecks.
     pub perturbation_slack: f64,
     /// Number of random turns that one perturbation tries. Default 100, about one for each joint of 33 modules.
     pub perturbation_turns: usize,

@@ -21,7 +21,7 @@ pub struct Tolerances {
     /// The greatest closure residual of a bond that holds: in pitches for positions, without unit for rotations. It
     /// is the limit of RoFI's own tools.
     pub closure: f64,
-    /// The violation of a distance constraint, in pitches, below which it stays out of the active set.
+    /// The violation of a distance constraint, in pitches, below which the constraint stays out of the active set.
     pub constraint: f64,
     /// The deviation of entries of two transforms that count as equal, in pitches or without unit, and the tolerance
     /// of joint ranges, rad. On the lattice of quarter turns different ones deviate by half.
@@ -30,7 +30,8 @@ pub struct Tolerances {
     pub coincident: f64,
     /// The distance from an axis, in pitches, below which a ball is on it and does not move about it: rounding.
     pub on_axis: f64,
-    /// The sum of products of lengths, in squared pitches, below which nothing depends on a joint, and it stays.
+    /// The sum of products of lengths, in squared pitches, below which nothing depends on a joint, and the joint
+    /// stays.
     pub indifferent: f64,
     /// The angle by which a tilt may be inside a forbidden interval, rad: rounding.
     pub interval: f64,

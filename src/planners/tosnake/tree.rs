@@ -101,7 +101,7 @@ impl Tree {
         Some(tree)
     }
 
-    /// Returns the number of shoes, two for each module.
+    /// Returns the number of shoes of the robot, two for each module.
     pub fn shoes(&self) -> usize {
         self.shoe.len()
     }

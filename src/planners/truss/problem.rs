@@ -77,7 +77,7 @@ pub enum InvalidTruss {
     },
     /// A loop has fewer than two struts.
     ShortLoop,
-    /// A strut is nearer to an obstacle than its clearance at the start.
+    /// A strut is nearer to an obstacle at the start than the clearance that it has to keep.
     NearObstacle {
         /// The name of the strut, from the names of its nodes: `a -- b`.
         strut: String,

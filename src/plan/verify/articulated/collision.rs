@@ -40,7 +40,7 @@ pub struct Findings {
     pub used: Vec<usize>,
 }
 
-/// A penetration of two modules, or of two links of one, deeper than is allowed.
+/// A collision: a penetration of two modules, or of two links of one, deeper than is allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
     /// The modules, by their indices in the assembly; the same twice for two links of one module.

@@ -8,7 +8,7 @@ use crate::units::{Dimension, quantity};
 /// A load over its limit.
 #[derive(Clone, Debug)]
 pub(super) struct Overload {
-    /// The name of the load, as in [`Load::name`].
+    /// The name of the overloaded load, as [`Load::name`] gives it.
     pub name: String,
     /// The kind of the load: a joint's, a motor's or a bond's.
     pub kind: LoadKind,

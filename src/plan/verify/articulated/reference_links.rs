@@ -19,7 +19,8 @@ pub(super) struct ReferenceLinks {
     pub levels: Vec<ReferenceLevel>,
     /// The centroid whose body link is the reference of each module, for each level.
     centroids: Vec<Vec<u32>>,
-    /// For each module, by its index in the assembly, the centroids of the pieces into which its part falls without it.
+    /// The centroids of the pieces into which the part of each module, given by its index in the assembly, falls
+    /// without the module.
     pub pieces: Vec<Vec<u32>>,
 }
 
