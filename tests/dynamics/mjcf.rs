@@ -311,7 +311,7 @@ fn names_and_numbers_of_any_kind_leave_a_model_well_formed() {
 
 /// Runs a script on tasks, with the modules of this folder in reach; `None`, with a message, where Python or MuJoCo is
 /// missing.
-fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
+pub(super) fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
     let Some(python) = python() else {
         let why = "no Python with mujoco (.ci/run installs it)";
         writeln!(std::io::stderr(), "skipped: models of MuJoCo: {why}").expect("stderr is open");
@@ -331,7 +331,7 @@ fn python() -> Option<PathBuf> {
     found.is_ok_and(|status| status.success()).then_some(python)
 }
 
-fn number(value: &Value) -> f64 {
+pub(super) fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
@@ -425,7 +425,7 @@ const REFUSED: &[(&str, &str)] = &[("Backhoe", "x.drive()")];
 const GAINS: [f64; 2] = [60.0, 500.0];
 
 /// The torque in parts of its limit up to which what happens must be passed.
-const SURE: f64 = 0.8;
+pub(super) const SURE: f64 = 0.8;
 
 /// Returns the verdict on a plan under full dynamics.
 fn under_full_dynamics(plan: &Plan) -> Verdict {

@@ -1,3 +1,5 @@
 //! Robots as models of MuJoCo, and what a simulation of them shows.
 
+mod gait_programs;
 mod mjcf;
+mod random_gaits;

@@ -1,14 +1,14 @@
 """Plays a plan file on its MuJoCo model (`save(plan, "x.mjcf.xml")`) and prints what happens, as JSON.
 
     mujoco_runner.py PLAN.plan.json MODEL.mjcf.xml [--kp N] [--kv N] [--friction-scale X] [--no-limits]
-        [--ground-only]
+        [--ground-only] [--step S]
 
 Position servos follow the plan's joint trajectories, which are evaluated here from their control points. Bonds dock
 and undock at their times. Lengths in m, angles in rad; torques of joints that slide are forces. `travel`, `yaw` and
 `lean` are those of the base between the start, after 0.3 s of settling, and 0.3 s after the end; `sink` is the
 greatest speed downwards of the centre of mass; `lag` the farthest that a joint is behind the plan; `torque` the
 greatest mean over 50 ms in parts of the limit, and `needed` the same without limits; `lags`, `torques` and `needs` are
-these of every joint.
+these of every joint. `ups` is the vertical in the axes of the base, every 0.1 s from the start on.
 """
 
 import argparse
@@ -22,6 +22,7 @@ SETTLE = 0.3  # s at the start posture before the plan begins
 REST = 0.3  # s at the end posture after it has ended
 WINDOW = 0.05  # s over which torque is averaged
 LEVER = 0.1  # m at which the servo of a joint that slides is that of one that turns
+ATTITUDES = 0.1  # s between two attitudes of the base
 FALLS = 0.5  # m/s downwards at which the centre of mass falls and is not let down
 
 
@@ -49,25 +50,26 @@ class Tracks:
         self.start = dict(zip(self.names, body["start"]["joints"]))
         self.segments = {self.names[t["joint"]]: t["segments"] for t in body["tracks"]}
 
-    def at(self, joint, t):
-        """Position and velocity of a joint at a time."""
-        position, velocity = self.start[joint], 0.0
+    def at(self, joint, times):
+        """Positions and velocities of a joint at ascending times."""
+        position = numpy.full(len(times), self.start[joint])
+        velocity = numpy.zeros(len(times))
         for segment in self.segments.get(joint, []):
-            if t < segment["start"]:
-                break
+            begun = numpy.searchsorted(times, segment["start"])
+            ended = numpy.searchsorted(times, segment["end"])
             length = segment["end"] - segment["start"]
-            s = (t - segment["start"]) / length
-            if s < 1:
-                position, rate = bernstein(segment["control"], s)
-                velocity = rate / length
-            else:
-                position, velocity = segment["control"][-1], 0.0
+            s = (times[begun:ended] - segment["start"]) / length
+            position[begun:ended], rate = bernstein(segment["control"], s)
+            velocity[begun:ended] = rate / length
+            position[ended:], velocity[ended:] = segment["control"][-1], 0.0
         return position, velocity
 
 
-def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False):
-    """The model with servo gains, friction, torque limits and contacts changed, at the start of the plan."""
+def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False, step=None):
+    """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan."""
     model = mujoco.MjModel.from_xml_string(text)
+    if step is not None:
+        model.opt.timestep = step
     slides = model.jnt_type[model.actuator_trnid[:, 0]] == int(mujoco.mjtJoint.mjJNT_SLIDE)
     lever = numpy.where(slides, 1 / LEVER**2, 1.0)
     if kp is not None:
@@ -109,31 +111,37 @@ def play(plan, text, **options):
     window = max(1, round(WINDOW / step))
     history = numpy.zeros((window, model.nu))
     mean = numpy.zeros(model.nu)
-    greatest, lag = numpy.zeros(model.nu), numpy.zeros(model.nu)
-    lean, sink, events = 0.0, 0.0, list(tracks.events)
+    greatest, lag, peak = numpy.zeros(model.nu), numpy.zeros(model.nu), numpy.zeros(model.nu)
+    lean, sink, events, ups = 0.0, 0.0, list(tracks.events), []
     start = None
-    moving = [a for a in range(model.nu) if servos[a] in tracks.segments]
-    plan_q = numpy.array([tracks.start[s] for s in servos])
-    plan_v = numpy.zeros(model.nu)
     first, last = -round(SETTLE / step), round((tracks.duration + REST) / step)
+    times = numpy.maximum(numpy.arange(first, last) * step, 0.0)
+    plan_q, plan_v = numpy.empty((len(times), model.nu)), numpy.empty((len(times), model.nu))
+    for a, servo in enumerate(servos):
+        plan_q[:, a], plan_v[:, a] = tracks.at(servo, times)
+    # At rest until the start.
+    plan_v[:-first] = 0.0
+    command = plan_q + lead * plan_v
     for i in range(first, last):
         t = i * step
-        for a in moving:
-            plan_q[a], plan_v[a] = tracks.at(servos[a], max(t, 0.0))
         while events and events[0][0] <= t:
             hold(model, data, *events.pop(0)[1:])
-        data.ctrl[:] = plan_q + lead * plan_v
+        data.ctrl[:] = command[i - first]
         height = data.subtree_com[0, 2]
         mujoco.mj_step(model, data)
         if i == -1:
             # The base is the first body of the first tree.
             start = data.xpos[1].copy(), data.xmat[1].reshape(3, 3).copy()
-        mean += (data.actuator_force - history[i % window]) / window
-        history[i % window] = data.actuator_force
+        force = data.actuator_force
+        mean += (force - history[i % window]) / window
+        history[i % window] = force
+        peak = numpy.maximum(peak, numpy.abs(force))
         if i < 0:
             continue
+        if i % round(ATTITUDES / step) == 0:
+            ups.append([float(x) for x in data.xmat[1].reshape(3, 3)[2]])
         greatest = numpy.maximum(greatest, numpy.abs(mean))
-        lag = numpy.maximum(lag, numpy.abs(data.qpos[qpos] - plan_q))
+        lag = numpy.maximum(lag, numpy.abs(data.qpos[qpos] - plan_q[i - first]))
         turn = data.xmat[1].reshape(3, 3) @ start[1].T
         lean = max(lean, tilt(turn))
         sink = max(sink, (height - data.subtree_com[0, 2]) / step)
@@ -153,6 +161,8 @@ def play(plan, text, **options):
         "torque": worst(torques),
         "lags": lags,
         "torques": torques,
+        "saturates": bool((peak >= effort)[effort > 0].any()),
+        "ups": ups,
         "warnings": int(sum(w.number for w in data.warning)),
     }
 
@@ -176,10 +186,11 @@ def main():
     parser.add_argument("--friction-scale", type=float, default=1.0)
     parser.add_argument("--no-limits", action="store_true", help="only the run without limits of torque")
     parser.add_argument("--ground-only", action="store_true", help="links pass through each other")
+    parser.add_argument("--step", type=float, help="time step, s")
     options = parser.parse_args()
     with open(options.plan, encoding="utf-8") as file:
         plan = json.load(file)
-    settings = {name: getattr(options, name) for name in ("kp", "kv", "friction_scale", "ground_only")}
+    settings = {name: getattr(options, name) for name in ("kp", "kv", "friction_scale", "ground_only", "step")}
     with open(options.model, encoding="utf-8") as file:
         model = file.read()
     print(json.dumps(both(plan, model, options.no_limits, **settings), indent=1))
@@ -187,8 +198,12 @@ def main():
 
 def both(plan, model, no_limits=False, **settings):
     """What happens with limits of torque, and the torque that would be needed without, or only what happens then."""
-    free = play(plan, model, limits=False, **settings)
-    return free if no_limits else {**play(plan, model, **settings), "needed": free["torque"], "needs": free["torques"]}
+    if no_limits:
+        return play(plan, model, limits=False, **settings)
+    within = play(plan, model, **settings)
+    # Where no servo reaches its limit, nothing would change without.
+    free = play(plan, model, limits=False, **settings) if within["saturates"] else within
+    return {**within, "needed": free["torque"], "needs": free["torques"]}
 
 
 if __name__ == "__main__":
