@@ -1,7 +1,7 @@
 //! The ground: attitudes, travel, tips. The numbers are those of a prototype in another language,
 //! and closed forms where there are any.
 
-use crate::support::motions::Motion;
+use crate::support::motions::{Motion, STATICS};
 use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, TILT};
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
@@ -41,7 +41,7 @@ struct Seen {
 fn seen(motion: &Motion, step: f64) -> Seen {
     let settings = Settings { sample: step, ..Settings::default() };
     let tolerances = Tolerances::default();
-    let worlds = [WorldFrom { from: 0.0, world: World::default() }];
+    let worlds = [WorldFrom { from: 0.0, world: STATICS }];
     let course = Rollout {
         tracks: &motion.tracks,
         worlds: &worlds,

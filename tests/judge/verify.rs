@@ -1,6 +1,6 @@
 //! The judge: each kind of failure has a plan that must fail and a twin that must pass.
 
-use crate::support::motions::{self, Motion};
+use crate::support::motions::{self, Motion, STATICS};
 use crate::support::robots::{self, FRONT, LEFT, RIGHT, TILT};
 use modl::plan::verify::{verify, verify_state};
 use modl::plan::{
@@ -11,7 +11,7 @@ use modl::robot::Assembly;
 use std::sync::Arc;
 
 fn judged(motion: Motion) -> Verdict {
-    verify(&motion.plan(World::default()))
+    verify(&motion.plan(STATICS))
 }
 
 fn kinds(verdict: &Verdict) -> Vec<CheckKind> {
@@ -95,7 +95,7 @@ fn joints_keep_to_their_speed() {
 
 fn dig(arm: usize) -> Plan {
     let m = Motion::new(robots::backhoe(arm)).set("a0", TILT, 90.0);
-    m.linear("a1", TILT, -90.0, 0.0, 2.0).plan(World::default())
+    m.linear("a1", TILT, -90.0, 0.0, 2.0).plan(STATICS)
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn ratio(verdict: &Verdict) -> f64 {
 }
 
 fn at_rest(robot: Assembly) -> Verdict {
-    verify_state(&robot, &robots::at_rest(&robot), &World::default(), &Settings::default())
+    verify_state(&robot, &robots::at_rest(&robot), &STATICS, &Settings::default())
 }
 
 /// What the joint of `a1` has to hold with so many modules and its own block beyond it, level.
@@ -175,7 +175,7 @@ fn two_diagonal_legs_carry_a_walker_only_with_friction() {
     passes(&verdict);
     assert!((ratio(&verdict) - 0.95).abs() < 0.005, "{}", ratio(&verdict));
     assert!(verdict.notes.iter().any(|n| n.contains("needs friction: 1.90")), "{:?}", verdict.notes);
-    let icy = World { friction: 0.0, ..World::default() };
+    let icy = World { friction: 0.0, ..STATICS };
     let slippery = verify(&on_two_legs(hold_nothing(robots::walk4())).plan(icy));
     fails(&slippery, CheckKind::Torque);
     // That no forces do is proved by the multipliers.
@@ -246,7 +246,7 @@ fn support_may_be_missing_for_as_long_as_is_said() {
     let lean = |unstable_for: f64| {
         let m = Motion::new(hold_nothing(robots::backhoe(8))).set("a0", TILT, 90.0);
         let m = m.linear("a1", TILT, -44.0, 0.0, 1.0).linear("a1", TILT, 0.0, 1.0, 2.0);
-        let mut plan = m.plan(World::default());
+        let mut plan = m.plan(STATICS);
         plan.settings.unstable_for = unstable_for;
         verify(&plan)
     };
@@ -260,11 +260,11 @@ fn support_may_be_missing_for_as_long_as_is_said() {
 
 #[test]
 fn a_held_base_may_not_go_underground() {
-    let fixed = World { ground: Ground::Fixed, ..World::default() };
+    let fixed = World { ground: Ground::Fixed, ..STATICS };
     let down = |degrees| Motion::new(robots::chain(3)).smooth("m1", TILT, degrees, 0.0, 2.0);
     fails(&verify(&down(-30.0).plan(fixed)), CheckKind::Ground);
     assert!(!kinds(&verify(&down(30.0).plan(fixed))).contains(&CheckKind::Ground));
-    let off = World { ground: Ground::Off, ..World::default() };
+    let off = World { ground: Ground::Off, ..STATICS };
     let verdict = verify(&down(-30.0).plan(off));
     passes(&verdict);
     assert!(matches!(status(&verdict, CheckKind::Torque), Status::NotChecked(_)));
@@ -274,8 +274,7 @@ fn a_held_base_may_not_go_underground() {
 #[test]
 fn the_rule_of_centres_is_kept_by_name() {
     let settings = Settings { stability: Stability::Centres, ..Settings::default() };
-    let judged =
-        |robot: Assembly| verify_state(&robot, &robots::at_rest(&robot), &World::default(), &settings);
+    let judged = |robot: Assembly| verify_state(&robot, &robots::at_rest(&robot), &STATICS, &settings);
     let chain = judged(robots::chain(3));
     fails(&chain, CheckKind::Stability);
     assert_eq!(chain.margin.expect("a chain in a line has no room").value, 0.0);
@@ -322,7 +321,7 @@ fn nothing_falls_off() {
             vec![DockingEvent { time: 0.5, kind: DockingKind::Undock, bond, cause: CauseId(0) }];
         m.tracks.duration = 1.0;
         m.tracks.tracks = vec![];
-        let mut plan = m.plan(World::default());
+        let mut plan = m.plan(STATICS);
         plan.causes = vec![motions::cause(0)];
         plan
     };
@@ -338,14 +337,14 @@ fn nothing_falls_off() {
 
 #[test]
 fn a_limit_on_samples_ends_the_judgement_with_a_refusal() {
-    let mut plan = square().plan(World::default());
+    let mut plan = square().plan(STATICS);
     plan.settings.samples_max = 10;
     fails(&verify(&plan), CheckKind::Form);
 }
 
 /// Corrupts a good plan and wants it refused.
 fn refused(corrupt: impl FnOnce(&mut Plan, &mut Tracks)) {
-    let mut plan = square().plan(World::default());
+    let mut plan = square().plan(STATICS);
     let Body::Tracks(mut tracks) = plan.body.clone() else { unreachable!("a plan of tracks") };
     corrupt(&mut plan, &mut tracks);
     plan.body = Body::Tracks(tracks);
@@ -409,7 +408,7 @@ fn a_sample_of_a_large_robot_counts_as_several() {
     let judged = |ground: Ground, modules: usize| {
         let mut plan = Motion::new(robots::chain(modules))
             .linear("m0", robots::TILT, 1.0, 0.0, 1.0)
-            .plan(World { ground, ..World::default() });
+            .plan(World { ground, ..STATICS });
         plan.settings.samples_max = 150;
         verify(&plan)
     };

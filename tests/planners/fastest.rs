@@ -56,7 +56,7 @@ fn plans(program: &str, behavior: &str, world: &str, call: &str) -> (Plan, Plan)
 
 /// The plan in least time under limits of speed and acceleration.
 fn fast(program: &str, behavior: &str) -> Plan {
-    plans(program, behavior, "world(ground: held)", "fastest(p)").1
+    plans(program, behavior, "world(ground: held, dynamics: statics)", "fastest(p)").1
 }
 
 fn tracks(plan: &Plan) -> &Tracks {

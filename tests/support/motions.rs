@@ -2,8 +2,15 @@
 #![allow(dead_code)]
 
 use crate::support::robots;
-use modl::plan::{Body, CauseId, Plan, Provenance, Segment, Settings, Track, Tracks, World, WorldFrom};
+use modl::plan::{
+    Body, CauseId, DynamicsModel, Ground, Plan, Provenance, Segment, Settings, Track, Tracks, World,
+    WorldFrom,
+};
 use modl::robot::{Assembly, JointId};
+
+/// Level ground on which every instant is judged at rest.
+pub const STATICS: World =
+    World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0, dynamics: DynamicsModel::Statics };
 
 /// Position of a joint id by module name and the joint's index in a SMORES module.
 pub fn joint(robot: &Assembly, module: &str, joint: usize) -> usize {

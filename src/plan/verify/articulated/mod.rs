@@ -152,6 +152,9 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
     standing.finish(ledger);
     let names = |link| link_name(rollout, link);
     base_motion.finish(names, ledger);
+    if full && ledger.verdict.slip.is_some() {
+        ledger.note(dynamics::travel_tolerance(&ledger.verdict));
+    }
     loops.finish(ledger);
     checkpoints.into_kept()
 }

@@ -349,9 +349,10 @@ impl<'a> Course<'a> {
                 until: Some(self.rollout.tracks.duration),
                 at: vec![],
                 message: format!(
-                    "the travel is not determined: {}, but {} elsewhere if contacts that slide had 1.25 times the \
-                     friction and the others 0.8 times",
-                    words[0], words[1]
+                    "the travel is not determined: {}, but {} elsewhere {}",
+                    words[0],
+                    words[1],
+                    judged.otherwise.words()
                 ),
                 value: judged.away,
                 limit: PARAMETERS.way_undetermined * judged.length,
@@ -359,10 +360,10 @@ impl<'a> Course<'a> {
                 blames_start: false,
             });
         } else if differs(judged, PARAMETERS.way_uncertain) {
+            let [length, away] = words;
             ledger.note(format!(
-                "the travel of {} ends {} elsewhere if contacts that slide have 1.25 times the friction and the others \
-                 0.8 times",
-                words[0], words[1]
+                "the travel of {length} would end {away} elsewhere {}",
+                judged.otherwise.words()
             ));
         }
     }

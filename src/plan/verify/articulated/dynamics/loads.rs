@@ -10,6 +10,7 @@ use crate::robot::dynamics::Wrench;
 use crate::robot::jacobian::JointAxis;
 
 /// A bond that closes a loop.
+#[derive(Clone)]
 pub(super) struct Loop {
     /// The links of its two ports, by their numbers among all links.
     pub sides: [usize; 2],
@@ -35,6 +36,7 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
 }
 
 /// The stop at an end of a joint's range, near which the joint is.
+#[derive(Clone)]
 pub(super) struct Stop {
     /// The joint, by [`crate::robot::JointId`].
     pub joint: usize,

@@ -21,5 +21,4 @@ mod traction;
 mod twist;
 
 pub(super) use course::{Course, Recorder};
-pub(super) use traction::Ways;
-pub(super) use traction::{GroundStep, Traction};
+pub(super) use traction::{GroundStep, Traction, Ways, travel_tolerance};

@@ -78,6 +78,13 @@ pub(super) struct Parameters {
     pub friction_more: f64,
     /// The factor on the friction of the other contacts there.
     pub friction_less: f64,
+    /// The least time between two instants at which the travel with other servos is determined, s. 30 ms: three times the
+    /// spacing of instants, for it costs twice as much.
+    pub fork_spacing: f64,
+    /// The factor on the stiffness of servos in one other travel. 0.4: 60 N·m/rad for the default of 150.
+    pub servo_softer: f64,
+    /// The factor on the stiffness of servos in another one. 3.3: 500 N·m/rad for the default of 150.
+    pub servo_stiffer: f64,
     /// The part of the distance travelled by which its end may differ with other friction before it counts as not
     /// determined.
     pub way_undetermined: f64,
@@ -85,6 +92,12 @@ pub(super) struct Parameters {
     pub way_uncertain: f64,
     /// The difference of the ends up to which it is neither noted nor a failure, m.
     pub way_uncertain_min: f64,
+    /// The part of the travel within which it is known: 0.1, as random gaits in simulations show.
+    pub travel_share: f64,
+    /// The part of the greatest slip of a link within which the travel is known: 0.2, as those show.
+    pub slip_share: f64,
+    /// The least tolerance of the travel, m: 5 mm.
+    pub travel_tolerance_min: f64,
     /// The imbalance in parts of the weight above which no loads hold the robot: 2 %.
     pub imbalance_max: f64,
 }
@@ -124,8 +137,14 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     sliding_speed: 5e-3,
     friction_more: 1.25,
     friction_less: 0.8,
+    fork_spacing: 0.03 - 1e-6,
+    servo_softer: 0.4,
+    servo_stiffer: 3.3,
     way_undetermined: 0.5,
     way_uncertain: 0.1,
     way_uncertain_min: 0.01,
+    travel_share: 0.1,
+    slip_share: 0.2,
+    travel_tolerance_min: 5e-3,
     imbalance_max: 0.02,
 };

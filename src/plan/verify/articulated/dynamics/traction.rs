@@ -10,8 +10,9 @@ use super::posed::{Posed, Situation};
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Vec3;
-use crate::plan::{Exemption, ExemptionKind, World};
+use crate::plan::{Exemption, ExemptionKind, Verdict, World};
 use crate::robot::dynamics::{Dynamics, Twist};
+use crate::units::{Dimension, quantity};
 use nalgebra::Vector3;
 
 /// The state of travel, which goes on from sample to sample.
@@ -27,28 +28,69 @@ pub(in super::super) struct Traction {
     allowed_at: Option<f64>,
 }
 
-/// A way, and the one that other friction gives.
-#[derive(Clone, Copy, Debug, Default)]
-struct Fork {
-    own: PlanarPose,
-    /// The way by friction that is 1.25 times as great where contacts slide and 0.8 times elsewhere, from the same start.
-    other: PlanarPose,
+/// A difference in another way, which shows if the travel depends on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Otherwise {
+    /// Friction is 1.25 times as great where contacts slide, and 0.8 times elsewhere.
+    #[default]
+    Friction,
+    /// Servos are 0.4 times as stiff.
+    Softer,
+    /// Servos are 3.3 times as stiff.
+    Stiffer,
 }
 
-impl Fork {
-    fn way(&self) -> Way {
-        let away = libm::hypot(self.own.x - self.other.x, self.own.y - self.other.y);
-        Way { length: libm::hypot(self.own.x, self.own.y), away }
+impl Otherwise {
+    const ALL: [Otherwise; 3] = [Otherwise::Friction, Otherwise::Softer, Otherwise::Stiffer];
+
+    /// Returns the condition of a sentence: `if servos were 0.4 times as stiff`.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Otherwise::Friction => {
+                "if contacts that slide had 1.25 times the friction and the others 0.8 times"
+            }
+            Otherwise::Softer => "if servos were 0.4 times as stiff",
+            Otherwise::Stiffer => "if servos were 3.3 times as stiff",
+        }
     }
 }
 
-/// The travel over the ground, as far as friction determines it.
+/// A way, and the others from the same start, in the order of [`Otherwise::ALL`].
+#[derive(Clone, Copy, Debug, Default)]
+struct Fork {
+    own: PlanarPose,
+    others: [PlanarPose; Otherwise::ALL.len()],
+}
+
+impl Fork {
+    /// Moves on by a step: that of the way itself, and those of the others.
+    fn advance(&mut self, own: &Vec3, others: &[Vec3; Otherwise::ALL.len()]) {
+        self.own = self.own.moved(own);
+        for (other, shift) in self.others.iter_mut().zip(others) {
+            *other = other.moved(shift);
+        }
+    }
+
+    fn way(&self) -> Way {
+        let away = self.others.map(|other| libm::hypot(self.own.x - other.x, self.own.y - other.y));
+        let farthest = (1..away.len()).fold(0, |most, i| if away[i] > away[most] { i } else { most });
+        Way {
+            length: libm::hypot(self.own.x, self.own.y),
+            away: away[farthest],
+            otherwise: Otherwise::ALL[farthest],
+        }
+    }
+}
+
+/// The travel over the ground, as far as friction and servos determine it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Way {
     /// The distance of its end from its start, m.
     pub length: f64,
-    /// The distance of its end from the one that it has with other friction, m.
+    /// The distance of its end from the farthest one of other ways, m.
     pub away: f64,
+    /// The difference in that one.
+    pub otherwise: Otherwise,
 }
 
 /// The travel of a rollout.
@@ -70,8 +112,12 @@ struct Last {
     carried: Vector3<f64>,
     /// The twist of the body at the centre of mass.
     twist: Twist,
-    /// The velocity of the centre of mass (x and y, m/s) and the turn (rad/s), and those of the other way.
-    rates: [Vector3<f64>; 2],
+    /// The velocity of the centre of mass (x and y, m/s) and the turn (rad/s).
+    rate: Vector3<f64>,
+    /// The differences of those of the other ways from it.
+    others: [Vector3<f64>; Otherwise::ALL.len()],
+    /// The time at which the ways of other servos were determined, s.
+    forked: f64,
     /// The slip of each loaded link, m/s, and its load in parts of the weight.
     slips: Vec<(usize, f64, f64)>,
 }
@@ -114,17 +160,16 @@ impl Traction {
         let Some(last) = &self.last else { return (*pose, vec![]) };
         let dt = step.time - step.before;
         let drift = yaw_between(step.R_before, step.R);
-        let shift = |rate: &Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
+        let shift = |rate: Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
         let allows = |e: &Exemption| e.kind == ExemptionKind::Traction && e.covers(step.time);
         let allowed = step.rollout.exemptions.iter().any(allows);
         let fork = if allowed { &mut self.allowed } else { &mut self.judged };
-        (fork.own, fork.other) =
-            (fork.own.moved(&shift(&last.rates[0])), fork.other.moved(&shift(&last.rates[1])));
+        fork.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
         if allowed {
             self.allowed_at = Some(step.time);
         }
-        (pose.moved(&shift(&last.rates[0])), slips)
+        (pose.moved(&shift(last.rate)), slips)
     }
 
     /// Returns the travel so far.
@@ -178,16 +223,48 @@ impl Traction {
         });
         let other: Vec<f64> = loads.normal.iter().zip(factors).map(|(load, factor)| load * factor).collect();
         let other = equilibrium::twist_under(&situation, &other, Some(momentum), &twist);
+        let mut others = [rate(&other) - rate(&twist), Vector3::zeros(), Vector3::zeros()];
+        let mut forked = step.time;
+        match &self.last {
+            // Servos make a difference slowly.
+            Some(last) if step.time - last.forked < PARAMETERS.fork_spacing && last.bonds == step.bonds => {
+                others[1..].copy_from_slice(&last.others[1..]);
+                forked = last.forked;
+            }
+            _ => {
+                let firmness = [PARAMETERS.servo_softer, PARAMETERS.servo_stiffer];
+                for (other, factor) in others[1..].iter_mut().zip(firmness) {
+                    let situation = situation.with_stiffness(factor);
+                    let mut warm = self.warm.clone();
+                    let found = equilibrium::solve(&situation, Some(momentum), &mut warm);
+                    *other = found.map_or_else(Vector3::zeros, |found| rate(&found.twist) - rate(&twist));
+                }
+            }
+        }
         let weight = situation.weight;
         self.last = Some(Last {
             time: step.time,
             bonds: step.bonds.to_vec(),
             carried,
-            rates: [rate(&twist), rate(&other)],
+            rate: rate(&twist),
+            others,
+            forked,
             twist,
             slips: twist::slips_by_link(&situation.candidates, &loads.normal, &friction, weight),
         });
     }
+}
+
+/// Returns a note on how closely the travel of a verdict is known: within what simulations of random gaits showed.
+pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
+    let [x, y, _] = verdict.travel;
+    let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
+    let parts = [PARAMETERS.travel_share * libm::hypot(x, y), PARAMETERS.slip_share * slip];
+    let within = parts.into_iter().fold(PARAMETERS.travel_tolerance_min, f64::max);
+    format!(
+        "the travel is known within {}: a tenth of it, 5mm or a fifth of the slip, whichever is most",
+        quantity(libm::ceil(within * 1e3) / 1e3, Dimension::LENGTH)
+    )
 }
 
 /// Returns the turn about the vertical from one attitude to another, rad.
