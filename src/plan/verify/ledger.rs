@@ -3,9 +3,20 @@
 use crate::plan::tolerances::TOLERANCES;
 use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
+use crate::units::{Dimension, quantity};
 
 /// The greatest number of failures that are reported one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
+
+/// The checks after whose failure a robot no longer moves as planned.
+const ENDINGS: [CheckKind; 6] = [
+    CheckKind::Collision,
+    CheckKind::Docking,
+    CheckKind::Connectedness,
+    CheckKind::Closure,
+    CheckKind::Ground,
+    CheckKind::Stability,
+];
 
 /// The record of failures, excuses, notes and worst values while a plan is judged, of which the verdict is made.
 pub(super) struct Ledger<'a> {
@@ -94,6 +105,41 @@ impl<'a> Ledger<'a> {
             (false, false) => otherwise,
         };
         self.verdict.checks.push(Check { kind, status });
+    }
+
+    /// Drops failures of loads and travel that follow from others: those of a robot that has collided, tipped, fallen apart
+    /// or torn a loop before. Their checks then are not made.
+    pub(super) fn drop_consequences(&mut self) {
+        let failures = &mut self.verdict.failures;
+        let first = |kinds: &[CheckKind], failures: &[Failure]| {
+            let of = failures.iter().filter(|failure| kinds.contains(&failure.kind));
+            of.min_by(|a, b| a.time.total_cmp(&b.time)).map(|failure| (failure.time, failure.kind))
+        };
+        let Some((ended, cause)) = first(&ENDINGS, failures) else { return };
+        let tips = first(&[CheckKind::Stability], failures).is_some();
+        let mut dropped = Vec::new();
+        failures.retain(|failure| {
+            let moot = match failure.kind {
+                CheckKind::Torque | CheckKind::BondLoad => failure.time >= ended,
+                CheckKind::Balance => failure.time >= ended || tips,
+                CheckKind::Traction => true,
+                _ => false,
+            };
+            if moot {
+                dropped.push(failure.kind);
+            }
+            !moot
+        });
+        for check in &mut self.verdict.checks {
+            let failed = failures.iter().any(|failure| failure.kind == check.kind);
+            if dropped.contains(&check.kind) && !failed {
+                check.status = Status::NotChecked(format!(
+                    "from {} on {} fails",
+                    quantity(ended, Dimension::TIME),
+                    cause.name()
+                ));
+            }
+        }
     }
 
     /// Sets values that are nothing but rounding to zero.

@@ -89,6 +89,9 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     } else {
         let checkpoints = check_samples(&rollout, missed, &mut ledger);
         collision_report::judge(&rollout, &mut ledger);
+        if rollout.is_full() {
+            ledger.drop_consequences();
+        }
         blame::blame(&rollout, &checkpoints, ledger.failures_mut());
     }
     ledger.check(CheckKind::Form, Status::Proved);
