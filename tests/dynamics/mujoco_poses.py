@@ -87,7 +87,7 @@ def answer(task):
             if int(model.jnt_type[joint]) == mujoco.mjtJoint.mjJNT_FREE:
                 data.qpos[at : at + 7] = moment["roots"][model.body(model.jnt_bodyid[joint]).name]
             elif name in tracks.start:
-                data.qpos[at] = tracks.at(name, moment["time"])[0]
+                data.qpos[at] = tracks.at(name, numpy.array([moment["time"]]))[0][0]
         follow(model, data)
         mujoco.mj_kinematics(model, data)
         poses = {
