@@ -6,7 +6,7 @@ use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, T
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::{Rollout, RolloutEnd, TipOver, Tolerances, roll_out};
-use modl::plan::{Settings, World, WorldFrom};
+use modl::plan::{Settings, WorldFrom};
 use modl::robot::{Library, ModuleType};
 use std::collections::BTreeMap;
 use std::sync::Arc;
