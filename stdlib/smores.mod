@@ -248,8 +248,7 @@ config Leg3(bend: Angle = 30deg, lean: Angle = 22deg) {
 
   /// Lifts the foot in under the body and keeps the sole level, in time `t`.
   ///
-  /// Outwards the same bend would load the body's joints by a seventh more. Servos yield: with a bend of less than 25
-  /// degrees the foot may drag.
+  /// Outwards the same bend would load the body's joints by a seventh more.
   behavior lift(t: Time = 0.8s) = Pc(move(shin.tilt, to: -up, in: t), move(foot.tilt, to: up, in: t))
 
   /// Stretches the leg down to the ground, with a level sole, in time `t`.
