@@ -15,7 +15,9 @@ use crate::interpret::record::StateValue;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World};
+use crate::plan::{
+    self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World, WorldFrom,
+};
 use crate::robot::{Assembly, State};
 use crate::source::{Diagnostic, Span, code, files};
 use crate::view;
@@ -219,9 +221,13 @@ pub(super) fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings>
 fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let settings = settings(interpreter, call)?;
     let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
-    let verdict = interpreter.judge(&planned, settings, call.get("world")?);
+    let world: Option<World> = call.get("world")?;
+    let verdict = interpreter.judge(&planned, settings, world);
     interpreter.note_exemptions(&planned, &verdict);
-    let headline = plan::headline(&planned.plan, &verdict);
+    let headline = match world {
+        None => plan::headline(&planned.plan, &verdict),
+        Some(world) => plan::headline_under(&planned.plan, &[WorldFrom { from: 0.0, world }], &verdict),
+    };
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }
 

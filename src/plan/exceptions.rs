@@ -4,7 +4,7 @@ use super::cause::Cause;
 use super::listing::listed;
 use super::motion_plan::Plan;
 use super::verdict::{CheckKind, Verdict};
-use super::world::{DynamicsModel, ExemptionKind, World};
+use super::world::{DynamicsModel, ExemptionKind, World, WorldFrom};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The beginning of the name of a file of the standard library.
@@ -15,18 +15,23 @@ const LIBRARY: &str = "std/";
 /// except torque (allowed at line 40)`. `verdict` must be one on this
 /// plan, whose exemptions it refers to.
 pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
+    headline_under(plan, &plan.worlds, verdict)
+}
+
+/// Returns the headline of a verdict on a plan that was judged in other worlds than its own.
+pub fn headline_under(plan: &Plan, worlds: &[WorldFrom], verdict: &Verdict) -> String {
     if !verdict.ok() {
         return "not verified".to_owned();
     }
     let excused = excused(plan, verdict);
-    let verified = format!("verified under {}", dynamics(plan).words());
+    let verified = format!("verified under {}", dynamics(plan, worlds).words());
     if excused.is_empty() { verified } else { format!("{verified}, except {}", listed(&excused)) }
 }
 
-/// Returns the dynamics that a plan is judged under: full dynamics if one of its worlds asks for them.
-fn dynamics(plan: &Plan) -> DynamicsModel {
-    let full = plan.worlds.iter().find(|from| from.world.dynamics == DynamicsModel::Full);
-    let world = full.or(plan.worlds.first()).map_or(World::FREE, |from| from.world);
+/// Returns the dynamics that a plan is judged under: full dynamics if one of the worlds asks for them.
+fn dynamics(plan: &Plan, worlds: &[WorldFrom]) -> DynamicsModel {
+    let full = worlds.iter().find(|from| from.world.dynamics == DynamicsModel::Full);
+    let world = full.or(worlds.first()).map_or(World::FREE, |from| from.world);
     plan.body.dynamics(&world)
 }
 

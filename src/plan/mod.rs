@@ -39,7 +39,7 @@ pub mod verify;
 
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
-pub use exceptions::headline;
+pub use exceptions::{headline, headline_under};
 pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
