@@ -114,6 +114,37 @@ print(v.ok, abs(v.torque_margin - (1 - 3 / 23 * 9.80665 * 0.5 / 5)) < 1e-6)
 print(verify(a, world: world(ground: held)).torque_margin < 0.02)
 //> true
 
+--- a joint that another follows holds the load of both, and has one stop
+// 2 kg at 500 mm: 9.807 N*m, of which the servo bears 3/23 beside its stop.
+module Arms(low: Angle = -90deg) {
+  link base = box(100mm, 100mm, 20mm, mass: 10kg)
+  link left = sphere(radius: 20mm, mass: 1kg) at [500mm, 100mm, 50mm]
+  link right = sphere(radius: 20mm, mass: 1kg) at [500mm, -100mm, 50mm]
+  joint bend : base -> left = revolute(axis: Y, range: low..0deg, max_torque: 12N*m) at [0mm, 100mm, 50mm]
+  joint too : base -> right = revolute(axis: Y) at [0mm, -100mm, 50mm]
+  joint too = bend
+}
+let w = world(ground: held, dynamics: full)
+print(abs(verify(Arms(), world: w).torque_margin - (1 - 3 / 23 * 9.80665 / 12)) < 1e-6)
+//> true
+
+--- a joint that others follow yields under what they bear
+// A beam of 2 kg on two legs that swing together, one of which follows: each bears half. The legs lean outwards by 30
+// degrees, on ice: the servo holds both. The third foot only keeps the beam from tipping.
+module Trestle {
+  link beam = box(400mm, 50mm, 20mm, mass: 2kg)
+  link left = sphere(radius: 10mm, mass: 1g) at [-200mm - 100mm * sin(30deg), 0mm, -100mm * cos(30deg)]
+  link right = sphere(radius: 10mm, mass: 1g) at [200mm + 100mm * sin(30deg), 0mm, -100mm * cos(30deg)]
+  link back = sphere(radius: 10mm, mass: 1g) at [0mm, 200mm, -100mm * cos(30deg)]
+  joint swing : beam -> left = revolute(axis: Y, range: -90deg..90deg, max_torque: 2N*m) at [-200mm, 0mm, 0mm]
+  joint too : beam -> right = revolute(axis: -Y) at [200mm, 0mm, 0mm]
+  joint too = swing
+  joint third : beam -> back = fixed()
+}
+let v = verify(Trestle(), world: world(friction: 0, dynamics: full))
+print(v.ok, abs(v.torque_margin - (1 - 2kg * 9.80665m/s^2 * 100mm * sin(30deg) / 2N*m)) < 1e-4)
+//> true true
+
 --- a joint that changes its speed at once would take any torque
 module Arm {
   link base = box(100mm, 100mm, 20mm, mass: 10kg)
@@ -129,3 +160,13 @@ print(verify(move(a.bend, to: 1rad), world: full).ok)
 config Free { part a: Arm  behavior turn allows acceleration = spin(a.bend, 1rad/s, for: 1s) }
 print(verify(Sc(Free().turn(), wait(100ms)), world: full).ok)
 //> true
+
+--- the first line names the dynamics that were judged under, and not those of the plan
+use std.smores.Smores
+config One { part m: Smores  behavior nod = move(m.tilt, to: 10deg) }
+let full = world(dynamics: full)
+fn first(r: Report) -> Text = split("{r}", ":")[0]
+print(first(verify(One().nod())), first(verify(One().nod(), world: full)))
+//> verified under statics verified under full dynamics
+print(first(verify(plan(One().nod(), world: full), world: world(dynamics: statics))))
+//> verified under statics

@@ -167,5 +167,8 @@ fn ranged(robot: &Assembly, kinematics: &Kinematics) -> Vec<RangedJoint> {
         }
         _ => None,
     };
-    kinematics.steps.iter().enumerate().filter_map(ranged).collect()
+    // A joint that others follow has one stop, at the first of its steps.
+    let mut known = vec![false; ranges.len()];
+    let first = |ranged: &RangedJoint| !std::mem::replace(&mut known[ranged.joint], true);
+    kinematics.steps.iter().enumerate().filter_map(ranged).filter(first).collect()
 }
