@@ -5,7 +5,7 @@ use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::value::Value;
 use crate::plan::verify::articulated::{self, Detail, Instant};
-use crate::plan::{CauseId, Plan, Settings, Verdict, WorldFrom};
+use crate::plan::{CauseId, Plan, Settings, Verdict, World, WorldFrom};
 use std::any::Any;
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
@@ -82,6 +82,14 @@ impl std::fmt::Debug for PlanValue {
 }
 
 impl PlanValue {
+    /// Returns the worlds that the plan is judged in: `world` from its beginning on, or its own.
+    pub fn worlds_in(&self, world: Option<World>) -> Vec<WorldFrom> {
+        match world {
+            Some(world) => vec![WorldFrom { from: 0.0, world }],
+            None => self.plan.worlds.clone(),
+        }
+    }
+
     /// Returns a plan that was not judged yet, without a planner's report. `robot`: what moves; `body`: the robot as
     /// an assembly, `None` for a lattice or a truss; `causes`: the run's number of each cause of the plan; `actions`:
     /// the number of its actions.

@@ -12,9 +12,7 @@ use super::value::{Behavior, Value};
 use crate::behavior::{self, Problem, Scheduled};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::visit::equal;
-use crate::plan::{
-    Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, WorldFrom, file,
-};
+use crate::plan::{Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, file};
 use crate::robot::{JointId, Library, State};
 use crate::source::{Span, code};
 use std::cell::OnceCell;
@@ -278,10 +276,7 @@ impl Interpreter<'_> {
     /// Returns the verdict on a plan under these settings, and from its start on under `world` if it is given,
     /// otherwise under the plan's own worlds. A verdict is computed once and kept with the plan. `planned`: the plan.
     pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
-        let worlds = match world {
-            Some(world) => vec![WorldFrom { from: 0.0, world }],
-            None => planned.plan.worlds.clone(),
-        };
+        let worlds = planned.worlds_in(world);
         let known = |judged: &&Judged| judged.settings == settings && judged.worlds == worlds;
         if let Some(judged) = planned.judged.borrow().iter().find(known) {
             return judged.verdict.clone();

@@ -15,9 +15,7 @@ use crate::interpret::record::StateValue;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
-use crate::plan::{
-    self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World, WorldFrom,
-};
+use crate::plan::{self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World};
 use crate::robot::{Assembly, State};
 use crate::source::{Diagnostic, Span, code, files};
 use crate::view;
@@ -224,10 +222,7 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let world: Option<World> = call.get("world")?;
     let verdict = interpreter.judge(&planned, settings, world);
     interpreter.note_exemptions(&planned, &verdict);
-    let headline = match world {
-        None => plan::headline(&planned.plan, &verdict),
-        Some(world) => plan::headline_under(&planned.plan, &[WorldFrom { from: 0.0, world }], &verdict),
-    };
+    let headline = plan::headline_under(&planned.plan, &planned.worlds_in(world), &verdict);
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }
 

@@ -16,7 +16,7 @@ use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
 use crate::robot::JointId;
-use crate::robot::dynamics::{Dynamics, Twist, Wrench};
+use crate::robot::dynamics::{Dynamics, Twist};
 use crate::units::{Dimension, number, quantity};
 use std::collections::VecDeque;
 
@@ -207,30 +207,17 @@ impl<'a> Course<'a> {
         };
         let Equilibrium { loads, friction, open, slides, .. } = equilibrium::solve(&situation, None, warm)?;
         let zero = Vec3::zeros();
-        let mut wrenches: Vec<LinkWrench> = situation
-            .needed
-            .iter()
-            .enumerate()
-            .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
-            .collect();
         let pushed = situation.candidates.iter().zip(&loads.normal).zip(&friction);
         let pushed = pushed.filter(|((_, normal), _)| **normal > 0.0).map(|((candidate, normal), (_, f))| {
             LinkWrench { link: candidate.link, p: candidate.p, f: f + Vec3::z() * *normal, m: zero }
         });
         let ground: Vec<LinkWrench> = pushed.collect();
-        wrenches.extend_from_slice(&ground);
-        for (stop, effort) in situation.stops.iter().zip(&loads.stops) {
-            let Wrench { force, moment } = stop.wrench(*effort);
-            let [carries, carried] = stop.sides;
-            wrenches.push(LinkWrench { link: carried, p: zero, f: force, m: moment });
-            wrenches.push(LinkWrench { link: carries, p: zero, f: -force, m: -moment });
-        }
-        for (closing, w) in situation.loops.iter().zip(&loads.bonds) {
-            let (f, m) = (Vec3::new(w[0], w[1], w[2]), Vec3::new(w[3], w[4], w[5]));
-            let [a, b] = closing.sides;
-            wrenches.push(LinkWrench { link: a, p: closing.p, f, m });
-            wrenches.push(LinkWrench { link: b, p: closing.p, f: -f, m: -m });
-        }
+        let wrenches: Vec<LinkWrench> = loads
+            .wrenches
+            .iter()
+            .enumerate()
+            .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
+            .collect();
         let held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
         Some(Loaded { held, efforts: loads.efforts, ground, imbalance: loads.imbalance, open, slides })
     }

@@ -98,7 +98,7 @@ struct Factored {
 /// The response of the tree to loads.
 struct Response {
     links: Vec<Vector6<f64>>,
-    /// The motion of each step, rad or m.
+    /// The motion of each step that has a driver, rad or m; 0 for others.
     steps: Vec<f64>,
     /// The load of each link with all that it carries, without what its displacement adds.
     carried: Vec<Vector6<f64>>,
@@ -210,20 +210,15 @@ impl<'a> ElasticTree<'a> {
             gradient[candidate.link] += rise(&candidate.p) * (PARAMETERS.contact_stiffness * candidate.gap);
         }
         let still = vec![0.0; self.axes.len()];
+        if self.coupled.is_empty() && self.situation.loops.is_empty() {
+            return Some(self.displaced(self.response(&factored, gradient, &springs, &still, true), &[]));
+        }
         let free = self.response(&factored, gradient.clone(), &springs, &still, true);
-        let joining = self.coupled.len() + 6 * self.situation.loops.len();
-        let response = match joining {
-            0 => free,
-            _ => {
-                let across = self.across(&factored, &springs, &free)?;
-                let (imposed, wrenches) = self.joined(across.as_slice());
-                wrenches.into_iter().for_each(|(link, wrench)| gradient[link] += wrench);
-                let mut response = self.response(&factored, gradient, &springs, &imposed, true);
-                response.steps = imposed.iter().zip(&response.steps).map(|(a, b)| a + b).collect();
-                return Some(self.displaced(response, &across.as_slice()[..self.coupled.len()]));
-            }
-        };
-        Some(self.displaced(response, &[]))
+        let across = self.across(&factored, &springs, &free)?;
+        let (imposed, wrenches) = self.effects(across.as_slice());
+        wrenches.into_iter().for_each(|(link, wrench)| gradient[link] += wrench);
+        let response = self.response(&factored, gradient, &springs, &imposed, true);
+        Some(self.displaced(response, &across.as_slice()[..self.coupled.len()]))
     }
 
     fn displaced(&self, response: Response, coupled: &[f64]) -> Displaced {
@@ -343,7 +338,7 @@ impl<'a> ElasticTree<'a> {
         let mut matrix = DMatrix::zeros(size, size);
         for column in 0..size {
             let unit: Vec<f64> = (0..size).map(|i| f64::from(u8::from(i == column))).collect();
-            let (imposed, wrenches) = self.joined(&unit);
+            let (imposed, wrenches) = self.effects(&unit);
             let mut gradient = none.clone();
             wrenches.into_iter().for_each(|(link, wrench)| gradient[link] += wrench);
             let response = self.response(factored, gradient, springs, &imposed, false);
@@ -364,7 +359,7 @@ impl<'a> ElasticTree<'a> {
 
     /// Returns the motions of steps by deflections of the coupled joints, and the loads on links by wrenches in the closing
     /// bonds; `across` holds both.
-    fn joined(&self, across: &[f64]) -> (Vec<f64>, Vec<(usize, Vector6<f64>)>) {
+    fn effects(&self, across: &[f64]) -> (Vec<f64>, Vec<(usize, Vector6<f64>)>) {
         let mut imposed = vec![0.0; self.axes.len()];
         for (coupled, deflection) in self.coupled.iter().zip(across) {
             coupled.steps.iter().for_each(|(step, factor)| imposed[*step] += factor * deflection);

@@ -10,7 +10,6 @@ use crate::robot::dynamics::Wrench;
 use crate::robot::jacobian::JointAxis;
 
 /// A bond that closes a loop.
-#[derive(Clone)]
 pub(super) struct Loop {
     /// The links of its two ports, by their numbers among all links.
     pub sides: [usize; 2],
@@ -36,7 +35,6 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
 }
 
 /// The stop at an end of a joint's range, near which the joint is.
-#[derive(Clone)]
 pub(super) struct Stop {
     /// The joint, by [`crate::robot::JointId`].
     pub joint: usize,
@@ -79,18 +77,16 @@ pub(super) fn stops(posed: &Posed) -> Vec<Stop> {
     posed.model.ranged.iter().filter_map(near).collect()
 }
 
-/// The loads of contacts, joints, stops and closing bonds at an instant.
+/// The loads of contacts and joints at an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Loads {
     /// The normal force at each candidate, N.
     pub normal: Vec<f64>,
     /// The effort of the motor of each joint, N·m or N.
     pub efforts: Vec<f64>,
-    /// The effort of each stop of [`Situation::stops`], N·m or N; not negative.
-    pub stops: Vec<f64>,
-    /// The wrench in each bond that closes a loop, on the link of its first port at the bond, in level axes: force (N)
-    /// and moment (N·m).
-    pub bonds: Vec<[f64; 6]>,
+    /// The wrench that each link needs of its joints and bonds, by its number, about the centre of mass in level axes, N and
+    /// N·m: what its motion needs, less contacts, stops and closing bonds.
+    pub wrenches: Vec<Wrench>,
     /// The greatest imbalance of the base: of its force in height as a part of the weight, or of its moment in roll or
     /// pitch as a part of the weight times [`Situation::size`]; 0 unless the robot settles on the ground.
     pub imbalance: f64,
@@ -121,17 +117,21 @@ pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushin
             wrenches[link].moment -= moment * sign;
         }
     }
-    // Each link's own, then the sums over all that it carries.
+    for (stop, effort) in problem.stops.iter().zip(&stops) {
+        let Wrench { force, moment } = stop.wrench(*effort);
+        for (link, sign) in stop.sides.into_iter().zip([1.0, -1.0]) {
+            wrenches[link].force += force * sign;
+            wrenches[link].moment += moment * sign;
+        }
+    }
+    let mut sums = wrenches.clone();
     let kinematics = &problem.posed.model.kinematics;
     let poses = &problem.posed.poses;
-    let mut efforts = problem.posed.dynamics.efforts(kinematics, poses, &mut wrenches, &Vec3::zeros());
-    for (stop, effort) in problem.stops.iter().zip(&stops) {
-        efforts[stop.joint] -= stop.sign * effort;
-    }
-    let left = &wrenches[kinematics.link(kinematics.root, 0)];
+    let efforts = problem.posed.dynamics.efforts(kinematics, poses, &mut sums, &Vec3::zeros());
+    let left = &sums[kinematics.link(kinematics.root, 0)];
     let left = [left.force.z, left.moment.x / problem.size, left.moment.y / problem.size];
     let settles = problem.support == Support::Settles && problem.weight > 0.0;
     let imbalance =
         if settles { left.into_iter().fold(0.0, |m, x| x.abs().max(m)) / problem.weight } else { 0.0 };
-    Some(Loads { normal, efforts, stops, bonds, imbalance })
+    Some(Loads { normal, efforts, wrenches, imbalance })
 }

@@ -281,7 +281,6 @@ impl Support {
 }
 
 /// The situation of an instant, before the forces of its contacts are known.
-#[derive(Clone)]
 pub(super) struct Situation<'a> {
     /// The robot.
     pub posed: &'a Posed<'a>,
@@ -316,12 +315,6 @@ impl<'a> Situation<'a> {
     /// Returns the situation of a robot in motion, with velocity and acceleration of the base's own frame.
     pub(super) fn moving(posed: &'a Posed<'a>, world: &World, motion: &(Twist, Twist)) -> Situation<'a> {
         Situation::new(posed, world, Some(motion))
-    }
-
-    /// Returns the situation with servos that are stiffer by a factor.
-    pub(super) fn with_stiffness(&self, factor: f64) -> Situation<'a> {
-        let stiffness = self.stiffness.iter().map(|stiffness| stiffness * factor).collect();
-        Situation { stiffness, ..self.clone() }
     }
 
     fn new(posed: &'a Posed<'a>, world: &World, motion: Option<&(Twist, Twist)>) -> Situation<'a> {

@@ -181,7 +181,7 @@ impl Traction {
     fn determine(&mut self, step: &GroundStep) {
         let posed =
             Posed::new(step.model, step.dynamics, step.rollout, (step.time, PARAMETERS.window), step.R);
-        let situation = Situation::at_rest(&posed, step.world);
+        let mut situation = Situation::at_rest(&posed, step.world);
         let (inertia, carried) = planar(&posed);
         let since = self.last.as_ref().map(|last| step.time - last.time);
         // After a rest there is no momentum left.
@@ -232,9 +232,10 @@ impl Traction {
                 forked = last.forked;
             }
             _ => {
-                let firmness = [PARAMETERS.servo_softer, PARAMETERS.servo_stiffer];
-                for (other, factor) in others[1..].iter_mut().zip(firmness) {
-                    let situation = situation.with_stiffness(factor);
+                let stiffness = situation.stiffness.clone();
+                let factors = [PARAMETERS.servo_softer, PARAMETERS.servo_stiffer];
+                for (other, factor) in others[1..].iter_mut().zip(factors) {
+                    situation.stiffness = stiffness.iter().map(|stiffness| stiffness * factor).collect();
                     let mut warm = self.warm.clone();
                     let found = equilibrium::solve(&situation, Some(momentum), &mut warm);
                     *other = found.map_or_else(Vector3::zeros, |found| rate(&found.twist) - rate(&twist));
