@@ -311,7 +311,7 @@ fn names_and_numbers_of_any_kind_leave_a_model_well_formed() {
 
 /// Runs a script on tasks, with the modules of this folder in reach; `None`, with a message, where Python or MuJoCo is
 /// missing.
-pub(super) fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
+fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
     let Some(python) = python() else {
         let why = "no Python with mujoco (.ci/run installs it)";
         writeln!(std::io::stderr(), "skipped: models of MuJoCo: {why}").expect("stderr is open");
@@ -431,13 +431,13 @@ fn under_full_dynamics(plan: &Plan) -> Verdict {
     verify(&plan)
 }
 
-/// Plays plans on their models with servos of this stiffness (N·m/rad), and damping in proportion to it; `None` without
-/// MuJoCo.
-fn played(tasks: &[Value], stiffness: f64) -> Option<Vec<Value>> {
+/// Plays plans on their models with servos of a stiffness (N·m/rad), and damping in proportion to it, by a function of
+/// `mujoco_runner`, whose other arguments are `more`; `None` without MuJoCo.
+pub(super) fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str) -> Option<Vec<Value>> {
     let damping = 6.0 * stiffness / 150.0;
     let script = format!(
-        "import json, mujoco_runner; tasks = json.load(sys.stdin); both = mujoco_runner.both; \
-         json.dump([both(t['plan'], t['model'], kp={stiffness}, kv={damping}) for t in tasks], sys.stdout)"
+        "import json, mujoco_runner; tasks = json.load(sys.stdin); play = mujoco_runner.{function}; \
+         json.dump([play(t['plan'], t['model'], kp={stiffness}, kv={damping}{more}) for t in tasks], sys.stdout)"
     );
     answers(&script, tasks)
 }
@@ -474,7 +474,11 @@ fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Val
 #[test]
 fn what_is_verified_happens_with_other_servos() {
     let (some, cases, tasks) = of_the_library(1);
-    let (Some(softer), Some(stiffer)) = (played(&tasks, GAINS[0]), played(&tasks, GAINS[1])) else { return };
+    let (Some(softer), Some(stiffer)) =
+        (played(&tasks, GAINS[0], "both", ""), played(&tasks, GAINS[1], "both", ""))
+    else {
+        return;
+    };
     let mut wrong = vec![];
     for (index, (case, (robot, behavior, _))) in cases.iter().zip(some).enumerate() {
         let verdict = under_full_dynamics(&case.plan);
@@ -502,7 +506,7 @@ fn what_is_verified_happens_with_other_servos() {
 #[test]
 fn what_is_verified_happens_in_a_simulation() {
     let (some, cases, tasks) = of_the_library(3);
-    let Some(simulated) = played(&tasks, 150.0) else { return };
+    let Some(simulated) = played(&tasks, 150.0, "both", "") else { return };
     let mut wrong = vec![];
     for ((case, simulated), (robot, behavior, _)) in cases.iter().zip(&simulated).zip(some) {
         let verdict = case.plan.verdict.as_ref().expect("it was verified");

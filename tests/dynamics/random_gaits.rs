@@ -4,7 +4,7 @@
 #![allow(non_snake_case)]
 
 use super::gait_programs::{Gait, gait};
-use super::mjcf::{SURE, answers, number};
+use super::mjcf::{SURE, number, played};
 use crate::support::desk;
 use crate::support::suite::MapFiles;
 use modl::formats::mjcf;
@@ -102,7 +102,7 @@ fn case(seed: u64) -> Option<Case> {
     plan.verdict = None;
     let friction = gait.friction;
     plan.worlds[0].world = World { friction, dynamics: DynamicsModel::Full, ..World::default() };
-    // What is left of the limits is in the verdict.
+    // The verdict tells what is left of the limits.
     plan.settings.reserve = 0.0;
     let verdict = verify(&plan);
     let model = mjcf::write(&plan).expect("the robot has links and joints");
@@ -166,6 +166,11 @@ impl Case {
         self.simulated.iter().all(|simulated| self.unlike(simulated, slip_part).is_empty())
     }
 
+    /// Returns true if the gait happens with torque to spare.
+    fn is_sure(&self) -> bool {
+        self.happens(0.0) && self.needed() <= SURE
+    }
+
     /// Returns the greatest torque that is needed, in parts of its limit.
     fn needed(&self) -> f64 {
         self.simulated.iter().map(|simulated| number(&simulated["needed"][0])).fold(0.0, f64::max)
@@ -194,26 +199,14 @@ impl Case {
     }
 }
 
-/// Plays cases with servos of a stiffness (N·m/rad) by a function of `mujoco_runner`, whose other arguments are `more`; `None`
-/// without MuJoCo.
-fn played(cases: &[&Case], stiffness: f64, function: &str, more: &str) -> Option<Vec<Value>> {
-    let damping = 6.0 * stiffness / 150.0;
-    let script = format!(
-        "import json, mujoco_runner; tasks = json.load(sys.stdin); \
-         json.dump([mujoco_runner.{function}(t['plan'], t['model'], kp={stiffness}, kv={damping}{more}) \
-         for t in tasks], sys.stdout)"
-    );
-    answers(&script, &cases.iter().map(|case| case.task()).collect::<Vec<_>>())
-}
-
 /// Plays all cases at all stiffnesses, and those that disagree once more with a finer step; false without MuJoCo.
 fn play(cases: &mut [Case]) -> bool {
     for stiffness in STIFFNESSES {
-        let all: Vec<&Case> = cases.iter().collect();
+        let all: Vec<Value> = cases.iter().map(Case::task).collect();
         let Some(mut simulated) = played(&all, stiffness, "both", "") else { return false };
         let again: Vec<usize> =
-            (0..all.len()).filter(|i| !all[*i].unlike(&simulated[*i], 0.0).is_empty()).collect();
-        let some: Vec<&Case> = again.iter().map(|i| all[*i]).collect();
+            (0..all.len()).filter(|i| !cases[*i].unlike(&simulated[*i], 0.0).is_empty()).collect();
+        let some: Vec<Value> = again.iter().map(|i| all[*i].clone()).collect();
         let step = format!(", step={FINE_STEP}");
         let finer = played(&some, stiffness, "play", &step).expect("MuJoCo is there");
         for (index, mut finer) in again.into_iter().zip(finer) {
@@ -232,7 +225,6 @@ fn say(line: &str) {
 
 /// Prints the table by reserve, and what disagrees.
 fn tell(cases: &[Case]) {
-    let sure = |case: &&Case| case.happens(0.0) && case.needed() <= SURE;
     for reserve in RESERVES {
         let passed: Vec<&Case> = cases.iter().filter(|case| case.passes(reserve)).collect();
         let of = |wrong: &dyn Fn(&Case) -> bool| passed.iter().filter(|case| wrong(case)).count();
@@ -240,7 +232,7 @@ fn tell(cases: &[Case]) {
         let yields = |case: &Case| {
             case.simulated.iter().any(|simulated| case.unlike(simulated, 0.0).iter().any(gives_way))
         };
-        let refused = cases.iter().filter(sure).filter(|case| !case.passes(reserve)).count();
+        let refused = cases.iter().filter(|case| case.is_sure() && !case.passes(reserve)).count();
         say(&format!(
             "| {reserve:.2} | {} | {} | {} | {} | {} | {refused} of {} |",
             passed.len(),
@@ -248,12 +240,12 @@ fn tell(cases: &[Case]) {
             of(&|case| case.needed() > 1.0),
             of(&|case| !case.happens(0.0)),
             of(&|case| !case.happens(SLIP_PART)),
-            cases.iter().filter(sure).count(),
+            cases.iter().filter(|case| case.is_sure()).count(),
         ));
     }
     let disagrees = |case: &&Case| {
         let passes = case.passes(Settings::reserve_default());
-        passes && !case.happens(0.0) || !passes && sure(case)
+        passes && !case.happens(0.0) || !passes && case.is_sure()
     };
     cases.iter().filter(disagrees).for_each(|case| say(&case.row()));
 }
@@ -278,7 +270,7 @@ fn random_gaits_that_pass_happen_and_few_that_happen_are_refused() {
         .map(|case| case.row())
         .collect();
     assert!(wrong.is_empty(), "passed, and does not happen:\n{}", wrong.join("\n"));
-    let sure: Vec<&Case> = cases.iter().filter(|case| case.happens(0.0) && case.needed() <= SURE).collect();
+    let sure: Vec<&Case> = cases.iter().filter(|case| case.is_sure()).collect();
     let refused = sure.iter().filter(|case| !case.passes(reserve)).count();
     assert!(refused as f64 <= REFUSED_MAX * sure.len() as f64, "{refused} of {} are refused", sure.len());
     // A generator whose gaits all pass, or all fail, would show nothing.
