@@ -8,16 +8,21 @@ use crate::plan::{CauseId, CheckKind, ExemptionKind, Failure, Status, Tracks};
 use crate::robot::{Drive, JointId, drives};
 use crate::units::{Dimension, quantity};
 
-/// A piece of motion of one drive over the time of one piece of each of its joints.
+/// A polynomial piece of the motion of a drive, within one segment, or one rest, of each of its joints.
 struct Piece {
+    /// The start of the piece, s.
     start: f64,
+    /// The end of the piece, s.
     end: f64,
+    /// The Bernstein control points of the drive's position, rad or m.
     control: Vec<f64>,
+    /// The cause of the joints' segment that began last; `None` for the position at the start of the plan.
     cause: Option<CauseId>,
 }
 
 /// Judges range, speed and acceleration of every joint and motor that states a limit. Under full dynamics (`full`) a
-/// joint that states no greatest acceleration must not change its speed at once: its torque would have no bound.
+/// joint with a motor of its own that states no acceleration limit must not jump in velocity: its torque would have no
+/// bound.
 pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
     let drives = drives(&tracks.robot);
     for drive in &drives {
@@ -32,7 +37,8 @@ pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger
     ledger.check(CheckKind::Acceleration, status(drives.iter().any(|d| d.limits.acceleration.is_some())));
 }
 
-/// Returns the motion of a drive: the sum of its joints' pieces, cut where any of them begins or ends.
+/// Returns the motion of a drive, in order of time: the weighted sum of the motions of its joints, cut at each instant
+/// at which a segment of one of them begins or ends. Intervals in which none of them has a segment are left out.
 fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
     let moving: Vec<_> = drive
         .terms
@@ -82,13 +88,15 @@ fn pieces(tracks: &Tracks, drive: &Drive) -> Vec<Piece> {
     found
 }
 
+/// Returns the Bernstein control points of `a + factor · b`, after elevation to the greater of their degrees.
 fn sum(a: &[f64], b: &[f64], factor: f64) -> Vec<f64> {
     let degree = a.len().max(b.len()) - 1;
     let (a, b) = (elevated(a, degree), elevated(b, degree));
     a.iter().zip(&b).map(|(a, b)| a + factor * b).collect()
 }
 
-/// Checks the range of a drive at the start and over all its pieces; reports the greatest excess.
+/// Checks the position of a drive (rad or m) at the start and over all its pieces against its range, and reports the
+/// greatest excess. An excess up to the tolerance `limit` of the range's length, or of 1 if that is more, is none.
 fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
     let Some((low, high)) = drive.limits.range else { return };
     let at_start: f64 = drive.terms.iter().map(|&(joint, factor)| factor * tracks.start.joints[joint]).sum();
@@ -120,7 +128,8 @@ fn range(tracks: &Tracks, drive: &Drive, pieces: &[Piece], tolerances: &Toleranc
     }
 }
 
-/// Checks the greatest speed of a drive, and keeps its margin.
+/// Checks the greatest speed of a drive (rad/s or m/s) against its limit, and records the margin as a part of the
+/// limit if it is the least so far.
 fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut Ledger) {
     let Some(limit) = drive.limits.speed else { return };
     let mut worst: Option<(f64, f64, &Piece)> = None;
@@ -145,7 +154,9 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
     }
 }
 
-/// Checks the greatest acceleration of a drive; a jump of the speed counts as an infinite one.
+/// Checks the acceleration of a drive (rad/s² or m/s²) against its limit, and reports the greatest excess that no
+/// exemption covers; a jump of the velocity counts as infinite. Without a limit only jumps are checked, and these only
+/// under full dynamics (`full`) and for a joint with a motor of its own.
 fn acceleration(drive: &Drive, pieces: &[Piece], full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
     let is_excused = |time: f64, ledger: &mut Ledger| {
         ledger.excuses(CheckKind::Acceleration, time, |kind| *kind == ExemptionKind::Acceleration)
@@ -186,8 +197,7 @@ fn acceleration(drive: &Drive, pieces: &[Piece], full: bool, tolerances: &Tolera
     ledger.fail(failure(CheckKind::Acceleration, drive, time, message, (value, limit), piece));
 }
 
-/// Returns the failure of a drive that changes its speed at once, by `change` (rad/s or m/s), and states no greatest
-/// acceleration.
+/// Returns the failure of a drive that jumps in velocity, by `change` (rad/s or m/s), and states no acceleration limit.
 fn unlimited(drive: &Drive, time: f64, change: f64, piece: &Piece) -> Failure {
     let dimension = if drive.turns { Dimension::ANGULAR_SPEED } else { Dimension::SPEED };
     let message = format!(
@@ -198,8 +208,9 @@ fn unlimited(drive: &Drive, time: f64, change: f64, piece: &Piece) -> Failure {
     failure(CheckKind::Acceleration, drive, time, message, (change, 0.0), piece)
 }
 
-/// Returns the jumps of the speed of a drive, before, between and after its pieces, in order of time: the time (s), the
-/// change (rad/s or m/s, not negative) and the piece that begins or ends there.
+/// Returns the jumps in velocity of a drive that exceed the tolerance `speed_jump`, before, between and after its
+/// pieces, in order of time: the time (s), the change (rad/s or m/s, not negative) and the piece that begins or ends
+/// there.
 fn jumps<'p>(pieces: &'p [Piece], tolerances: &Tolerances) -> Vec<(f64, f64, &'p Piece)> {
     let mut found = Vec::new();
     let mut before = (f64::NEG_INFINITY, 0.0);
@@ -209,7 +220,7 @@ fn jumps<'p>(pieces: &'p [Piece], tolerances: &Tolerances) -> Vec<(f64, f64, &'p
         let (first, last) = (rates[0] / length, rates[rates.len() - 1] / length);
         let was = if before.0 == piece.start { before.1 } else { 0.0 };
         found.push((piece.start, (first - was).abs(), piece));
-        // After the last piece, and before a pause, the joint stands still at once.
+        // After the last piece, and before a pause, the drive is at rest.
         if pieces.get(index + 1).is_none_or(|next| next.start > piece.end) {
             found.push((piece.end, last.abs(), piece));
         }

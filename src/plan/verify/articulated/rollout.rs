@@ -20,7 +20,7 @@ use crate::units::{Dimension, quantity};
 /// A plan to roll out, with settings and tolerances. The plan must be valid.
 #[derive(Clone, Copy)]
 pub struct Rollout<'a> {
-    /// The motion.
+    /// The body of the plan: the robot, its state at the start, and the trajectories of its joints.
     pub tracks: &'a Tracks,
     /// The worlds that the plan assumes, in order of time.
     pub worlds: &'a [WorldFrom],
@@ -28,7 +28,7 @@ pub struct Rollout<'a> {
     pub exemptions: &'a [Exemption],
     /// The plan's settings of verification.
     pub settings: &'a Settings,
-    /// The tolerances.
+    /// The tolerances of the judge.
     pub tolerances: &'a Tolerances,
     /// A joint, by the number in its `JointId`, that is held from a time on (s), to find the command to blame; `None`:
     /// all joints move.
@@ -66,35 +66,38 @@ pub struct Sample<'a> {
     pub bonds: &'a [bool],
     /// The model of the robot with those bonds.
     pub model: &'a Model<'a>,
-    /// Its stance on the ground, or over it.
+    /// The stance of the robot: its posture and attitude, its place in the world, and its contacts.
     pub stance: &'a Stance,
-    /// The world that the plan assumes at that time.
+    /// The world that the plan assumes just after that time.
     pub world: &'a World,
     /// True if anything moved since the sample before.
     pub moved: bool,
-    /// The fall of the centre of mass if it settles with the joints held, m.
+    /// The fall of the centre of mass as the robot settles with the joints held, m, also where the base is held so that
+    /// it does not; 0 off the ground.
     pub fall: f64,
     /// An upper bound on the motion of the robot's points about the centre of mass since the sample before, m; 0 off
     /// the ground.
     pub motion: f64,
     /// The loss of support since the sample before; `None` if there was none.
     pub tip: Option<&'a TipOver>,
-    /// For each loaded contact patch the number of its link, its slip since the sample before, m, and its load as a
-    /// fraction of the weight.
+    /// The slip of each loaded link since the sample before, as (number of the link, slip in m, load as a fraction of
+    /// the weight). Under statics half of the slip comes with the contact patches of the sample before, the other half
+    /// with those of this one, so that a link may occur twice.
     pub slips: &'a [(usize, f64, f64)],
     /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
     /// samples.
     pub settling: Option<f64>,
-    /// The travel so far, as far as friction determines it; none under statics.
+    /// The travel over the ground since the start, with its sensitivity to friction and servo stiffness; all 0 under
+    /// statics.
     pub ways: Ways,
 }
 
 /// A loss of support: the robot tips over an edge of its support polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TipOver {
-    /// The time at which the centre of mass crossed the edge, s.
+    /// The time at which the robot begins to fall over the edge, s, found by bisection up to the tolerance `time`.
     pub time: f64,
-    /// The fall of the centre of mass, m.
+    /// The fall of the centre of mass, m, as the robot settles with the joints held at the sample that showed it.
     pub fall: f64,
     /// An upper bound on the motion of points about the centre of mass in the step that showed it, m.
     pub motion: f64,
@@ -121,8 +124,8 @@ pub enum RolloutEnd {
     Stopped,
 }
 
-/// Features that may touch the ground, of a robot whose samples count once. The samples of larger ones, which take
-/// longer, count once for each so many.
+/// The number of ground features for which a sample counts once: a sample of a robot with k times as many takes longer,
+/// and counts k times.
 const FEATURES_PER_SAMPLE: usize = 100;
 
 /// Returns the number of samples that a plan of a robot with so many features (see [`Model::features`]) may take:
@@ -134,31 +137,39 @@ pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
 /// The greatest number of halvings of one step: times are then so close that nothing moves between them.
 const HALVINGS_MAX: usize = 50;
 
-/// A state from which a rollout continues.
+/// The state of a rollout at a sample, from which it can continue.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     /// The time from the start of the plan, s.
     pub time: f64,
     /// The stance at that time.
     pub stance: Stance,
+    /// The time since which the base is held because the support was lost, s; `None` while it is not.
     held_since: Option<f64>,
     /// The state of travel; `None` under statics.
     traction: Option<Traction>,
 }
 
+/// A rollout in progress: the state of the robot at the last sample.
 struct Stepper<'a> {
     rollout: Rollout<'a>,
+    /// The model of the robot with the bonds that hold.
     model: Model<'a>,
+    /// A flag for every bond, true if it holds.
     bonds: Vec<bool>,
     stance: Stance,
     /// The time of the last sample, s.
     now: f64,
+    /// The positions of all joints, rad or m.
     joints: Vec<f64>,
+    /// A buffer for the poses of the links.
     poses: Vec<Pose>,
     world: World,
+    /// The time since which the base is held because the support was lost, s; `None` while it is not.
     held_since: Option<f64>,
     /// The state of travel and the masses of the robot; `None` under statics.
     traction: Option<(Traction, Dynamics)>,
+    /// The number of samples since the start or the checkpoint, without that one.
     samples: usize,
 }
 
@@ -222,7 +233,7 @@ impl<'a> Stepper<'a> {
         Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, traction, samples: 0 }
     }
 
-    /// Observes the first sample.
+    /// Sets the robot into its world, and observes the sample at the start; returns false if that stops the rollout.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         let pose = self.rollout.tracks.start.base;
         let placement = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
@@ -230,7 +241,7 @@ impl<'a> Stepper<'a> {
         self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
 
-    /// Samples from `now` to `target`, between which nothing begins or ends.
+    /// Takes the samples from `now` to `target` (s), between which no segment, bond, world or exemption begins or ends.
     fn interval(
         &mut self,
         target: f64,
@@ -250,7 +261,8 @@ impl<'a> Stepper<'a> {
         RolloutEnd::AtEnd
     }
 
-    /// Takes one sample, or several where a step has to be halved.
+    /// Takes the sample at `target` (s), and others before it where a step has to be halved. `moving`: true if joints
+    /// move on the way.
     fn advance(
         &mut self,
         target: f64,
@@ -277,7 +289,7 @@ impl<'a> Stepper<'a> {
         RolloutEnd::AtEnd
     }
 
-    /// Goes to time `t`; `None` where the step is too long.
+    /// Moves the state on to the time `t` (s); `None`, with the state as it was, if the step has to be halved.
     fn step(&mut self, t: f64, moving: bool, may_halve: bool) -> Option<Step> {
         let changes = self.changes(t);
         if !moving && !changes.bonds && !changes.world && !self.stance.held {
@@ -298,6 +310,8 @@ impl<'a> Stepper<'a> {
         Some(self.changed(t, changes, step))
     }
 
+    /// Follows a change of posture on the ground, by settling or, after a loss of support, by holding the base; `None`
+    /// if the step has to be halved.
     fn step_on_ground(&mut self, t: f64, posture: Posture, may_halve: bool) -> Option<Step> {
         let tolerances = self.rollout.tolerances;
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
@@ -347,7 +361,8 @@ impl<'a> Stepper<'a> {
         Some(step)
     }
 
-    /// Locates a tip-over in time and its edge, by bisection between the last sample that stood and this one.
+    /// Locates a tip-over in time, by bisection between the last sample, at which the robot stood, and the one at `t`
+    /// (s), and finds the edge nearest to the centre of mass then. `fall`, `motion`: those at `t`, m.
     fn tip(&mut self, t: f64, fall: f64, motion: f64) -> TipOver {
         let tolerances = self.rollout.tolerances;
         let (mut standing, mut fallen) = (self.now, t);
@@ -385,12 +400,13 @@ impl<'a> Stepper<'a> {
         TipOver { time: fallen, fall, motion, edge, excused }
     }
 
-    /// Returns the bonds and worlds that begin at `t`.
+    /// Returns flags for the changes from the last sample to just after `t` (s).
     fn changes(&self, t: f64) -> Changes {
         let bonds = bonds_at(self.rollout.tracks, t) != self.bonds;
         Changes { bonds, world: world_at(self.rollout.worlds, t) != self.world }
     }
 
+    /// Brings the state, and the step that led to `t` (s), past the changes at that time.
     fn changed(&mut self, t: f64, changes: Changes, mut step: Step) -> Step {
         if changes.bonds {
             self.bonds = bonds_at(self.rollout.tracks, t);
@@ -412,7 +428,7 @@ impl<'a> Stepper<'a> {
         step
     }
 
-    /// Rebuilds the stance over another tree of bonds: nothing moves.
+    /// Rebuilds the stance for the present model, whose tree of links may be another one: nothing moves.
     fn rebuild_stance(&mut self) {
         let pose = self.stance.base_pose(&self.model);
         let held = self.stance.held;
@@ -422,6 +438,8 @@ impl<'a> Stepper<'a> {
         self.stance.held = held;
     }
 
+    /// Sets the robot down with its base at a pose, and returns the angle by which it turned to settle (rad) and the
+    /// fall of the centre of mass (m).
     fn place_on_ground(&mut self, pose: &Pose, placement: Placement) -> (f64, f64) {
         let posture = self.model.posture(&self.joints, &mut self.poses);
         let (stance, fall, turn) =
@@ -430,10 +448,13 @@ impl<'a> Stepper<'a> {
         (turn, fall)
     }
 
+    /// Returns true if the robot rests and settles on the ground.
     fn on_ground(&self) -> bool {
         self.world.ground == Ground::Settle && self.world.gravity > 0.0
     }
 
+    /// Hands the present sample to the observer; returns false if that stops the rollout. `before`: the time of the
+    /// sample before, s.
     fn show(
         &self,
         observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
@@ -466,17 +487,19 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Returns the placement of a robot that does not settle.
+/// Returns the placement at the start of a robot that does not settle: lowered, unless its base is fixed in the world.
 fn unsettled(world: &World) -> Placement {
     if world.ground == Ground::Held { Placement::Fixed } else { Placement::Lowered }
 }
 
+/// The changes at an instant: `true` for what is another after it than before.
 #[derive(Clone, Copy)]
 struct Changes {
     bonds: bool,
     world: bool,
 }
 
+/// The changes of a step, by the names of [`Sample`].
 #[derive(Default)]
 struct Step {
     moved: bool,

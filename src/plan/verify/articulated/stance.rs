@@ -17,18 +17,19 @@ use nalgebra::{Rotation3, UnitQuaternion};
 pub struct Stance {
     /// The poses of the links in the frame of the base module's body.
     pub posture: Posture,
-    /// The orientation of that frame in the world, before the turn by the yaw of the planar pose.
+    /// The orientation of that frame in level axes: those of the world, turned about the vertical by the yaw of the
+    /// planar pose.
     pub R: Mat3,
-    /// The height of the centre of mass above the ground, m.
+    /// The height of the centre of mass above the plane z = 0 of the world, which is that of the ground, m.
     pub height: f64,
     /// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
     pub planar_pose: PlanarPose,
-    /// The features with the centre of mass at the origin, turned by `R`, in the order of [`Model::features`]; none
-    /// without a floor.
+    /// The features with the centre of mass at the origin, in level axes, in the order of [`Model::features`]; without
+    /// a floor there may be none.
     pub features: Vec<Feature>,
-    /// The contact points with their normal forces; none without a floor.
+    /// The points near the ground, with their normal forces; none without a floor.
     pub contact_points: Vec<ContactPoint>,
-    /// The contact points gathered by link.
+    /// The loaded contact points gathered by link.
     pub patches: Vec<ContactPatch>,
     /// True if the base is held because the support was lost.
     pub held: bool,
@@ -43,32 +44,34 @@ pub struct Stance {
 /// The effect of a change of posture on a stance, before it is decided if the robot tips over.
 pub struct SettleAttempt {
     posture: Posture,
-    /// The orientation without any fall.
+    /// The orientation of the base in level axes before the robot settles.
     R: Mat3,
+    /// The features with that orientation, as in [`Stance::features`].
     features: Vec<Feature>,
-    /// The height of the centre of mass with that orientation, m.
+    /// The height of the centre of mass with that orientation, the lowest point at the ground, m.
     height: f64,
+    /// The attitude to which the robot settles from that orientation.
     rest: SettledAttitude,
     /// An upper bound on the motion of any point about the centre of mass, from the motion of the joints only, m.
     pub motion: f64,
-    /// The fall of the centre of mass if it settles with the joints held, m.
+    /// The fall of the centre of mass as the robot settles with the joints held, m.
     pub fall: f64,
 }
 
 /// The outcome of an attempt to follow a change of posture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepOutcome {
-    /// The fall is within the tolerance.
+    /// The fall is within the tolerance `fall_floor`.
     Steady,
     /// The robot tips over: the fall is more than the motion can explain.
     TipOver,
-    /// The step is to be tried again, shorter.
+    /// The fall is beyond the tolerance, but the motion can explain it: a shorter step has to decide.
     Undecided,
 }
 
 impl Stance {
-    /// Returns the stance of a robot in a world, with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to the
-    /// ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`).
+    /// Returns the stance of a robot in a world, with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to
+    /// the ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`).
     /// Also returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless it
     /// settles.
     pub fn start(
@@ -118,8 +121,9 @@ impl Stance {
         (stance, up - rest.height, turned)
     }
 
-    /// Returns the effect of a change to `posture`: the robot is turned as its masses and contacts were, then settled.
-    /// While a robot is held, the contacts are those before it was. `model` must be that of this stance.
+    /// Returns the effect of a change to `posture`: the robot is turned so that its masses move least
+    /// ([`mass_alignment`]) and its loaded contacts keep their heights ([`height_keeping_turn`]), then settled with the
+    /// joints held. While a robot is held, the contacts are those before it was. `model` must be that of this stance.
     pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> SettleAttempt {
         let mut R = self.R * mass_alignment(model, &self.posture, &posture);
         let mut features = model.placed(&posture, &R);
@@ -134,8 +138,9 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
-    /// Returns the robot settled as attempted, and for each loaded contact patch the number of its link, its slip (m),
-    /// and its load as a fraction of the weight.
+    /// Returns the robot settled as attempted, at the place to which the minimum power principle moves it
+    /// ([`displacement`]). Also returns for each loaded contact patch, those of this stance and of the next, the number
+    /// of its link, its slip (m), half for either stance, and its load as a fraction of the weight.
     pub fn settled(
         &self,
         model: &Model,
@@ -154,7 +159,7 @@ impl Stance {
         (next, slips)
     }
 
-    /// Returns the robot held in its attitude without the fall, lowered to touch the ground.
+    /// Returns the robot held in the attitude that it has before it settles, with its lowest point at the ground.
     pub fn holding(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
         if !self.held {
@@ -173,7 +178,8 @@ impl Stance {
         Stance::start(model, posture, &X_WB, (world, Placement::Fixed), tolerances).0
     }
 
-    /// Brings the robot as it stands into another world, whose floor its contact points may touch, or which has none.
+    /// Changes the world under the robot, which stays as it is: with a floor its contact points are found, without one
+    /// it has none.
     pub fn enter(&mut self, model: &Model, world: &World, tolerances: &Tolerances) {
         let (floor, weighed) = (world.has_floor(), world.floor_bears());
         if (floor, weighed) != (self.floor, self.weighed) {
@@ -185,13 +191,14 @@ impl Stance {
         }
     }
 
-    /// Returns the static stability margin in the support polygon of the contacts; `None` if they span no area.
+    /// Returns the static stability margin in the support polygon of the contact points within the contact tolerances
+    /// of their modules; `None` if these span no area.
     pub fn margin(&self, model: &Model) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact::counts(model, contact_point))
     }
 
-    /// Returns the static stability margin of the contacts whose gap is at most `gap_exact`; `None` if they span no
-    /// area.
+    /// Returns the static stability margin in the support polygon of the contact points whose gap is at most the
+    /// tolerance `gap_exact`; `None` if these span no area.
     pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
         contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
     }
@@ -213,6 +220,7 @@ impl Stance {
         Pose::from_parts(p.into(), rotation)
     }
 
+    /// Returns the stance of an attempt before it settles, at the same place, without contact points.
     fn lowered(&self, attempt: SettleAttempt) -> Stance {
         Stance {
             posture: attempt.posture,
@@ -229,6 +237,7 @@ impl Stance {
         }
     }
 
+    /// Turns the robot to the attitude to which it settled.
     fn turn(&mut self, rest: &SettledAttitude) {
         self.R = rest.turn * self.R;
         self.height = rest.height;
@@ -237,6 +246,7 @@ impl Stance {
         }
     }
 
+    /// Finds contact points and patches anew; without a floor there are none.
     fn find_contacts(&mut self, model: &Model, tolerances: &Tolerances) {
         self.contact_points.clear();
         if self.floor {
@@ -250,11 +260,11 @@ impl Stance {
 /// The placement of a robot at a given pose of its base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placement {
-    /// It is lowered to the ground and settles.
+    /// The robot is lowered until it touches the ground, with its orientation, and settles.
     Settled,
-    /// It is lowered to the ground with its orientation.
+    /// The robot is lowered until it touches the ground, with its orientation.
     Lowered,
-    /// It keeps the pose.
+    /// The base keeps the pose.
     Fixed,
 }
 

@@ -4,6 +4,9 @@
 //! Cut the tree of links at a joint or bond: the forces on the far side (its weight, the ground's wrenches) have a
 //! force and a moment about a point there, and the cut holds these. Every load that has a limit is a sum of such
 //! cuts, linear in the forces.
+//!
+//! Level axes are those of the stance's heading: z up, and x and y turned from those of the world about the vertical by
+//! the heading.
 
 use super::ground_features::Mat3;
 use super::model::Model;
@@ -11,14 +14,18 @@ use super::stance::Stance;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{JointId, JointKind, Motion, PortRef, Step, motor_efforts};
 
-/// The loads and cuts of a model; compiled once for its bonds.
+/// The loads of a robot that have a limit, with the cuts of its tree of links that make them: compiled once for the
+/// bonds that hold, for all postures.
 pub(super) struct Structure {
     /// All loads that have a limit; lists of loads elsewhere are in this order.
     pub loads: Vec<Load>,
-    /// True if some motor's effort does not follow from those of its joints.
+    /// True if efforts of motors that state limits are not checked: those of a module whose motors are not as many as
+    /// the joints that they drive, or depend on each other, do not follow from the efforts of the joints.
     pub motors_open: bool,
+    /// One cut for each step that a joint moves, in their order, then those at bonds.
     cuts: Vec<Cut>,
-    /// Preorder number of each link, and the last number of those distal to it.
+    /// The place of each link, by its number, in depth-first preorder of the tree, and the last place among the links
+    /// beyond it; `usize::MAX` twice for links that are not connected with the base.
     span: Vec<(usize, usize)>,
     /// The bonds that close loops, each as (index of the bond, number of the link with its port `a`, number of the
     /// link with its port `b`).
@@ -28,7 +35,7 @@ pub(super) struct Structure {
 /// A load of a joint, motor or bond that states a limit.
 #[derive(Clone, Debug)]
 pub(super) struct Load {
-    /// The name in reports.
+    /// The name of the joint, motor or bond, as reports show it.
     pub name: String,
     /// The kind of load, which says how its terms combine.
     pub kind: LoadKind,
@@ -42,34 +49,38 @@ pub(super) struct Load {
 /// The kind of a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum LoadKind {
-    /// Torque or force of a joint; or of a motor, by the joint that it drives first.
+    /// The torque (N·m) or force (N) of a joint, or the torque of a motor. `joint`: the joint, or the first one that
+    /// the motor drives, by the number in its `JointId`; `turns`: true for a torque.
     Joint { joint: usize, turns: bool },
-    /// Pull along the normal of a bond.
+    /// The force along the outward normal of a bond's near port, N: positive where it pulls the ports apart.
     Pull,
-    /// Moment across a bond, in any direction: the terms are three axes.
+    /// The magnitude of the moment about the origin of a bond's near port, N·m; the terms are its components along the
+    /// axes of the port.
     Moment,
 }
 
 /// A cut of the tree, and the component of force or moment that it holds.
 #[derive(Clone, Copy, Debug)]
 enum Cut {
-    /// A cut at the joint of a step, by the joint's coordinate.
+    /// A cut at a step, with the component along its motion. `link`, `parent`: the numbers of the step's links;
+    /// `offset`: the position of the link's origin from the axis, in the link's frame, m.
     Step { link: usize, motion: Motion, offset: Vec3, parent: usize },
-    /// A cut at a bond, in the frame of the near port: force or moment along an axis of it.
+    /// A cut at a bond, with the moment about an axis of its near port, or the force along it. `link`, `near`: the
+    /// numbers of the far and the near port's links; `origin` (m) and `axis`: of the near port, in the frame of `near`.
     Bond { link: usize, near: usize, origin: Vec3, axis: Vec3, moment: bool },
 }
 
-/// A cut in the present posture: forces on the links beyond `link` count by `dir·f`, or by
-/// `dir·((p - at) × f)` if they are moments.
+/// A cut in a posture. The wrenches on `link` and the links beyond it, each a force `f` at `p` with a moment `m`, load
+/// it with the sum of `dir·f`, or for a moment of `dir·((p - at) × f + m)`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section {
     /// The number of the first link beyond the cut.
     pub link: usize,
-    /// A point of the cut, from the centre of mass, level axes, m.
+    /// The position of a point of the cut from the centre of mass, in level axes, m.
     pub at: Vec3,
     /// The unit direction of the component, in level axes.
     pub dir: Vec3,
-    /// True for a moment about `dir`, false for a force along it.
+    /// True for the moment about the line along `dir` through `at`, false for the force along `dir`.
     pub moment: bool,
 }
 
@@ -81,16 +92,16 @@ impl Section {
     }
 }
 
-/// A wrench on a link.
+/// A wrench on a link, in level axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrench {
     /// The number of the link that it acts on.
     pub link: usize,
-    /// Point of application, from the centre of mass, level axes, m.
+    /// The point of application, from the centre of mass, m.
     pub p: Vec3,
     /// The force, N.
     pub f: Vec3,
-    /// Moment in addition to that of the force, N·m.
+    /// The moment in addition to that of the force at `p`, N·m.
     pub m: Vec3,
 }
 
@@ -117,14 +128,15 @@ impl Structure {
         first <= number && number <= last
     }
 
-    /// Returns the positions of some links in the order of the tree, ascending; a link that occurs twice is there twice.
+    /// Returns the positions of some links in the order of the tree, ascending; a link that occurs twice is there
+    /// twice.
     pub(super) fn in_tree_order(&self, links: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut numbers: Vec<usize> = links.map(|link| self.span[link].0).collect();
         numbers.sort_unstable();
         numbers
     }
 
-    /// Returns how many of some links are the link `at` or lie beyond it; `numbers`: their positions as
+    /// Returns the number of those of some links that are the link `at` or lie beyond it; `numbers`: their positions as
     /// [`in_tree_order`](Self::in_tree_order) returns them.
     pub(super) fn count_beyond(&self, at: usize, numbers: &[usize]) -> usize {
         let (first, last) = self.span[at];
@@ -175,7 +187,8 @@ impl Structure {
             .collect()
     }
 
-    /// Returns the load at every cut from these wrenches, N or N·m, in the order of `sections`.
+    /// Returns the load at every cut, N or N·m, in the order of `sections`: the component that the sum of these
+    /// wrenches over the links beyond the cut has there, by one pass from the leaves to the base.
     pub(super) fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
@@ -209,7 +222,7 @@ impl Structure {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
 
-    /// Makes a cut for every step that moves, and returns for each joint the cuts that it moves, with factors.
+    /// Makes a cut for every step that a joint moves, and returns the [`effects`] of the joints.
     fn cut_steps(&mut self, model: &Model) -> Vec<Vec<(usize, f64)>> {
         let effects = effects(model);
         self.cuts = model
@@ -222,6 +235,7 @@ impl Structure {
         effects
     }
 
+    /// Adds the loads of the joints that state an effort limit and move a step; passive joints and mimics have none.
     fn joints(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for (joint, owner) in model.robot.joints().enumerate() {
             let (effort, turns) = match owner {
@@ -245,7 +259,7 @@ impl Structure {
     }
 
     /// Adds the loads of motors. With `motor = Σ factor · joint` the joints' torques are `Fᵀ` times the motors': if
-    /// F has an inverse, the motors' follow.
+    /// F has an inverse, the motors' follow; where it has none, `motors_open` is set.
     fn motors(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for &(module, _) in &model.kinematics.tree.order {
             let motors = &model.robot.module_type(module).motors;
@@ -353,13 +367,14 @@ pub(super) fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     effects
 }
 
+/// Returns [`Structure::span`]: for each link its place in preorder, and the last one of the links beyond it.
 fn spans(model: &Model) -> Vec<(usize, usize)> {
     let links = model.bodies.len();
     let mut size = vec![1usize; links];
     for step in model.kinematics.steps.iter().rev() {
         size[step.parent] += size[step.link];
     }
-    // Loose links have none distal to them: an empty span each.
+    // Links that are not connected with the base have a span beyond all others.
     let mut first = vec![usize::MAX; links];
     first[model.base_link()] = 0;
     let mut next: Vec<usize> = first.iter().map(|f| f.wrapping_add(1)).collect();
@@ -371,6 +386,7 @@ fn spans(model: &Model) -> Vec<(usize, usize)> {
     (0..links).map(|l| (first[l], first[l].saturating_add(size[l] - 1))).collect()
 }
 
+/// Returns [`Structure::closing`]: the bonds that close loops, with the links of their ports.
 fn closing(model: &Model) -> Vec<(usize, usize, usize)> {
     let link = |port: PortRef| model.kinematics.port_link(model.robot, port);
     let bond = |&b: &usize| (b, link(model.robot.bonds[b].a), link(model.robot.bonds[b].b));
