@@ -2,8 +2,9 @@
 //! Walker and Paul 1980; Featherstone, *Rigid Body Dynamics Algorithms*, 2008, ch. 5) and the mass matrix by composite
 //! rigid bodies (Walker and Orin 1982; Featherstone, ch. 6).
 //!
-//! Everything is in the axes of the world; moments and momenta are about the origin O of the base's frame. Bonds that
-//! close loops are not regarded: the wrenches that they carry are loads like any other.
+//! Everything is in the axes of the world, or of whatever frame the poses of the links are given in; moments and
+//! angular momenta are about a stated point, in [`InverseDynamics`] and the mass matrix about the origin O of the
+//! base's frame. Bonds that close loops are not regarded: the wrenches that they carry are loads like any other.
 
 use super::assembly::Assembly;
 use super::jacobian::JointAxis;
@@ -22,8 +23,8 @@ pub struct RigidBody {
     pub inertia: Matrix3<f64>,
 }
 
-/// The velocity of a frame, that of its origin and of its orientation, or the derivative of the velocity by time;
-/// along the axes of the world.
+/// The velocity of a frame, linear at its origin and angular, or the time derivative of both; along the axes of the
+/// world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Twist {
     /// The linear velocity of the frame's origin in the world, m/s; as a derivative its acceleration, m/s².
@@ -40,7 +41,7 @@ impl Twist {
     }
 }
 
-/// A force with its moment about a stated point, along the axes of the world.
+/// A force with its moment about a stated point, or a momentum with its angular momentum; along the axes of the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// The force in the world, N; as a momentum, N·s.
@@ -75,11 +76,14 @@ pub struct InverseDynamics {
     pub efforts: Vec<f64>,
 }
 
-/// A step of the kinematics at an instant: its axis, and the motion that its joint gives to what it carries.
+/// A step of the kinematics at an instant: its axis, and the motion of its child against its parent.
 #[derive(Clone, Copy, Debug)]
 struct MovingStep {
+    /// The axis of the motion, in the world; `None` for a fixed step.
     axis: Option<JointAxis>,
+    /// The velocity along or about the axis, rad/s or m/s.
     velocity: f64,
+    /// The acceleration along or about the axis, rad/s² or m/s².
     acceleration: f64,
 }
 
@@ -209,6 +213,8 @@ impl Dynamics {
         sum
     }
 
+    /// Returns the momentum (N·s) of one body with the twist `v` of its link's frame, and its angular momentum about
+    /// `origin` (N·m·s).
     fn momentum_of(&self, link: usize, pose: &Pose, v: &Twist, origin: &Vec3) -> Wrench {
         let body = &self.bodies[link];
         let R = *pose.rotation.to_rotation_matrix().matrix();
@@ -218,7 +224,8 @@ impl Dynamics {
         Wrench { force, moment: spin + (pose.translation.vector + r - origin).cross(&force) }
     }
 
-    /// Returns the wrench about `origin` that one body needs for its motion under gravity.
+    /// Returns the wrench about `origin` (N, N·m) that one body needs under gravity for the velocity and acceleration
+    /// of its link's frame: the equations of Newton and Euler.
     fn needed(
         &self,
         link: usize,
@@ -241,7 +248,7 @@ impl Dynamics {
     /// Orin 1982): the kinetic energy is `½ uᵀ M u` (J) with u the linear velocity of the base's origin (m/s, rows 0
     /// to 2), its angular velocity (rad/s, rows 3 to 5), both in the world, and the velocities of the joints by
     /// [`JointId`](super::JointId). Rows of mimics and fixed joints are zero. `poses` are the world poses of all
-    /// links, by their numbers. `kinematics`: the kinematics of the same robot.
+    /// links, by their numbers. `kinematics`: the kinematics of the same robot. Panics if `poses` is too short.
     pub fn mass_matrix(&self, kinematics: &Kinematics, poses: &[Pose]) -> DMatrix<f64> {
         let root = kinematics.link(kinematics.root, 0);
         let origin = position(poses, root);
@@ -285,6 +292,7 @@ impl Dynamics {
         matrix
     }
 
+    /// Returns the inertia of one body about `origin` (m), in the world.
     fn composite(&self, link: usize, pose: &Pose, origin: &Vec3) -> Composite {
         let body = &self.bodies[link];
         let R = *pose.rotation.to_rotation_matrix().matrix();
@@ -298,15 +306,19 @@ impl Dynamics {
     }
 }
 
-/// Bodies that move as one: mass (kg), first moment of mass (kg·m) and inertia (kg·m²) about the origin.
+/// A composite rigid body: bodies that move as one.
 #[derive(Clone, Copy, Debug, Default)]
 struct Composite {
+    /// The mass, kg.
     mass: f64,
+    /// The first moment of mass about the origin of the base's frame, in the world, kg·m.
     first: Vec3,
+    /// The inertia about that origin, in the world, kg·m².
     inertia: Matrix3<f64>,
 }
 
 impl Composite {
+    /// Adds the bodies of another composite.
     fn add(&mut self, other: &Composite) {
         self.mass += other.mass;
         self.first += other.first;
@@ -322,6 +334,8 @@ impl Composite {
         }
     }
 
+    /// Returns the spatial inertia, which maps `[linear; angular]` velocity to `[momentum; angular momentum]`, both at
+    /// the origin.
     fn matrix(&self) -> nalgebra::Matrix6<f64> {
         let mut matrix = nalgebra::Matrix6::zeros();
         matrix.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(self.mass);
@@ -333,12 +347,13 @@ impl Composite {
     }
 }
 
+/// Returns the position of the origin of a link's frame in the world, m.
 fn position(poses: &[Pose], link: usize) -> Vec3 {
     poses[link].translation.vector
 }
 
-/// Returns the part of a wrench about `origin` (m), all in the world, that does work along a joint: N·m about the
-/// axis of one that turns, N along that of one that slides.
+/// Returns the component of a wrench about `origin` (m), all in the world, that does work along a joint: the moment
+/// (N·m) about the axis of a revolute joint, the force (N) along that of a prismatic one; for a momentum likewise.
 pub fn along(axis: &JointAxis, wrench: &Wrench, origin: &Vec3) -> f64 {
     match axis {
         JointAxis::Revolute { axis, point } => {
@@ -348,8 +363,8 @@ pub fn along(axis: &JointAxis, wrench: &Wrench, origin: &Vec3) -> f64 {
     }
 }
 
-/// Returns velocity and acceleration of a link with its origin at `p_B` from those of its parent with its origin at
-/// `p_A`.
+/// Returns velocity and acceleration of a link's frame with its origin at `p_B` (m) from those of its parent's with its
+/// origin at `p_A` (m), with the Coriolis and centripetal terms of the joint's motion.
 fn carried((v_A, a_A): &(Twist, Twist), step: &MovingStep, p_A: &Vec3, p_B: &Vec3) -> (Twist, Twist) {
     // The frame that moves with the parent through the child's origin.
     let through = |p: &Vec3| {

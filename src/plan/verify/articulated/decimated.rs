@@ -1,8 +1,10 @@
 //! Decimation: a selection at even distances from a sequence of unknown length.
 
-/// A bounded selection of items at even distances from a sequence, however long it grows.
+/// A bounded selection from a sequence of any length: every item whose index is a multiple of a stride, which doubles
+/// when one more would not fit.
 pub(super) struct Decimated<T> {
     kept: Vec<T>,
+    /// The greatest number of items kept.
     most: usize,
     /// The distance between selected items: one in this many is kept.
     stride: usize,
@@ -10,7 +12,7 @@ pub(super) struct Decimated<T> {
 }
 
 impl<T> Decimated<T> {
-    /// Returns an empty selection of at most `most` items.
+    /// Returns an empty selection of at most `most` items; `most` is even, or the distances would not be.
     pub(super) fn new(most: usize) -> Decimated<T> {
         Decimated { kept: vec![], most, stride: 1, seen: 0 }
     }

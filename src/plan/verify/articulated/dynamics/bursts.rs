@@ -6,7 +6,7 @@ use crate::plan::Tracks;
 
 /// Motions of single joints from rest to rest, or from jump to jump of the velocity, that are short beside the window.
 pub(super) struct Bursts {
-    /// Begin and end of each, s, in order of begin.
+    /// The begin and the end of each, s, in order of begin, then of end.
     spans: Vec<(f64, f64)>,
     /// The steps of velocity, in order of time, then of joint.
     steps: Vec<VelocityStep>,
@@ -15,14 +15,14 @@ pub(super) struct Bursts {
 /// A joint whose velocity changes from one instant to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VelocityStep {
-    /// The time, s.
+    /// The time of the step, s.
     pub time: f64,
-    /// The joint by [`crate::robot::JointId`].
+    /// The joint, by [`crate::robot::JointId`].
     pub joint: usize,
 }
 
 impl Bursts {
-    /// Returns the short motions of all joints.
+    /// Returns the short motions and the steps of velocity of all joints.
     pub(super) fn new(tracks: &Tracks) -> Bursts {
         let (mut spans, mut steps) = (Vec::new(), Vec::new());
         for track in &tracks.tracks {

@@ -13,29 +13,31 @@ use std::collections::BTreeMap;
 /// The forces and the twist of an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Equilibrium {
-    /// The twist of the body at the centre of mass, m/s and rad/s, in level axes; zero unless friction moves the base.
+    /// The twist of the base at the centre of mass, m/s and rad/s, in level axes; zero unless friction moves the base.
     pub twist: Twist,
     /// The loads of contacts, joints and closing bonds.
     pub loads: Loads,
-    /// The slip at each candidate, m/s, and the friction on it, N, in level axes; empty if it does not rest on the ground.
+    /// The slip at each candidate, m/s, and the friction on it, N, in level axes; empty if the robot does not rest on
+    /// the ground.
     pub friction: Vec<(Vec3, Vec3)>,
     /// True if the rounds ended before the loads of two rounds agreed.
     pub open: bool,
-    /// True if the inertial force is more than friction can carry.
+    /// True if the planar force that the motion needs is more than friction can carry; false with momentum.
     pub slides: bool,
 }
 
-/// The result of the last instant, as a guess of the next.
+/// The warm start: the result of the last instant, as a guess of the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Warm {
-    /// The twist of the body at the centre of mass, m/s and rad/s.
+    /// The twist of the base at the centre of mass, m/s and rad/s, in level axes.
     pub twist: Twist,
     /// The load of each point of a feature ([`Candidate::feature`]), N.
     pub loads: BTreeMap<(usize, u8), f64>,
 }
 
-/// Returns the equilibrium; `None` where the loads can't be found. `momentum`: the planar momentum, with which friction
-/// decides the twist in time; without it the inertial force of the situation is a load on friction.
+/// Returns the equilibrium of loads and friction, found by fixed-point iteration with relaxation; `None` where the
+/// loads can't be found. `momentum`: the planar momentum, with which friction decides the twist in time; without it the
+/// planar force that the situation needs is a load on friction. `warm` becomes the guess of the next instant.
 pub(super) fn solve(
     situation: &Situation,
     momentum: Option<Momentum>,
@@ -86,7 +88,8 @@ pub(super) fn solve(
     found
 }
 
-/// Returns the twist that friction gives under these loads of the candidates (N), found from the guess `before`.
+/// Returns the twist that friction gives the base at the centre of mass, in level axes, under these normal forces at
+/// the candidates (N), found from the guess `before`.
 pub(super) fn twist_under(
     situation: &Situation,
     loads: &[f64],
@@ -105,7 +108,8 @@ fn problem<'a>(
     TwistProblem { candidates: &situation.candidates, loads, needed, momentum, weight: situation.weight }
 }
 
-/// Returns what friction has to supply, cut back to what it can, and true if it was.
+/// Returns the force in x and y (N) and the moment in yaw (N·m) that friction has to supply, scaled down to what it
+/// can, and true if they were. `capacity`: the sum of friction times normal force, N.
 fn carried(situation: &Situation, capacity: f64) -> (Vector3<f64>, bool) {
     let needed = Vector3::new(situation.base.force.x, situation.base.force.y, situation.base.moment.z);
     // A moment counts by the force at the robot's size.

@@ -1,35 +1,37 @@
-//! A load over its limit in motion, and its words.
+//! A load over its limit in motion, and the message of its failure.
 
 use super::super::load_limits::Overload;
 use super::super::statics::Load;
 use crate::plan::Failure;
 use crate::units::{number, quantity};
 
-/// A load whose mean over a window of time is over what it may be.
+/// A load whose mean over a window of time exceeds its limit less the reserve.
 pub(super) struct MeanOverload {
     /// The load, with its times and the greatest mean.
     pub overload: Overload,
-    /// Its index in the structure.
+    /// The index of the load in its structure's [`loads`](super::super::statics::Structure::loads).
     pub load: usize,
     /// The index of the instant in the middle of the window in which its mean is greatest.
     pub instant: usize,
 }
 
 impl MeanOverload {
-    /// Returns an overload of `value` (N or N·m) that begins at `time` (s), the time of the instant of this index.
+    /// Returns an overload of `value` (N or N·m) that begins at `time` (s). `index`: that of the load in its structure;
+    /// `instant`: the index of the instant at that time.
     pub(super) fn new(load: &Load, index: usize, value: f64, time: f64, instant: usize) -> MeanOverload {
         MeanOverload { overload: Overload::new(load, value, time), load: index, instant }
     }
 
-    /// Takes in the mean, N or N·m, about a later instant at `time` (s).
+    /// Takes in the mean, N or N·m, about a later instant, given by its index and its `time` (s).
     pub(super) fn grow(&mut self, value: f64, time: f64, instant: usize) {
         if self.overload.grow(value, time) {
             self.instant = instant;
         }
     }
 
-    /// Returns the failure. `shares`: the load at rest without friction and with it, N or N·m; `None` where they are
-    /// not known. `reserve`: the part of the limit that must be left.
+    /// Returns the failure. `shares`: the load at rest without friction, then with it, N or N·m, from which the message
+    /// says how much slower the motion would hold; `None` where they are not known. `reserve`: the part of the limit
+    /// that must be left, 0 to 1.
     pub(super) fn failure(&self, shares: Option<(f64, f64)>, reserve: f64) -> Failure {
         let Overload { kind, value, limit, .. } = self.overload;
         let words = |v: f64| quantity(v, kind.dimension());

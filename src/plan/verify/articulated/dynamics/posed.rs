@@ -18,37 +18,37 @@ use std::collections::BTreeMap;
 pub(super) struct Candidate {
     /// The link of the point, by its number among all links.
     pub link: usize,
-    /// The index of its feature in [`Model::features`], and its number in it.
+    /// The index of the point's feature in [`Model::features`], and the number of the point in it.
     pub feature: (usize, u8),
     /// The position from the centre of mass in level axes, m.
     pub p: Vec3,
     /// The height above the lowest point of the robot, m.
     pub gap: f64,
-    /// The coefficient of friction.
+    /// The coefficient of friction: that of the link times the factor of the world, without unit.
     pub friction: f64,
     /// The velocity of the point by the joints alone, with the base still, m/s, in level axes.
     pub by_joints: Vec3,
 }
 
-/// The robot at an instant.
+/// The robot at an instant: its pose in level axes, and the motion of its joints.
 pub(super) struct Posed<'a> {
-    /// The compiled robot.
+    /// The model of the robot with the bonds that hold.
     pub model: &'a Model<'a>,
-    /// Its masses.
+    /// The masses of the robot's links.
     pub dynamics: &'a Dynamics,
-    /// The poses of all links, in level axes about the centre of mass, m.
+    /// The poses of all links in level axes, with the robot's centre of mass at the origin, m.
     pub poses: Vec<Pose>,
-    /// The positions of the joints, rad or m.
+    /// The positions of the joints, by [`crate::robot::JointId`], rad or m.
     pub joints: Vec<f64>,
-    /// The mean velocities of the joints over the window, rad/s or m/s.
+    /// The mean velocity of each joint over the window, rad/s or m/s.
     pub velocities: Vec<f64>,
-    /// The mean accelerations of the joints over the window, rad/s² or m/s².
+    /// The mean acceleration of each joint over the window, rad/s² or m/s².
     pub accelerations: Vec<f64>,
 }
 
 impl<'a> Posed<'a> {
-    /// Returns the robot at a time (s) of a rollout, with the base turned by `R` in level axes. Velocities and
-    /// accelerations are means over `window` (s) about that time.
+    /// Returns the robot at a time (s) of a rollout, with the orientation `R` of the base in level axes. Velocities and
+    /// accelerations are means over `window` (s) centred on that time.
     pub(super) fn new(
         model: &'a Model<'a>,
         dynamics: &'a Dynamics,
@@ -64,7 +64,7 @@ impl<'a> Posed<'a> {
         for track in &tracks.tracks {
             let joint = track.joint.0 as usize;
             let start = joints[joint];
-            // It is at rest before the start, after the end, and from when it is held.
+            // The joint is at rest before the start of the plan, after its end, and from when it is held.
             let end = rollout.held.filter(|held| held.0 == joint).map_or(tracks.duration, |held| held.1);
             let at = |t: f64| track.position(start, t.clamp(0.0, end));
             let rate = |t: f64| if t >= 0.0 && t < end { track.velocity(t) } else { 0.0 };
@@ -80,8 +80,8 @@ impl<'a> Posed<'a> {
         Posed { model, dynamics, poses, joints, velocities, accelerations }
     }
 
-    /// Returns the velocity by the joints alone, with the base still, of the body of each link at the centre of mass, by
-    /// the number of the link; zero for loose ones.
+    /// Returns the twist at the centre of mass that the joints alone, with the base still, give each link, by the
+    /// number of the link, in level axes (m/s, rad/s); zero for links that are not connected with the base.
     fn by_joints(&self) -> Vec<Twist> {
         let mut twists = vec![Twist::default(); self.poses.len()];
         for step in &self.model.kinematics.steps {
@@ -169,13 +169,15 @@ impl<'a> Posed<'a> {
         found
     }
 
-    /// Returns the twist of the base's own frame from that of the body at the centre of mass.
+    /// Returns the twist of the base's own frame from the base's twist at the centre of mass, both in level axes (m/s,
+    /// rad/s).
     pub(super) fn of_base(&self, at_centre: &Twist) -> Twist {
         let p = self.poses[self.model.base_link()].translation.vector;
         Twist { linear: at_centre.linear + at_centre.angular.cross(&p), angular: at_centre.angular }
     }
 
-    /// Returns the momentum of the motion of the joints with the base still: N·s, and N·m·s about the centre of mass.
+    /// Returns the momentum of the motion of the joints with the base still (N·s), and the angular momentum about the
+    /// centre of mass (N·m·s), in level axes.
     pub(super) fn momentum(&self) -> Wrench {
         self.dynamics.momentum(
             &self.model.kinematics,
@@ -186,8 +188,8 @@ impl<'a> Posed<'a> {
         )
     }
 
-    /// Returns the velocity of the base's frame at which the whole robot has no momentum: that of a robot that floats
-    /// and has started from rest. `None` for a robot without mass.
+    /// Returns the twist of the base's frame at which the whole robot has no momentum: that of a robot that floats and
+    /// has started from rest. `None` for a robot without mass.
     pub(super) fn drifting(&self) -> Option<Twist> {
         self.compensating(&self.momentum())
     }
@@ -201,8 +203,8 @@ impl<'a> Posed<'a> {
         self.link_wrenches(Some(&(*base, acceleration)), 0.0)
     }
 
-    /// Returns the twist of the base's frame whose momentum, or the acceleration whose wrench, cancels this one about
-    /// the centre of mass. `None` for a robot without mass.
+    /// Returns the twist of the base's frame, with the joints still, whose momentum about the centre of mass cancels
+    /// this one; for a wrench it is the acceleration whose inertial wrench does so. `None` for a robot without mass.
     fn compensating(&self, wrench: &Wrench) -> Option<Twist> {
         let still = vec![0.0; self.velocities.len()];
         let mut inertia = Matrix6::zeros();
@@ -222,7 +224,7 @@ impl<'a> Posed<'a> {
         Some(Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() })
     }
 
-    /// Returns the inertia of the whole robot about the vertical through the centre of mass, kg·m².
+    /// Returns the moment of inertia of the whole robot about the vertical through the centre of mass, kg·m².
     pub(super) fn yaw_inertia(&self) -> f64 {
         let unit = Twist { linear: self.spun(), angular: Vec3::z() };
         let still = vec![0.0; self.velocities.len()];
@@ -234,9 +236,9 @@ impl<'a> Posed<'a> {
         Vec3::z().cross(&self.poses[self.model.base_link()].translation.vector)
     }
 
-    /// Returns the wrench that each link, by its number, needs for a motion under gravity (m/s²), about the centre of
-    /// mass of the robot; zero for loose ones. `motion`: velocity and acceleration of the base's own frame; `None` for
-    /// a robot at rest.
+    /// Returns the wrench that each link, by its number, needs for a motion under gravity (m/s², downwards), about the
+    /// centre of mass of the robot, in level axes (N, N·m); zero for links that are not connected with the base.
+    /// `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
     pub(super) fn link_wrenches(&self, motion: Option<&(Twist, Twist)>, gravity: f64) -> Vec<Wrench> {
         let still = vec![0.0; self.velocities.len()];
         let (base, base_acceleration) = motion.copied().unwrap_or_default();
@@ -253,13 +255,13 @@ impl<'a> Posed<'a> {
 /// The support of the robot by its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Support {
-    /// It rests on the ground, over which friction moves it.
+    /// The robot rests on the ground, over which friction moves it.
     Settles,
-    /// It rests on the ground, and its base keeps its place.
+    /// The robot rests on the ground, and its base keeps its place.
     Stays,
     /// A fixture holds the base, and bears any force and moment.
     Held,
-    /// Nothing supports it, and nothing pulls it.
+    /// The robot floats: nothing supports it, and gravity does not pull it.
     Floats,
 }
 
@@ -280,18 +282,18 @@ impl Support {
     }
 }
 
-/// The situation of an instant, before the forces of its contacts are known.
+/// The problem of the forces of an instant: the robot, the loads that its motion makes, and what may bear them.
 pub(super) struct Situation<'a> {
     /// The robot.
     pub posed: &'a Posed<'a>,
-    /// The contacts.
+    /// The points at which the ground may bear the robot; none unless it rests on the ground.
     pub candidates: Vec<Candidate>,
-    /// The stops of the joints at the ends of their ranges.
+    /// The stops that joints are at or near.
     pub stops: Vec<Stop>,
     /// The bonds that close loops.
     pub loops: Vec<Loop>,
     /// The wrench that each link needs, by its number, about the centre of mass in level axes, N and N·m; zero for
-    /// loose ones.
+    /// links that are not connected with the base.
     pub needed: Vec<Wrench>,
     /// The wrench that the surroundings must exert on the whole robot, about the centre of mass in level axes, N and
     /// N·m.
@@ -312,7 +314,8 @@ impl<'a> Situation<'a> {
         Situation::new(posed, world, None)
     }
 
-    /// Returns the situation of a robot in motion, with velocity and acceleration of the base's own frame.
+    /// Returns the situation of a robot in motion. `motion`: velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of
+    /// the base's own frame, in level axes; the acceleration of a floating one follows from the forces and is not read.
     pub(super) fn moving(posed: &'a Posed<'a>, world: &World, motion: &(Twist, Twist)) -> Situation<'a> {
         Situation::new(posed, world, Some(motion))
     }
@@ -342,7 +345,8 @@ impl<'a> Situation<'a> {
     }
 }
 
-/// Returns the stiffness of each joint, by [`crate::robot::JointId`].
+/// Returns the stiffness of each joint's servo, by [`crate::robot::JointId`], N·m/rad or N/m: the default of joints, or
+/// [`passive_stiffness`](super::tolerances::Parameters::passive_stiffness).
 fn stiffness(model: &Model) -> Vec<f64> {
     let of = |owner| match owner {
         JointOwner::Module { module, joint } if model.robot.module_type(module).joints[joint].passive => {
@@ -354,6 +358,7 @@ fn stiffness(model: &Model) -> Vec<f64> {
     model.robot.joints().map(of).collect()
 }
 
+/// Returns the sum of wrenches about one point.
 fn sum(wrenches: &[Wrench]) -> Wrench {
     let add = |sum: Wrench, w: &Wrench| Wrench { force: sum.force + w.force, moment: sum.moment + w.moment };
     wrenches.iter().fold(Wrench::default(), add)

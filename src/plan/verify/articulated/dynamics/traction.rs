@@ -15,20 +15,22 @@ use crate::robot::dynamics::{Dynamics, Twist};
 use crate::units::{Dimension, quantity};
 use nalgebra::Vector3;
 
-/// The state of travel, which goes on from sample to sample.
+/// The state of travel over the ground, which goes on from sample to sample.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct Traction {
+    /// The forces and twist found last, as the guess of the next.
     warm: Warm,
+    /// The instant at which forces were determined last; `None` before the first.
     last: Option<Last>,
-    /// The way outside of the intervals in which `allows traction` leaves it open.
+    /// The travel of the samples at which no exemption `allows traction` holds.
     judged: Fork,
-    /// The way within them.
+    /// The travel of the samples at which one holds.
     allowed: Fork,
-    /// The last time in such an interval at which the robot travelled, s.
+    /// The time of the last sample at which one holds, s; `None` before the first.
     allowed_at: Option<f64>,
 }
 
-/// A difference in another way, which shows if the travel depends on it.
+/// A variation of friction or servos, under which the travel is computed once more to find how much it depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Otherwise {
     /// Friction is 1.25 times as great where contacts slide, and 0.8 times elsewhere.
@@ -55,7 +57,8 @@ impl Otherwise {
     }
 }
 
-/// A way, and the others from the same start, in the order of [`Otherwise::ALL`].
+/// The pose that travel over the ground has reached, and those under each variation, in the order of
+/// [`Otherwise::ALL`]; all begin at 0.
 #[derive(Clone, Copy, Debug, Default)]
 struct Fork {
     own: PlanarPose,
@@ -63,7 +66,7 @@ struct Fork {
 }
 
 impl Fork {
-    /// Moves on by a step: that of the way itself, and those of the others.
+    /// Moves the pose on by a step, and those of the variations by theirs: x, y (m) and turn (rad) in their own frames.
     fn advance(&mut self, own: &Vec3, others: &[Vec3; Otherwise::ALL.len()]) {
         self.own = self.own.moved(own);
         for (other, shift) in self.others.iter_mut().zip(others) {
@@ -71,6 +74,7 @@ impl Fork {
         }
     }
 
+    /// Returns the travel so far, with the variation that ends farthest from it.
     fn way(&self) -> Way {
         let away = self.others.map(|other| libm::hypot(self.own.x - other.x, self.own.y - other.y));
         let farthest = (1..away.len()).fold(0, |most, i| if away[i] > away[most] { i } else { most });
@@ -82,57 +86,59 @@ impl Fork {
     }
 }
 
-/// The travel over the ground, as far as friction and servos determine it.
+/// The travel over the ground, with its sensitivity to friction and servo stiffness.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Way {
-    /// The distance of its end from its start, m.
+    /// The horizontal distance of the travel's end from its start, m.
     pub length: f64,
-    /// The distance of its end from the farthest one of other ways, m.
+    /// The horizontal distance of the travel's end from the farthest end under a variation, m.
     pub away: f64,
-    /// The difference in that one.
+    /// The variation with that farthest end.
     pub otherwise: Otherwise,
 }
 
-/// The travel of a rollout.
+/// The travel of a rollout up to a sample, apart for samples at which an exemption `allows traction` holds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ways {
-    /// Outside of the intervals in which `allows traction` leaves it open.
+    /// The travel of the other samples, which is judged.
     pub judged: Way,
-    /// Within them, with the last time (s) at which the robot travelled there; `None` without such intervals.
+    /// The travel of the samples at which such an exemption holds, with the time of the last (s); `None` without any.
     pub allowed: Option<(f64, Way)>,
 }
 
-/// The twist of the last instant at which forces were determined.
+/// The velocities at the last instant at which forces were determined, in level axes.
 #[derive(Clone, Debug)]
 struct Last {
+    /// The time of the instant, s.
     time: f64,
     /// A flag for every bond of the robot, true if it held.
     bonds: Vec<bool>,
-    /// Planar momentum of the joints' motion, N·s and N·m·s.
+    /// The planar momentum of the joints' motion with the base still: x and y (N·s), and yaw about the centre of mass
+    /// (N·m·s).
     carried: Vector3<f64>,
-    /// The twist of the body at the centre of mass.
+    /// The twist of the base at the centre of mass.
     twist: Twist,
-    /// The velocity of the centre of mass (x and y, m/s) and the turn (rad/s).
+    /// The velocity of the centre of mass (x and y, m/s) and the yaw rate of the base (rad/s).
     rate: Vector3<f64>,
-    /// The differences of those of the other ways from it.
+    /// The difference of `rate` under each variation from `rate`, in the order of [`Otherwise::ALL`].
     others: [Vector3<f64>; Otherwise::ALL.len()],
-    /// The time at which the ways of other servos were determined, s.
+    /// The time at which the rates with softer and stiffer servos were determined, s.
     forked: f64,
-    /// The slip of each loaded link, m/s, and its load in parts of the weight.
+    /// The slip of each loaded link, as (number of the link, m/s, load as a part of the weight).
     slips: Vec<(usize, f64, f64)>,
 }
 
 /// A step of the rollout on the ground.
 pub(in super::super) struct GroundStep<'a> {
-    /// The rollout.
+    /// The rollout that the step belongs to.
     pub rollout: &'a Rollout<'a>,
     /// A flag for every bond of the robot, true if it holds.
     pub bonds: &'a [bool],
     /// The robot with the bonds that hold.
     pub model: &'a Model<'a>,
-    /// Its masses.
+    /// The masses of the robot's links.
     pub dynamics: &'a Dynamics,
-    /// The world.
+    /// The world during the step.
     pub world: &'a World,
     /// The time of the sample before, s.
     pub before: f64,
@@ -178,6 +184,8 @@ impl Traction {
         Ways { judged: self.judged.way(), allowed }
     }
 
+    /// Determines the velocities at the end of a step from the equilibrium of forces there, and those under the
+    /// variations; the former ones stay where no forces are found.
     fn determine(&mut self, step: &GroundStep) {
         let posed =
             Posed::new(step.model, step.dynamics, step.rollout, (step.time, PARAMETERS.window), step.R);
@@ -226,7 +234,7 @@ impl Traction {
         let mut others = [rate(&other) - rate(&twist), Vector3::zeros(), Vector3::zeros()];
         let mut forked = step.time;
         match &self.last {
-            // Servos make a difference slowly.
+            // The effect of softer and stiffer servos changes slowly, and is kept for some instants.
             Some(last) if step.time - last.forked < PARAMETERS.fork_spacing && last.bonds == step.bonds => {
                 others[1..].copy_from_slice(&last.others[1..]);
                 forked = last.forked;
@@ -274,8 +282,8 @@ fn yaw_between(from: &Mat3, to: &Mat3) -> f64 {
     libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)])
 }
 
-/// Returns the composite inertia in x, y and yaw about the centre of mass, and the planar momentum of the joints'
-/// motion with the base still.
+/// Returns the composite inertia in x, y (kg) and yaw about the centre of mass (kg·m²), and the planar momentum of the
+/// joints' motion with the base still: x, y (N·s) and yaw about the centre of mass (N·m·s).
 fn planar(posed: &Posed) -> (Vector3<f64>, Vector3<f64>) {
     let momentum = posed.momentum();
     let inertia = Vector3::new(posed.model.mass, posed.model.mass, posed.yaw_inertia());

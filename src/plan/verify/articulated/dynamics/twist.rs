@@ -23,13 +23,14 @@ pub(super) struct Momentum {
     pub step: f64,
 }
 
-/// The task of friction at an instant.
+/// The problem of the twist that friction balances at an instant.
 pub(super) struct TwistProblem<'a> {
-    /// The contacts.
+    /// The points that the ground may bear.
     pub candidates: &'a [Candidate],
-    /// The loads of the contacts, N.
+    /// The normal force at each candidate, N.
     pub loads: &'a [f64],
-    /// The horizontal force (N) and the moment about the vertical (N·m) that friction has to supply: x, y, yaw.
+    /// The horizontal force (N) and the moment about the vertical through the centre of mass (N·m) that friction has to
+    /// supply: x, y, yaw in level axes.
     pub needed: Vector3<f64>,
     /// The momentum; `None` where friction decides at once.
     pub momentum: Option<Momentum>,
@@ -40,8 +41,8 @@ pub(super) struct TwistProblem<'a> {
 /// The rows of a twist that are planar: x, y and yaw.
 const PLANAR: [usize; 3] = [0, 1, 5];
 
-/// Returns the twist of the body at the centre of mass, in level axes, found from the guess `before`; that of the last
-/// round if the rounds do not suffice.
+/// Returns the twist of the base at the centre of mass (m/s, rad/s), in level axes, found from the guess `before`; that
+/// of the last round if the rounds do not suffice.
 pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     let start = joined(&before.linear, &before.angular);
     let mut twist = start;
@@ -83,8 +84,8 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     moved(&twist)
 }
 
-/// Adds a point at `p` that resists a twist with these weights of its velocities, along the ground and along the normal:
-/// `Jᵀ W J` with the Jacobian J of the point's velocity, upper and lower triangle.
+/// Adds a point at `p` that resists a twist with these weights of its velocities, along the ground and along the
+/// normal: `Jᵀ W J` with the Jacobian J of the point's velocity, upper and lower triangle.
 fn add_contact(matrix: &mut Matrix6<f64>, p: &Vec3, along: f64, normal: f64) {
     let mut add = |row: usize, column: usize, value: f64| {
         matrix[(row, column)] += value;
@@ -114,7 +115,8 @@ fn moved(twist: &Vector6<f64>) -> Twist {
     Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() }
 }
 
-/// Returns the slip of each contact under a twist, m/s, and the force of friction on it, N.
+/// Returns the slip of each candidate under a twist (m/s), and the force of friction on it (N), both horizontal in
+/// level axes. Friction is Coulomb's, and viscous below `slip_speed`.
 pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3)> {
     let one = |(i, candidate): (usize, &Candidate)| {
         let mut slip = twist.at(&candidate.p) + candidate.by_joints;
@@ -125,8 +127,8 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     problem.candidates.iter().enumerate().map(one).collect()
 }
 
-/// Returns for each loaded link, by its number, the length of the mean slip of its contacts, weighted by their loads (m/s), and its
-/// load as a part of `weight` (N).
+/// Returns for each loaded link, ascending, its number, the length of the mean slip of its contacts, weighted by their
+/// loads (m/s), and its load as a part of `weight` (N).
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
     loads: &[f64],
