@@ -1,4 +1,4 @@
-//! The limits of a stretch on a grid, as inequalities in squared velocities of the path.
+//! The limits of a stretch on a grid, as linear inequalities in squared velocities of the parameter s of its path.
 //!
 //! With `x = ṡ²` at the beginning of an interval of the grid, `y` at its end and constant acceleration `s̈ = (y - x) /
 //! 2Δ` between them, each limit is linear in x and y at each point of the interval.
@@ -9,7 +9,7 @@ use super::torque::{AtRest, PathPoint, Torques};
 use crate::plan::polynomial::{derivative, value};
 use crate::robot::Drive;
 
-/// The points of an interval at which its limits are put up, as parts of it.
+/// The points of an interval at which its limits are imposed, as parts of it.
 const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// The inequality `a x + b y <= c`, with `a² + b² = 1`.
@@ -17,14 +17,14 @@ const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
 pub(super) struct HalfPlane {
     /// The factor of the squared velocity at the beginning.
     pub(super) a: f64,
-    /// The factor of that at the end.
+    /// The factor of the squared velocity at the end.
     pub(super) b: f64,
     /// The bound.
     pub(super) c: f64,
 }
 
 impl HalfPlane {
-    /// Returns the inequality, scaled; `None` if it says nothing about x and y.
+    /// Returns the inequality, normalised; `None` if it says nothing about x and y.
     pub(super) fn new(a: f64, b: f64, c: f64) -> Option<HalfPlane> {
         let size = libm::hypot(a, b);
         (size > 0.0).then(|| HalfPlane { a: a / size, b: b / size, c: c / size })
@@ -35,11 +35,13 @@ impl HalfPlane {
 pub(super) struct Interval {
     /// The inequalities.
     pub(super) planes: Vec<HalfPlane>,
-    /// The torque at rest that is the greatest part of what may be used of its limit; `None` where torques do not count.
+    /// The torque at rest, at one of the points, that is the greatest part of what may be used of its limit; `None`
+    /// where torques do not count.
     pub(super) at_rest: Option<AtRest>,
 }
 
-/// Returns the path at a point of an interval of its grid: `part` of the way from `from` to `to`.
+/// Returns the path at a point of an interval of its grid: the part `part`, from 0 to 1, of the way from the parameter
+/// `from` to `to`. No piece of the path ends inside.
 pub(super) fn point(stretch: &Stretch, from: f64, to: f64, part: f64) -> PathPoint {
     let joints = stretch.start.len();
     let mut point = PathPoint { q: stretch.start.clone(), d: vec![0.0; joints], dd: vec![0.0; joints] };
@@ -58,7 +60,8 @@ pub(super) fn point(stretch: &Stretch, from: f64, to: f64, part: f64) -> PathPoi
     point
 }
 
-/// Returns the limits in the interval of a grid between two parameters; `usable` is the part of each that may be used.
+/// Returns the limits in the interval of a grid between two parameters. `usable`: the part of each limit of
+/// acceleration and of squared speed that may be used; of torques the reserve is left.
 pub(super) fn interval(
     stretch: &Stretch,
     drives: &[Drive],
@@ -94,7 +97,8 @@ pub(super) fn interval(
     Interval { planes, at_rest }
 }
 
-/// Returns what a torque at rest leaves of its limit: 0 where it is over it by no more than rounding.
+/// Returns the part of a limit that a torque at rest leaves, N·m or N; negative if it is over the limit, but 0 if by no
+/// more than the part `TOLERANCES.torque`.
 fn left(limit: f64, at_rest: f64) -> f64 {
     let left = limit - at_rest;
     if left < 0.0 && left >= -TOLERANCES.torque * limit { 0.0 } else { left }
@@ -105,7 +109,7 @@ fn small(derivative: f64) -> f64 {
     if derivative.abs() < TOLERANCES.derivative { 0.0 } else { derivative }
 }
 
-/// Returns `a s̈ + b ṡ² <= bound` at a part of an interval of a length.
+/// Returns the inequality `a s̈ + b ṡ² <= bound` at a part, from 0 to 1, of an interval of a length, in x and y.
 fn plane(a: f64, b: f64, bound: f64, part: f64, length: f64) -> Option<HalfPlane> {
     let per = a / (2.0 * length);
     HalfPlane::new(b * (1.0 - part) - per, b * part + per, bound)

@@ -11,7 +11,7 @@ pub(super) fn limited(robot: &Assembly) -> Vec<Drive> {
     found
 }
 
-/// Checks that every joint that moves in a stretch states a limit of acceleration, or is driven by motors that do.
+/// Checks that every joint that moves in a stretch states an acceleration limit, or is driven by a motor that does.
 ///
 /// # Errors
 /// [`Refusal::NoAcceleration`] for the first that does not.

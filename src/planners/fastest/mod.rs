@@ -2,10 +2,11 @@
 //! on reachability analysis (TOPP-RA, Pham and Pham 2018, *A New Approach to Time-Optimal Path Parameterization Based
 //! on Reachability Analysis*), under limits of speed, acceleration and torque.
 //!
-//! The path is cut where the robot has to be at rest. Between, the velocity of the path is greatest under the limits on
-//! a grid, with constant acceleration of the path from point to point: positions are the old polynomials composed with
-//! quadratic time laws, exactly. Their greatest speeds and accelerations are bounded from the control points, and what
-//! is above a limit between points of the grid is slowed down.
+//! The path is cut into stretches at the instants at which the robot has to be at rest. In a stretch the velocity of
+//! the path is the greatest under the limits on a grid, with constant acceleration of the path from point to point:
+//! positions are the old polynomials composed with quadratic time laws, exactly. Their greatest speeds and
+//! accelerations are bounded from the control points, and what is above a limit between points of the grid is slowed
+//! down.
 //!
 //! ```
 //! use modl::plan::{Body, Cause, CauseId, Plan, Segment, Settings, Track, Tracks, World, retimed};
@@ -100,7 +101,7 @@ use tolerances::TOLERANCES;
 /// rounding of durations and control points is left.
 const SCALINGS_MAX: u32 = 12;
 
-/// A plan to go through in less time.
+/// A plan to be retimed: to take its path in less time.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// The plan, of an articulated robot.
@@ -110,13 +111,14 @@ pub struct Problem<'a> {
 /// The settings of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The part of the limits of torque and of the loads of bonds that is left, without unit, from 0 to below 1. Unless it
-    /// is stated, it is what the judge asks for.
+    /// The part of the limits of torque and of the loads of bonds that is left unused, without unit, from 0 to below 1.
+    /// Default 0.15, that of the judge.
     pub reserve: f64,
-    /// The number of intervals of the first grid of a stretch, at least; finer ones are added beside instants of rest.
+    /// The least number of intervals of the first grid of a stretch; finer ones are added beside instants of rest.
+    /// Default 250.
     pub intervals: usize,
     /// The greatest number of times that the grid is refined, or limits lowered, where they are exceeded between its
-    /// points.
+    /// points. Default 6.
     pub refinements: usize,
 }
 
@@ -133,9 +135,10 @@ pub struct Report {
     pub clock: Clock,
     /// The number of stretches between instants of rest.
     pub stretches: usize,
-    /// The number of intervals of all grids.
+    /// The number of intervals of the last grids of all stretches.
     pub intervals: usize,
-    /// The greatest factor by which a stretch was slowed down because the judge found a load too great; 1: none.
+    /// The greatest factor on the duration of a stretch that was slowed down because the judge found a load too great;
+    /// 1 if there is none.
     pub slowed: f64,
     /// The number of verdicts that were asked for.
     pub verdicts: usize,
@@ -150,23 +153,25 @@ pub enum Refusal {
     Family,
     /// The reserve is below 0, 1 or more, or no number.
     Reserve,
-    /// A joint that moves, without a limit of acceleration.
+    /// A joint moves that states no acceleration limit, nor does a motor that drives it; or nothing limits the velocity
+    /// of its path.
     NoAcceleration {
         /// The path name of the joint.
         joint: String,
-        /// The beginning of the motion, s.
+        /// The beginning of the stretch in which it moves, s.
         time: f64,
     },
-    /// A joint whose polynomials are of too high a degree, on a path that is no straight line.
+    /// A joint has a polynomial of too high a degree, on a path that is no straight line: composed with a time law,
+    /// which doubles it, it would exceed that of plans.
     Degree {
         /// The path name of the joint.
         joint: String,
         /// The beginning of the polynomial, s.
         time: f64,
-        /// Its degree.
+        /// The degree of the polynomial.
         degree: usize,
     },
-    /// A torque that is over its limit at rest.
+    /// The torque of a joint or motor is over its limit at rest.
     Overloaded {
         /// The path name of the joint or motor.
         name: String,
@@ -183,12 +188,12 @@ pub enum Refusal {
         /// The end of the stretch, s.
         to: f64,
     },
-    /// A load that the judge finds too great however slow the motion is.
+    /// The judge finds a load too great however slow the motion is.
     Unholdable {
         /// The failure, at a time of the slow motion.
         failure: Box<Failure>,
     },
-    /// The plan would last longer than a plan may.
+    /// The plan would last longer than a plan may, or for ever.
     TooLong,
     /// The observer ended the work.
     Stopped,
@@ -228,10 +233,12 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Returns the motion of a plan along the same path in less time: tracks with the causes of the old ones, docking at
-/// the same places. Worlds and exemptions are moved by the clock of the report ([`crate::plan::retimed`]).
+/// Returns the motion of a plan along the same path in the least time that its limits allow, up to the grid: tracks
+/// with the causes of the old ones, docking at the same places. Worlds and exemptions are moved by the clock of the
+/// report ([`crate::plan::retimed`]).
 ///
-/// Torque counts under full dynamics only; the loads of robots that stand on the ground are those of the judge.
+/// Torque and loads of bonds count under full dynamics only. The torques of a robot whose base a fixture holds limit
+/// the time law itself; for all other loads stretches are slowed down as a whole until the judge passes them.
 ///
 /// # Errors
 /// The [`Refusal`] that keeps the plan from being retimed.
@@ -279,13 +286,17 @@ pub fn plan(
     Ok(Solution { body: Body::Tracks(found.tracks), program: None, report })
 }
 
+/// Checks that a plan does not last longer than a plan may.
+///
+/// # Errors
+/// [`Refusal::TooLong`].
 fn too_long(clock: &Clock) -> Result<(), Refusal> {
     if clock.duration() <= DURATION_MAX { Ok(()) } else { Err(Refusal::TooLong) }
 }
 
-/// Returns the time law of a stretch that keeps its limits of speed and acceleration at every instant: on a grid that is
-/// refined where they are exceeded between its points, and then slowed down by the greatest ratio to a limit, at most
-/// [`SCALINGS_MAX`] times; what rounding leaves above a limit after that is left to the judge.
+/// Returns the time law of a stretch that keeps its limits of speed and acceleration at every instant: on a grid that
+/// is refined where they are exceeded between its points, and then slowed down by the greatest ratio to a limit, at
+/// most [`SCALINGS_MAX`] times; what rounding leaves above a limit after that is left to the judge.
 ///
 /// # Errors
 /// Those of [`solve`].
@@ -301,7 +312,7 @@ fn law(stretch: &Stretch, limits: &Limits, settings: &Settings) -> Result<TimeLa
         }
         law = solve(stretch, law.refined(&ratios), limits)?;
     }
-    // The rest, and rounding.
+    // Slowing down by the greatest ratio that is left, with ever more room for rounding.
     for round in 0..SCALINGS_MAX {
         let worst = ratios(stretch, &law, limits.drives).into_iter().fold(0.0, f64::max);
         if worst <= 1.0 {

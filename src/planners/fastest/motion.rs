@@ -8,27 +8,33 @@ use crate::plan::time::{tick_after, tick_near};
 use crate::plan::{DockingEvent, Segment, Track, Tracks};
 use crate::robot::Drive;
 
-/// A part of a plan with its law.
+/// A part of a plan with its time law.
 pub(super) enum Timed {
     /// A pause with its begin and end in the plan, s.
     Pause(f64, f64),
-    /// A stretch with its law, and the factor by which it is slowed down.
+    /// A stretch with its time law, and the factor on its duration by which it is slowed down, at least 1.
     Stretch(Stretch, TimeLaw, f64),
 }
 
-/// The new times of the times of a plan.
+/// The map from the times of a plan to those of the retimed one.
 #[derive(Clone)]
 pub struct Clock {
+    /// The parts of the plan, in order of time, without gaps.
     parts: Vec<ClockPart>,
+    /// The new duration, s.
     duration: f64,
 }
 
-/// The new times of a part.
+/// The new times of a part of a plan.
 #[derive(Clone)]
 struct ClockPart {
+    /// The beginning in the plan, s.
     from: f64,
+    /// The end in the plan, s.
     to: f64,
+    /// The new beginning, s.
     start: f64,
+    /// The new end, s.
     end: f64,
     /// The new times along a stretch; `None` for a pause.
     law: Option<ClockLaw>,
@@ -40,15 +46,15 @@ struct ClockLaw {
     stretch: Stretch,
     /// The parameters of the grid.
     nodes: Vec<f64>,
-    /// The new time at each, s.
+    /// The new time at each point of the grid, s.
     times: Vec<f64>,
-    /// The middle control point of the time law of each interval.
+    /// The middle control point of the time law of each interval, as [`middle`] returns it.
     middles: Vec<f64>,
 }
 
 impl Clock {
-    /// Returns the new time (s) of a time of the plan (s), never decreasing, on a whole tick; times before the begin
-    /// and after the end count as these.
+    /// Returns the time in the retimed plan (s) for a time of the plan (s), never decreasing, on a whole tick; times
+    /// before the begin and after the end count as these.
     pub fn at(&self, time: f64) -> f64 {
         let last = self.parts.partition_point(|part| part.from <= time);
         let Some(part) = last.checked_sub(1).map(|i| &self.parts[i]) else { return 0.0 };
@@ -73,7 +79,7 @@ impl Clock {
         self.duration
     }
 
-    /// Returns the new begin and end of each part, s.
+    /// Returns the new begin and end of each part, s, in order.
     pub(super) fn spans(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.parts.iter().map(|part| (part.start, part.end))
     }
@@ -89,18 +95,20 @@ impl Timed {
     }
 }
 
-/// Returns the durations of the intervals of a law, slowed down by a factor, s: whole ticks, rounded up.
+/// Returns the durations of the intervals of a law, times a factor, s: whole ticks, rounded up.
 fn durations(law: &TimeLaw, factor: f64) -> Vec<f64> {
     (0..law.grid.nodes.len() - 1).map(|k| tick_after(factor * law.duration(k))).collect()
 }
 
-/// Returns the middle control point of the time law of an interval whose first and last are 0 and 1.
+/// Returns the middle control point of the time law of an interval with these speeds at its ends: a quadratic Bernstein
+/// polynomial that maps the part of its duration to the part of its length, with the other control points 0 and 1.
 fn middle(speeds: &[f64]) -> f64 {
     speeds[0] / (speeds[0] + speeds[1])
 }
 
-/// Returns the pieces of the path of a joint in an interval of the grid, composed with its time law: at most one, as
-/// the grid has all ends of pieces. It lasts no time yet.
+/// Returns the piece of the path of a joint in an interval of the grid, composed with its time law; at most one, as the
+/// grid has all ends of pieces, and `None` if the joint does not move in it. Begin and end of the piece are parameters
+/// still, not times.
 fn piece(track: &Track, nodes: &[f64], speeds: &[f64]) -> Option<Segment> {
     let next = track.segments.partition_point(|s| s.end <= nodes[0]);
     let mut piece = track.segments.get(next).and_then(|s| s.between(nodes[0], nodes[1]))?;
@@ -111,7 +119,7 @@ fn piece(track: &Track, nodes: &[f64], speeds: &[f64]) -> Option<Segment> {
     if speeds[0] != speeds[1] {
         piece.control = composed(&piece.control, middle(speeds));
     }
-    // Both ends to the bit those of the pieces beside: rounding does not add up.
+    // Both ends equal those of the pieces beside them bit by bit, so that rounding does not add up.
     let last = piece.control.len() - 1;
     for (index, node) in [(0, nodes[0]), (last, nodes[1])] {
         piece.control[index] = track.position(piece.control[index], node);
@@ -119,7 +127,8 @@ fn piece(track: &Track, nodes: &[f64], speeds: &[f64]) -> Option<Segment> {
     Some(piece)
 }
 
-/// Returns the greatest ratio of speed, or of the root of acceleration, to its limit in each interval of a law.
+/// Returns for each interval of a law the greatest of the ratios of speeds to their limits, and of the roots of those
+/// of accelerations: the factor on its duration with which all limits hold.
 pub(super) fn ratios(stretch: &Stretch, law: &TimeLaw, drives: &[Drive]) -> Vec<f64> {
     let times = durations(law, 1.0);
     let of = |k: usize| {
@@ -136,7 +145,8 @@ pub(super) fn ratios(stretch: &Stretch, law: &TimeLaw, drives: &[Drive]) -> Vec<
     (0..times.len()).map(of).collect()
 }
 
-/// Returns the greatest ratio of one drive over an interval that lasts `time` (s).
+/// Returns the greatest ratio of one drive, of speed or the root of that of acceleration, over an interval that lasts
+/// `time` (s). `pieces`: the moving joints with their control points over the interval, rad or m.
 fn ratio(drive: &Drive, pieces: &[(usize, Vec<f64>)], time: f64) -> f64 {
     let of = |&(joint, factor): &(usize, f64)| {
         pieces.iter().find(|(j, _)| *j == joint).map(|(_, control)| (factor, control))
@@ -163,7 +173,7 @@ fn ratio(drive: &Drive, pieces: &[(usize, Vec<f64>)], time: f64) -> f64 {
     speed.max(libm::sqrt(acceleration))
 }
 
-/// Returns the tracks of a plan in its new time, and the clock.
+/// Returns the tracks of a plan, with its docking, in its new time, and the clock.
 pub(super) fn tracks(old: &Tracks, parts: &[Timed]) -> (Tracks, Clock) {
     let mut new: Vec<Track> =
         old.tracks.iter().map(|t| Track { joint: t.joint, segments: Vec::new() }).collect();
@@ -196,7 +206,8 @@ pub(super) fn tracks(old: &Tracks, parts: &[Timed]) -> (Tracks, Clock) {
     (Tracks { tracks: new, events, duration: clock.duration, ..old.clone() }, clock)
 }
 
-/// Appends the segments of a stretch at the times of its grid (s).
+/// Appends the segments of a stretch to the tracks of their joints. `times`: the new times of the points of its grid,
+/// s.
 fn append(new: &mut [Track], stretch: &Stretch, law: &TimeLaw, times: &[f64]) {
     for track in &stretch.path {
         let Some(own) = new.iter_mut().find(|t| t.joint == track.joint) else { continue };

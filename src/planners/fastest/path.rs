@@ -1,5 +1,5 @@
-//! The path of a plan: cut at the instants at which the robot has to be at rest, and given by a parameter that time
-//! does not enter.
+//! The path of a plan: cut at the instants at which the robot has to be at rest, and given over a parameter that takes
+//! the place of time: the distance along a straight line, or the plan's own time along a curve.
 
 use super::Refusal;
 use super::tolerances::TOLERANCES;
@@ -15,7 +15,7 @@ pub(super) enum Part {
         /// The end in the plan, s.
         to: f64,
     },
-    /// Joints move.
+    /// A stretch: joints move.
     Stretch(Stretch),
 }
 
@@ -29,33 +29,37 @@ pub(super) struct Stretch {
     /// The positions of all joints at the beginning, rad or m.
     pub(super) start: Vec<f64>,
     /// The path: tracks of the moving joints over the parameter, which takes the place of time and goes from 0 to
-    /// `length`. On a straight path it is the way of one joint, rad or m; otherwise the time in the plan since `from`.
+    /// `length`. On a straight path it is the distance that the joint which moves farthest, the leader, has gone, rad
+    /// or m; otherwise the time in the plan since `from`, s.
     pub(super) path: Vec<Track>,
-    /// The parameter at the end.
+    /// The parameter at the end, rad, m or s.
     pub(super) length: f64,
     /// True for a straight line in the space of joints.
     pub(super) straight: bool,
-    /// True at begin and end if all joints are at rest there at any velocity of the parameter.
+    /// True at begin and end if all joints are at rest there at any velocity of the parameter, since the derivative of
+    /// the path is zero; false on a straight path.
     pub(super) free: [bool; 2],
-    /// The parameter at times of the plan.
+    /// The map from times of the plan to the parameter.
     places: Places,
 }
 
-/// The parameter of a stretch at the times of the plan.
+/// The map from times of the plan to the parameter of a stretch.
 #[derive(Clone)]
 enum Places {
-    /// The time since the beginning.
+    /// The parameter is the time since the beginning of the stretch.
     Time,
-    /// The ways of a joint: each as the way before and its segments.
+    /// The parameter is the distance that leaders have gone: for each of the straight stretches that are joined, the
+    /// distance before it (rad or m), and the segments of its leader in the plan.
     Ways(Vec<(f64, Vec<Segment>)>),
 }
 
 /// An instant of the plan at which the velocities of joints change, or bonds do.
 struct Instant {
+    /// The time in the plan, s.
     time: f64,
     /// True if the velocity of the path has to be zero.
     stop: bool,
-    /// True if no joint moves just before, just after.
+    /// True if all joints are at rest just before, and just after.
     rest: [bool; 2],
 }
 
@@ -90,7 +94,7 @@ pub(super) fn parts(tracks: &Tracks) -> Result<Vec<Part>, Refusal> {
     Ok(parts)
 }
 
-/// Returns the tracks without the segments in which nothing moves.
+/// Returns the tracks without the segments, and the joints, that do not move.
 fn moving(tracks: &Tracks) -> Vec<Track> {
     let moves = |s: &&Segment| s.control.iter().any(|c| *c != s.control[0]);
     let track =
@@ -98,7 +102,8 @@ fn moving(tracks: &Tracks) -> Vec<Track> {
     tracks.tracks.iter().map(track).filter(|t| !t.segments.is_empty()).collect()
 }
 
-/// Returns the instants of a plan, with 0 and the end, ascending.
+/// Returns the instants of a plan at which segments of moving joints begin or end, or bonds change, with 0 and the end,
+/// ascending.
 fn instants(tracks: &Tracks, moving: &[Track]) -> Vec<Instant> {
     let tol = TOLERANCES.velocity;
     let all = Tracks { tracks: moving.to_vec(), ..tracks.clone() }.instants();
@@ -130,7 +135,9 @@ fn within(moving: &[Track], from: f64, to: f64) -> Vec<Track> {
     moving.iter().map(track).filter(|t| !t.segments.is_empty()).collect()
 }
 
-/// Returns the stretch if its path is a straight line along which no joint turns back; `None` otherwise.
+/// Returns the stretch between two times of the plan (s) if its path is a straight line in the space of joints, up to
+/// `TOLERANCES.straight`, along which no joint turns back; `None` otherwise. `start`: the positions of all joints at
+/// `from`, rad or m.
 fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stretch> {
     let way = |t: &Track| t.segments.last().map_or(0.0, Segment::last) - start[t.joint.0 as usize];
     let leader = tracks.iter().fold(&tracks[0], |a, b| if way(b).abs() > way(a).abs() { b } else { a });
@@ -170,7 +177,8 @@ fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stret
     })
 }
 
-/// Returns true if a track goes `ratio` times as far as the leader's segment, from `at`, while that goes from `origin`.
+/// Returns true if at each instant of a segment of the leader a joint has gone `ratio` times as far from `at` as the
+/// leader from `origin`, up to `TOLERANCES.straight` (rad or m).
 fn follows(track: &Track, at: f64, leader: &Segment, origin: f64, ratio: f64) -> bool {
     let mut cuts = vec![leader.start, leader.end];
     let ends = track.segments.iter().flat_map(|s| [s.start, s.end]);
@@ -201,7 +209,8 @@ fn covered(list: &[Segment], segment: &Segment) -> bool {
     reached >= segment.end
 }
 
-/// Returns a track of a straight stretch over the way of its leader: a line for each of its segments.
+/// Returns a track of a straight stretch over the distance that its leader has gone: a line for each of its segments.
+/// `start`: the positions of all joints at the beginning, rad or m.
 fn lines(track: &Track, leader: &Track, start: &[f64]) -> Track {
     let origin = start[leader.joint.0 as usize];
     let way = |t: f64| (leader.position(origin, t) - origin).abs();
@@ -218,6 +227,10 @@ fn lines(track: &Track, leader: &Track, start: &[f64]) -> Track {
     Track { joint: track.joint, segments }
 }
 
+/// Returns a stretch between two times of the plan (s) over the plan's own time.
+///
+/// # Errors
+/// [`Refusal::Degree`] for the first segment whose degree is too high to be doubled by a time law.
 fn curve(
     mut path: Vec<Track>,
     start: Vec<f64>,
@@ -241,7 +254,7 @@ fn curve(
 }
 
 impl Stretch {
-    /// Returns the parameter at a time of the plan, s, which is clamped to the stretch.
+    /// Returns the parameter at a time of the plan (s), which is clamped to the stretch.
     pub(super) fn place(&self, time: f64) -> f64 {
         let time = time.clamp(self.from, self.to);
         match &self.places {
@@ -269,13 +282,13 @@ impl Stretch {
                 .all(|(a, b)| a.joint == b.joint && (self.slope(a) - next.slope(b)).abs() <= tol)
     }
 
-    /// Returns the change of a joint over the path by that of the parameter.
+    /// Returns the derivative of a joint's position by the parameter on a straight path: the mean over the stretch.
     pub(super) fn slope(&self, track: &Track) -> f64 {
         let way = |s: &Segment| s.last() - s.control[0];
         track.segments.iter().map(way).sum::<f64>() / self.length
     }
 
-    /// Appends a stretch that goes on in the same direction.
+    /// Appends a straight stretch that goes on in the same direction.
     fn append(&mut self, next: Stretch) {
         for (track, more) in self.path.iter_mut().zip(next.path) {
             track.segments.extend(more.segments.into_iter().map(|s| Segment {

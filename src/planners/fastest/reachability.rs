@@ -4,24 +4,25 @@
 use super::constraints::{HalfPlane, Interval};
 use super::tolerances::TOLERANCES;
 
-/// The greatest squared velocity of a path that is considered. A stretch that could be faster has no limit.
+/// The greatest squared velocity of the parameter that is considered, in its unit squared per s². A stretch that could
+/// go at half of it counts as one without a limit.
 pub(super) const SQUARE_MAX: f64 = 1e12;
 
-/// The reason why there is no velocity.
+/// The reason why reachability analysis gives no velocities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Failing {
-    /// No velocity at the beginning of an interval can be held.
+    /// The controllable set of a point is empty: from no velocity there the end is reached within the limits.
     Empty,
-    /// An interval has no limit.
+    /// The controllable set of a point has no bound.
     Unlimited,
 }
 
-/// Returns the squared velocity at each point of a grid, from begin to end. `free`: true at begin and end if any
-/// velocity is allowed there; then the acceleration of the path is zero in the interval beside it, as its velocity has
-/// no greatest value at an instant of rest. Otherwise the velocity is zero there.
+/// Returns the greatest squared velocity of the parameter at each point of a grid, from begin to end. `free`: true at
+/// begin and end if any velocity is allowed there; then the acceleration of the parameter is zero in the interval
+/// beside it, as its velocity has no greatest value at an instant of rest. Otherwise the velocity is zero there.
 ///
 /// # Errors
-/// [`Failing`] where no velocity is possible, or any.
+/// [`Failing`] if no velocity is possible at a point, or any.
 pub(super) fn squares(intervals: &[Interval], free: [bool; 2]) -> Result<Vec<f64>, Failing> {
     let count = intervals.len();
     // Backward: the controllable set of each point, an interval.
@@ -105,7 +106,8 @@ fn range(planes: &[HalfPlane], y: (f64, f64)) -> Option<(f64, f64)> {
     Some((low.max(0.0).min(high), high))
 }
 
-/// Returns the greatest (`sign` 1) or least (-1) x.
+/// Returns the greatest (`sign` 1) or least (-1) x from 0 to [`SQUARE_MAX`] for which there is a y in a range such that
+/// all inequalities hold; `None` if there is none.
 fn extreme(planes: &[HalfPlane], y: (f64, f64), sign: f64) -> Option<f64> {
     let mut at = (if sign > 0.0 { SQUARE_MAX } else { 0.0 }, y.0);
     for (index, plane) in planes.iter().enumerate() {

@@ -8,34 +8,38 @@ use crate::plan::verify::verify;
 use crate::plan::{CheckKind, Failure, Plan, Tracks, Verdict, is_full, retimed};
 use crate::planners::Progress;
 
-/// The times by which a stretch is slowed down before it counts as one that no slowness helps: to 9 times its duration.
+/// The greatest number of times that a stretch is slowed down, to 9 times its duration in all, before it counts as one
+/// that no slowness helps.
 const SLOWINGS_MAX: u32 = 15;
 
-/// The times by which the factors of slowed stretches are halved again.
+/// The number of bisections of the factors of slowed stretches.
 const HALVINGS: usize = 3;
 
 /// The result of slowing down.
 pub(super) struct Slowed {
-    /// The tracks.
+    /// The tracks of the slowed motion.
     pub(super) tracks: Tracks,
-    /// The clock.
+    /// The map from the times of the plan to those of the slowed motion.
     pub(super) clock: Clock,
-    /// The greatest factor by which a stretch was slowed down.
+    /// The greatest factor on the duration of a stretch by which it was slowed down; 1 if none was.
     pub(super) factor: f64,
     /// The number of verdicts that it took.
     pub(super) verdicts: usize,
 }
 
-/// The factors of a stretch: the greatest that was found too small, and the least that was found great enough.
+/// A bracket of the factor on the duration of a stretch with which its loads are held.
 #[derive(Clone, Copy)]
 struct Bracket {
+    /// The number of times that the stretch was slowed down.
     times: u32,
+    /// The greatest factor that was found too small; 1 at first.
     low: f64,
+    /// The least factor that was found great enough, or the one to be tried next; 1 at first.
     high: f64,
 }
 
-/// Returns the motion of a plan whose stretches are slowed down until the judge finds no load too great under full
-/// dynamics; as they are under other worlds.
+/// Returns the motion of a plan whose stretches are slowed down until the judge finds no load too great, if it is
+/// judged under full dynamics; otherwise the motion by the time laws as they are.
 ///
 /// # Errors
 /// [`Refusal::Unholdable`] where a load is too great at any speed, [`Refusal::Stopped`].
@@ -61,14 +65,17 @@ pub(super) fn slowed(
 /// Verdicts on slower and slower motions.
 struct Trials<'a> {
     plan: &'a Plan,
+    /// The tracks of the plan.
     old: &'a Tracks,
+    /// The part of the limits of loads that is left unused, from 0 to below 1.
     reserve: f64,
+    /// The number of verdicts so far.
     verdicts: usize,
     progress: &'a mut dyn Progress,
 }
 
 impl Trials<'_> {
-    /// Returns the loads that the judge finds too great.
+    /// Returns the loads that the judge finds too great in a motion, with the reserve.
     ///
     /// # Errors
     /// [`Refusal::Stopped`].
@@ -85,7 +92,7 @@ impl Trials<'_> {
         Ok(overloaded(&verify(&slower), &clock, parts))
     }
 
-    /// Slows stretches down by steps that double, until no load is too great.
+    /// Slows stretches down, by steps that double, in which loads are too great, until none is.
     ///
     /// # Errors
     /// [`Refusal::Unholdable`], [`Refusal::Stopped`].
@@ -109,7 +116,9 @@ impl Trials<'_> {
         }
     }
 
-    /// Goes back towards the greatest factors that were too small, by halves.
+    /// Bisects the factor of each stretch that was slowed down more than once, between the greatest that was too small
+    /// and the least that was great enough. All stretches are tried at a time, and a shorter one is kept only where no
+    /// load of the whole motion is too great.
     ///
     /// # Errors
     /// [`Refusal::Stopped`].
@@ -139,7 +148,7 @@ impl Trials<'_> {
     }
 }
 
-/// Slows a stretch down to a factor beside its own law.
+/// Sets the factor on the duration of a stretch; a pause stays.
 fn set(part: &mut Timed, factor: f64) {
     if let Timed::Stretch(_, _, own) = part {
         *own = factor;
@@ -150,11 +159,11 @@ fn set(part: &mut Timed, factor: f64) {
 struct Over {
     /// The first of them; `None` if there is none.
     first: Option<Failure>,
-    /// True for each stretch in which one is.
+    /// True for each part of the plan that is a stretch in which one is.
     parts: Vec<bool>,
 }
 
-/// Returns the loads that are too great by a verdict, and the stretches nearest to them.
+/// Returns the loads of joints, bonds and balance that are too great by a verdict, and the stretches nearest to them.
 fn overloaded(verdict: &Verdict, clock: &Clock, parts: &[Timed]) -> Over {
     let mut over = Over { first: None, parts: vec![false; parts.len()] };
     let loads = [CheckKind::Torque, CheckKind::BondLoad, CheckKind::Balance];

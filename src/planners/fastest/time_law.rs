@@ -22,23 +22,23 @@ const GRADING: f64 = 1.08;
 pub(super) struct Grid {
     /// The parameters, ascending, with 0 and the length of the path.
     pub(super) nodes: Vec<f64>,
-    /// The part of the limits that may be used in each interval.
+    /// The part of the limits of squared speed and of acceleration that may be used in each interval, from 0 to 1.
     usable: Vec<f64>,
 }
 
 impl Grid {
-    /// Returns a grid in which limits may be used but for what rounding needs.
+    /// Returns a grid in which limits may be used up but for the part `TOLERANCES.limit`.
     pub(super) fn new(nodes: Vec<f64>) -> Grid {
         Grid { usable: vec![1.0 - TOLERANCES.limit; nodes.len() - 1], nodes }
     }
 }
 
-/// The velocity of a path at the points of a grid.
+/// The velocity of the parameter of a path at the points of a grid; its square is linear between them.
 #[derive(Clone)]
 pub(super) struct TimeLaw {
     /// The grid.
     pub(super) grid: Grid,
-    /// The velocity of the parameter at each, per second.
+    /// The velocity of the parameter at each point, in its unit per second.
     pub(super) speeds: Vec<f64>,
 }
 
@@ -49,9 +49,9 @@ impl TimeLaw {
         2.0 * length / (self.speeds[index] + self.speeds[index + 1])
     }
 
-    /// Returns a grid for a better law: where a limit is exceeded between points, intervals are halved, and of the
-    /// shortest ones less of the limits is used. `ratios`: of speeds and roots of accelerations to their limits in each
-    /// interval.
+    /// Returns a grid for a better law: an interval in which a limit is exceeded is halved, or uses less of its limits
+    /// if it lasts less than twice `TOLERANCES.interval`. `ratios`: for each interval, the greatest of the ratios of
+    /// speeds to their limits, and of the roots of those of accelerations.
     pub(super) fn refined(&self, ratios: &[f64]) -> Grid {
         let mut grid = Grid { nodes: vec![0.0], usable: Vec::new() };
         for (k, pair) in self.grid.nodes.windows(2).enumerate() {
@@ -73,13 +73,14 @@ impl TimeLaw {
 pub(super) struct Limits<'a> {
     /// The robot.
     pub(super) robot: &'a Assembly,
-    /// Its joints and motors.
+    /// The joints and motors that state a limit of speed or acceleration.
     pub(super) drives: &'a [Drive],
-    /// The torques; `None` where they do not count.
+    /// The torques of the robot in the stretch; `None` where they do not limit the time law.
     pub(super) torques: Option<Torques<'a>>,
 }
 
-/// Returns the first grid of a stretch: finer beside instants of rest of a curve, where the velocity has no bound.
+/// Returns the first grid of a stretch, as parameters: even in each piece of the path, and finer beside instants of
+/// rest of a curve, where the velocity of the parameter has no bound.
 pub(super) fn grid(stretch: &Stretch, settings: &Settings) -> Vec<f64> {
     let breaks = stretch.breaks();
     let step = stretch.length / settings.intervals as f64;
@@ -103,7 +104,8 @@ pub(super) fn grid(stretch: &Stretch, settings: &Settings) -> Vec<f64> {
     nodes
 }
 
-/// Returns distances from an instant of rest that grow by a constant ratio, up to even steps or `most`.
+/// Returns distances from an instant of rest that grow by the ratio [`GRADING`] from `first` on, until their steps
+/// reach `step` or they reach `most`, all in the parameter.
 fn graded(first: f64, step: f64, most: f64) -> Vec<f64> {
     let mut at = first;
     let mut found = Vec::new();
@@ -114,9 +116,9 @@ fn graded(first: f64, step: f64, most: f64) -> Vec<f64> {
     found
 }
 
-/// Returns a grid for a better law: intervals that take more than an even share of the duration are divided, and points
-/// left out that follow others so soon that accelerations over the time between would be rounding of positions. Ends of
-/// pieces stay.
+/// Returns a grid for a better law, which is about even in time: intervals that take more than an even share of the
+/// duration are divided, and points left out that follow others so soon that accelerations over the time between would
+/// be rounding of positions. Ends of pieces stay.
 pub(super) fn equidistributed(stretch: &Stretch, law: &TimeLaw, settings: &Settings) -> Grid {
     let breaks = stretch.breaks();
     let durations: Vec<f64> = (0..law.grid.usable.len()).map(|k| law.duration(k)).collect();
@@ -142,8 +144,8 @@ pub(super) fn equidistributed(stretch: &Stretch, law: &TimeLaw, settings: &Setti
 /// Returns the time law of a stretch on a grid.
 ///
 /// # Errors
-/// [`Refusal::Overloaded`] where a torque at rest is over its limit, [`Refusal::NoAcceleration`] where nothing limits
-/// the velocity.
+/// [`Refusal::NoAcceleration`] if nothing limits the velocity; [`Refusal::Overloaded`] if no velocity but zero is
+/// within the limits, or [`Refusal::TooLong`] if torques do not count.
 pub(super) fn solve(stretch: &Stretch, grid: Grid, limits: &Limits) -> Result<TimeLaw, Refusal> {
     if stretch.straight && limits.torques.is_none() {
         return trapezoid(stretch, limits);
@@ -165,13 +167,14 @@ pub(super) fn solve(stretch: &Stretch, grid: Grid, limits: &Limits) -> Result<Ti
     Ok(TimeLaw { grid, speeds })
 }
 
+/// Returns the refusal of a stretch whose velocity nothing limits, with the first of its moving joints.
 fn unlimited(stretch: &Stretch, robot: &Assembly) -> Refusal {
     let joint = stretch.path.first().map_or(JointId(0), |track| track.joint);
     Refusal::NoAcceleration { joint: robot.name_of(joint), time: stretch.from }
 }
 
-/// Returns the refusal of a stretch that no velocity gets through: a torque at rest is too great, or, where torques do not
-/// count, it would take for ever.
+/// Returns the refusal of a stretch that no velocity gets through: a torque at rest is too great, or, where torques do
+/// not count, it would take for ever.
 fn overloaded(stretch: &Stretch, limits: &Limits, intervals: &[Interval]) -> Refusal {
     let at_rest = intervals.iter().filter_map(|interval| interval.at_rest).reduce(AtRest::greater);
     match limits.torques.as_ref().zip(at_rest) {
@@ -180,8 +183,11 @@ fn overloaded(stretch: &Stretch, limits: &Limits, intervals: &[Interval]) -> Ref
     }
 }
 
-/// Returns the time law of a straight path under limits of speed and acceleration alone, in closed form: constant
-/// acceleration, constant velocity, constant deceleration.
+/// Returns the time law of a straight path from rest to rest under limits of speed and acceleration alone, in closed
+/// form: constant acceleration, constant velocity, constant deceleration.
+///
+/// # Errors
+/// [`Refusal::NoAcceleration`] if nothing limits the acceleration.
 fn trapezoid(stretch: &Stretch, limits: &Limits) -> Result<TimeLaw, Refusal> {
     let length = stretch.length;
     let (mut square, mut acceleration) = (f64::INFINITY, f64::INFINITY);

@@ -11,7 +11,8 @@ pub(super) struct Tolerances {
     /// The greatest difference of two directions of straight paths, as a fraction of the joint that moves farthest, at
     /// which they are one path: rounding of positions.
     pub direction: f64,
-    /// The part of each limit that is left free while a path is timed, so that rounding does not exceed it.
+    /// The part of each limit of acceleration and of squared speed that is left free while a path is timed, so that
+    /// rounding does not exceed it.
     pub limit: f64,
     /// The excess over a limit of speed, as a fraction, above which the grid is refined where it occurs.
     pub excess: f64,
@@ -28,9 +29,10 @@ pub(super) struct Tolerances {
     /// The first interval of the grid after an instant in which all joints are at rest, as a part of the stretch. The
     /// velocity of the parameter goes to infinity there; 0.004 costs less than 0.1 % of the duration.
     pub first_interval: f64,
-    /// The part of the torque by which a torque at rest may be over its limit, and count as held: rounding.
+    /// The part of a limit by which a torque at rest may be over it, and count as held: rounding.
     pub torque: f64,
-    /// The increase of the duration of a stretch that is slowed down for the first time; doubled at each further time.
+    /// The increase of the duration of a stretch that is slowed down for the first time, as a part of its duration by
+    /// the time law; doubled at each further time.
     pub slower: f64,
 }
 

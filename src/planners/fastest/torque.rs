@@ -1,4 +1,5 @@
-//! Torques of joints and motors of a robot whose base is held: linear in acceleration and squared velocity of the path.
+//! Torques of joints and motors of a robot whose base is held: linear in acceleration and squared velocity of the
+//! parameter s of its path.
 
 use super::Refusal;
 use super::path::Stretch;
@@ -9,62 +10,67 @@ use crate::robot::{Assembly, Drive, Kinematics, drives, motor_efforts};
 
 /// The torques of a robot whose base is held, with the bonds that hold in one stretch.
 pub(super) struct Torques<'a> {
+    /// The kinematics with the bonds that hold, rooted at the base.
     kinematics: Kinematics,
     dynamics: &'a Dynamics,
+    /// The world pose of the base, m.
     base: Pose,
+    /// The vector of free fall in the world, m/s².
     gravity: Vec3,
+    /// The joints, then the motors, that state a greatest effort.
     loads: Vec<Load>,
 }
 
 /// A joint or motor that states a greatest effort.
 struct Load {
+    /// The path name of the joint or motor.
     name: String,
     /// True for a torque, false for a force.
     turns: bool,
-    /// N·m or N, as stated.
+    /// The stated limit, N·m or N.
     limit: f64,
     /// The part of the limit that may be used, N·m or N.
     allowed: f64,
-    /// The joints, by id, and factors whose efforts make its own.
+    /// The joints, by the number in their [`JointId`](crate::robot::JointId), whose efforts times factors make its own.
     terms: Vec<(usize, f64)>,
 }
 
 /// A torque at a point of a path: `a s̈ + b ṡ² + c`, at most `limit` in size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
-    /// The share of the acceleration of the path.
+    /// The factor of the acceleration of the parameter.
     pub(super) a: f64,
-    /// The share of its squared velocity.
+    /// The factor of its squared velocity.
     pub(super) b: f64,
     /// The torque at rest, N·m or N.
     pub(super) c: f64,
-    /// The greatest size, N·m or N.
+    /// The greatest absolute value, with the reserve, N·m or N.
     pub(super) limit: f64,
 }
 
 /// The torque at rest of one load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AtRest {
-    /// The index of the load.
+    /// The index of the load in [`Torques::loads`].
     load: usize,
-    /// Its size, N·m or N.
+    /// The absolute value of the torque, N·m or N.
     torque: f64,
-    /// Its size as a part of what may be used of its limit.
+    /// The torque as a part of what may be used of its limit.
     ratio: f64,
 }
 
-/// The motion of a path at a point: positions, their first and second derivatives by the parameter, of all joints by
-/// id.
+/// A path at a point: positions, and their first and second derivatives by the parameter, of all joints by the number
+/// in their [`JointId`](crate::robot::JointId).
 pub(super) struct PathPoint {
-    /// Positions, rad or m.
+    /// The positions, rad or m.
     pub(super) q: Vec<f64>,
-    /// First derivatives.
+    /// The first derivatives by the parameter, rad or m per its unit.
     pub(super) d: Vec<f64>,
-    /// Second derivatives.
+    /// The second derivatives by the parameter, rad or m per its unit squared.
     pub(super) dd: Vec<f64>,
 }
 
-/// Returns true if the world has inertia in its loads, and a fixture alone bears the robot: on ground that is
+/// Returns true if the world has full dynamics, and a fixture alone bears the robot: on ground that is
 /// [`Ground::Fixed`] contacts bear it where it has weight.
 fn holds(world: &World) -> bool {
     let fixture = match world.ground {
@@ -77,7 +83,7 @@ fn holds(world: &World) -> bool {
 
 /// Returns the torques in a stretch under the world at its beginning; one that begins within it counts in
 /// [`slowed`](super::slowdown::slowed) alone. `None` where no fixture alone holds the base, where loops leave torques
-/// open, or where loads of motion are not judged.
+/// open, or where the world is not one of full dynamics. `reserve`: the part of the limits that is left unused.
 pub(super) fn torques<'a>(
     plan: &Plan,
     tracks: &Tracks,
@@ -136,14 +142,15 @@ impl AtRest {
         rows.iter().enumerate().map(at_rest).reduce(AtRest::greater)
     }
 
-    /// Returns that of two which is the greater part; the first of two that are alike.
+    /// Returns that one of two torques which is the greater part of its limit; this one if they are alike.
     pub(super) fn greater(self, other: AtRest) -> AtRest {
         if other.ratio > self.ratio { other } else { self }
     }
 }
 
 impl Torques<'_> {
-    /// Returns the torques at a point of a path, in the order of the loads.
+    /// Returns the torques at a point of a path, in the order of the loads, by inverse dynamics without weight for the
+    /// factors of acceleration and of squared velocity, and at rest for the weight.
     pub(super) fn rows(&self, point: &PathPoint) -> Vec<Row> {
         let mut poses = vec![Pose::identity(); self.kinematics.link_count()];
         self.kinematics.link_poses(&point.q, &self.base, &mut poses);
