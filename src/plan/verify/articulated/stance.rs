@@ -122,7 +122,7 @@ impl Stance {
     }
 
     /// Returns the effect of a change to `posture`: the robot is turned so that its masses move least
-    /// ([`mass_alignment`]) and its loaded contacts keep their heights ([`height_keeping_turn`]), then settled with the
+    /// (`mass_alignment`) and its loaded contacts keep their heights (`height_keeping_turn`), then settled with the
     /// joints held. While a robot is held, the contacts are those before it was. `model` must be that of this stance.
     pub fn attempt(&self, model: &Model, posture: Posture, tolerances: &Tolerances) -> SettleAttempt {
         let mut R = self.R * mass_alignment(model, &self.posture, &posture);
@@ -139,7 +139,7 @@ impl Stance {
     }
 
     /// Returns the robot settled as attempted, at the place to which the minimum power principle moves it
-    /// ([`displacement`]). Also returns for each loaded contact patch, those of this stance and of the next, the number
+    /// (`displacement`). Also returns for each loaded contact patch, those of this stance and of the next, the number
     /// of its link, its slip (m), half for either stance, and its load as a fraction of the weight.
     pub fn settled(
         &self,
