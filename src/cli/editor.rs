@@ -34,7 +34,7 @@ const MORE: &str = "...";
 
 /// The result of reading one entry.
 pub(super) enum Typed {
-    /// A complete text.
+    /// The text of an entry: complete, or submitted incomplete by an empty line.
     Entry(String),
     /// Ctrl-C: the text typed so far is discarded.
     Nothing,

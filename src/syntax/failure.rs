@@ -61,7 +61,7 @@ pub(super) struct Mistake<'t> {
     pub(super) failure: &'t Failure,
     /// The body that the piece stands in.
     pub(super) place: BodyKind,
-    /// True if the mistake is in the `{ }` of a text.
+    /// True if the mistake is in an interpolation, the `{ }` of a text.
     pub(super) in_text: bool,
     /// The misspelt keyword, once that explains the mistake.
     misspelt: Cell<Option<Misspelt>>,

@@ -112,7 +112,7 @@ pub struct Problem<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The part of the limits of torque and of the loads of bonds that is left unused, without unit, from 0 to below 1.
-    /// Default 0.15, that of the judge.
+    /// Default: that of the judge ([`reserve_default`](crate::plan::Settings::reserve_default)).
     pub reserve: f64,
     /// The least number of intervals of the first grid of a stretch; finer ones are added beside instants of rest.
     /// Default 250.

@@ -3,8 +3,9 @@
 /// The tolerances and thresholds of folding; [`TOLERANCES`] has the values.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
-    /// The fraction by which sides of a face and of its panel, and directions of ports and edges, may differ:
-    /// rounding in files and in the language.
+    /// The fraction by which sides of a panel may differ from each other and from those of its face, and the length of
+    /// the difference of the unit vectors of a port from those of its edge, without unit: rounding in files and in the
+    /// language.
     pub side: f64,
     /// The fraction of the longest side by which the sides of faces that share a type of panel may differ: rounding
     /// of double arithmetic.

@@ -236,12 +236,12 @@ impl Travel {
     }
 }
 
-/// The choices that lookahead varies.
+/// The choices by which steps are made, the present ones of a rollout; lookahead tries others beside them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepPolicy {
     /// The objective that the steps minimise.
     pub objective: Objective,
-    /// True if the truss may fall over an edge onto other nodes.
+    /// True if the truss may fall over an edge onto other nodes; false to place a node before, where that is possible.
     pub impact: bool,
 }
 

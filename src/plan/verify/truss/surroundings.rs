@@ -13,11 +13,11 @@ use crate::units::{Dimension, quantity};
 /// An obstacle of the plan's surroundings.
 pub(super) struct Obstacle {
     solid: Solid,
-    /// Its name in a report.
+    /// The name of the obstacle in a report.
     name: String,
 }
 
-/// Returns the obstacles of a plan as solids, in their order.
+/// Returns the obstacles of a plan as solids in the world's frame, in their order.
 ///
 /// # Errors
 /// The first shape that is no solid.
