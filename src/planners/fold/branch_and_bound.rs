@@ -123,9 +123,8 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns, as [`optimum`], the layout of least energy that `accepts` accepts. `accepts` is asked about layouts that
-/// fit, in ascending order of energy, up to ties; if the budget ends before it accepts one, also about what a local
-/// search finds, of any energy.
+/// Returns, as [`optimum`], the layout of least energy that `accepts` accepts: of those that fit, asked about in order
+/// of ascending energy up to ties; if the budget ends before one is accepted, also of what a local search finds.
 ///
 /// # Errors
 /// [`NoLayout::AllOverlap`] if no layout fits or all were refused, else [`NoLayout::Budget`] if none was accepted.
