@@ -9,18 +9,24 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
 use crate::units::{Dimension, quantity};
 
-/// The monitor of the base: it follows its motion, sums slip, and looks for penetrating contact with a fixed base.
+/// The monitor of the base: it follows its motion, sums slip, and looks for contact that penetrates a ground on which
+/// the base is fixed.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
+    /// The world pose of the base at the first sample, m; `None` before it.
     start: Option<Pose>,
+    /// The world pose of the base at the last sample that moved, m.
     last: Pose,
+    /// The turn of the base about the vertical since the first sample, whole turns counted, rad.
     yaw: f64,
-    /// Slip of each link with its part of the load, summed over the plan, m.
+    /// The slip of each link, by its number, summed over the samples at which it carries a share of the weight, m.
     slips: Vec<f64>,
+    /// The number of samples.
     samples: usize,
     /// The deepest penetration so far of the present interval: (depth, m; time, s; name of the module; begin of the
     /// interval, s).
     deepest: Option<(f64, f64, String, f64)>,
+    /// The grounds of the plan, each once.
     grounds: Vec<Ground>,
 }
 
@@ -40,8 +46,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes a sample, in order of time: adds to the distance travelled, and records failures by slip and by a fixed
-    /// base that sinks into the ground.
+    /// Takes a sample, in order of time: follows the base, adds to the slip, which fails nothing, and records a failure
+    /// where a robot with a fixed base penetrates the ground.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {
@@ -56,6 +62,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Follows the pose of the base, and its turn about the vertical.
     fn travel(&mut self, sample: &Sample) {
         let pose = sample.stance.base_pose(sample.model);
         if self.start.is_none() {
@@ -67,6 +74,7 @@ impl<'a> Monitor<'a> {
         self.last = pose;
     }
 
+    /// Adds to the slip of the links that carry at least the part `slip_load` of the weight.
     fn slip(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.slips.resize(sample.model.bodies.len(), 0.0);
         let mut excused = false;
@@ -82,6 +90,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Begins, continues or ends an interval of penetrating contact.
     fn penetration(&mut self, sample: &Sample, ledger: &mut Ledger) {
         match penetrating_contact(sample) {
             Some(contact_point) => {
@@ -95,6 +104,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Ends the present interval of penetrating contact at `t` (s), if there is one, with a failure.
     fn end_penetration(&mut self, t: f64, ledger: &mut Ledger) {
         let Some((depth, _, name, since)) = self.deepest.take() else { return };
         let words = quantity(depth, Dimension::LENGTH);
@@ -111,8 +121,8 @@ impl<'a> Monitor<'a> {
         });
     }
 
-    /// Records displacement, heading, slip and the statuses; `names` returns the name of a link, given by its number
-    /// among all links.
+    /// Records the displacement and turn of the base, the greatest slip and the status of each check; `names` returns
+    /// the name of a link, given by its number among all links.
     pub(super) fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);

@@ -27,7 +27,8 @@ const COLUMNS_MAX: usize = 100_000;
 /// A unit of a force that may act: an edge of a contact's pyramid, or a component of the wrench that a bond that
 /// closes a loop transmits.
 pub(super) struct Column {
-    /// The wrenches on links, each on one, that one unit of the force makes.
+    /// The wrenches on links, each on one, that one unit of the force makes: the robot's weight, for a component of a
+    /// moment the weight times a metre.
     pub wrenches: Vec<Wrench>,
     /// True if the force may also act in the opposite direction.
     pub free: bool,
@@ -41,11 +42,11 @@ pub(super) struct ContactForces {
     /// The index of the load with that ratio in [`Structure::loads`].
     pub load: usize,
     /// A lower bound on the greatest load, as a fraction of its limit, under any contact forces; from the dual
-    /// solution of the LP.
+    /// solution of the LP; minus infinity without one.
     pub bound: f64,
     /// The forces found, from which the search at the next sample begins.
     pub warm_start: WarmStart,
-    /// The load at every cut under these forces and the weights, in the order of [`Structure::loads`], N or N·m.
+    /// The load at every cut under these forces and the weights, in the order of [`Structure::sections`], N or N·m.
     pub held: Vec<f64>,
     /// The forces of the ground on the links, four for each contact along the edges of its pyramid, then the wrenches
     /// that bonds that close loops transmit.
@@ -55,11 +56,11 @@ pub(super) struct ContactForces {
 /// Contact forces of an earlier sample: if contacts stay the same, nearly the same forces balance again.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub(super) struct WarmStart {
-    /// Feature and point, in order.
+    /// The contacts, each as (index of the feature, number of the point), ascending.
     contacts: Vec<(usize, u8)>,
-    /// The forces of each contact, along the edges of its pyramid.
+    /// The force of each contact along each edge of its pyramid, as a part of the weight.
     wrenches: Vec<[f64; EDGES]>,
-    /// The wrenches of the bonds that close loops.
+    /// The wrenches of the bonds that close loops, six components each, as parts of the weight.
     loops: Vec<f64>,
 }
 
@@ -68,7 +69,7 @@ const EDGES: usize = 4;
 
 /// A query for contact forces in one stance.
 pub(super) struct ContactQuery<'a> {
-    /// The robot, compiled.
+    /// The model of the robot with the bonds that hold.
     pub model: &'a Model<'a>,
     /// The structure of the robot's loads: its cuts at joints, motors and bonds.
     pub structure: &'a Structure,
@@ -78,7 +79,7 @@ pub(super) struct ContactQuery<'a> {
     pub sections: &'a [Section],
     /// The weights of the links as wrenches, N and N·m.
     pub gravity_wrenches: &'a [Wrench],
-    /// The loads at the cuts from the weights alone, in the order of [`Structure::loads`], N or N·m.
+    /// The loads at the cuts from the weights alone, in the order of [`Structure::sections`], N or N·m.
     pub weights: &'a [f64],
     /// The indices in [`Structure::loads`] of the loads that count.
     pub loads: &'a [usize],
@@ -162,6 +163,8 @@ impl ContactQuery<'_> {
         chosen
     }
 
+    /// Returns the forces that may act: four for each contact, along the edges of its pyramid, then six for each bond
+    /// that closes a loop.
     fn columns(&self, contacts: &[ContactPoint]) -> Vec<Column> {
         let mut columns = Vec::new();
         for contact_point in contacts {
@@ -195,8 +198,8 @@ impl ContactQuery<'_> {
         sum
     }
 
-    /// Returns forces near the given ones that balance to the last digits, and the loads that they make; `None` if
-    /// there are none.
+    /// Returns forces near those of the given sizes that balance up to the tolerance `balance`, and the loads that they
+    /// make; `None` if none are found. `bound`: a lower bound on the greatest load, as a fraction of its limit.
     fn certified(
         &self,
         contacts: &[ContactPoint],
@@ -224,7 +227,8 @@ impl ContactQuery<'_> {
         Some(ContactForces { ratio, load: worst, bound, warm_start, held, wrenches })
     }
 
-    /// Returns the nearest sizes that balance, measured by the sizes themselves; `None` if one would have to pull.
+    /// Returns sizes near the given ones that balance, each corrected in proportion to itself; `None` if none are
+    /// found, or if a contact would have to pull.
     fn balanced(&self, columns: &[Column], sizes: &[f64]) -> Option<Vec<f64>> {
         if self.fixed_base {
             // Loops alone: what they transmit balances itself.

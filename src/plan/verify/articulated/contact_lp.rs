@@ -27,21 +27,24 @@ const DIRECTIONS: [[f64; 3]; 9] = [
 pub(super) struct ContactLp {
     /// The linear program as it is given to the solver.
     pub problem: LinearProgram,
+    /// The rows of loads, which come first among the inequalities.
     rows: Vec<Row>,
 }
 
 /// A piece of the robot between cuts.
 struct Node {
+    /// The index of the piece before it in the tree; of the root's piece its own.
     parent: usize,
-    /// The point about which its moments are taken, m.
+    /// The point about which its moments are taken, from the centre of mass in level axes, m.
     reference: Vec3,
-    /// The weight of its own links.
+    /// The wrench of the weight of its own links about the centre of mass.
     weight: Vector6<f64>,
 }
 
 /// A load in one direction: `Σ g·(force, moment beyond the cut) ≤ s`, by cut; the moment about the
 /// centre of mass.
 struct Row {
+    /// The number of the first link beyond each cut, with g.
     terms: Vec<(usize, Vector6<f64>)>,
     /// The share of the weights, as a fraction of the limit.
     constant: f64,
@@ -101,7 +104,7 @@ impl ContactLp {
             true => Vector6::zeros(),
             false => Vector6::from_iterator((0..6).map(|i| solution.y[i] / total)),
         };
-        // The last node's equations are those of the root, about the centre of mass.
+        // The first six equations are those of the root, about the centre of mass.
         let mut least = f64::INFINITY;
         for column in columns {
             let own: f64 = column.wrenches.iter().map(|p| field[p.link].dot(&wrench(query, p))).sum();
@@ -117,6 +120,7 @@ impl ContactLp {
     }
 }
 
+/// Returns a wrench about the centre of mass, as fractions of the weight (and of the weight times a metre).
 fn wrench(query: &ContactQuery, push: &super::statics::Wrench) -> Vector6<f64> {
     let (f, m) = (push.f / query.weight, (push.p.cross(&push.f) + push.m) / query.weight);
     Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)

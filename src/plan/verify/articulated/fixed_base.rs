@@ -21,9 +21,10 @@ use crate::robot::Motion;
 pub(super) enum BetweenSamples {
     /// No load is ever over its limit.
     Proved,
-    /// It was not examined, or not decided.
+    /// The loads were not examined, or not decided.
     Open,
-    /// A load is exceeded at this instant.
+    /// A load is over its limit at the time `time` (s). `load`: its index in [`Structure::loads`]; `ratio`: the load as
+    /// a fraction of the limit.
     Over { time: f64, load: usize, ratio: f64 },
 }
 
@@ -77,35 +78,42 @@ struct GravityLoads<'a> {
     tolerances: &'a Tolerances,
     model: Model<'a>,
     structure: Structure,
-    /// Downwards in the frame of the base's body, of length 1.
+    /// The unit vector downwards, in the frame of the base's body.
     down: Vec3,
-    /// The step of the kinematics that leads to each link.
+    /// The index of the step of the kinematics that leads to each link, by its number; `None` for the base and for
+    /// links that are not connected with it.
     step_of: Vec<Option<usize>>,
-    /// The steps that move, in the order of the structure's cuts.
+    /// The indices of the steps that move, in the order of the structure's cuts.
     moving: Vec<usize>,
+    /// A buffer for the poses of the links.
     poses: Vec<crate::geometry::Pose>,
 }
 
+/// The assessment of the loads in an interval of time.
 enum Assessment {
+    /// The bound proves all loads within their limits.
     Within,
+    /// The bound does not decide.
     Near,
+    /// A load, given by its index, is over its limit in the middle of the interval: `ratio` as a fraction of it.
     Over { load: usize, ratio: f64 },
 }
 
-/// The links distal to a step.
+/// The links distal to a step, with bounds on their motion in an interval of time.
 #[derive(Clone, Copy, Default)]
 struct DistalLoad {
     /// The weight, N.
     weight: f64,
-    /// Sum of weights times positions, N·m.
+    /// The sum of weights times positions in the frame of the base's body, N·m.
     moment: Vec3,
-    /// Sum of weights times distances from the step's axis' point, N·m.
+    /// The sum of weights times distances from the point of the step's axis, N·m.
     arms: f64,
-    /// The greatest displacement of the joint (rad or m).
+    /// An upper bound on the displacement of the step from the middle of the interval, rad or m.
     turn: f64,
-    /// The greatest displacement of the distal links, weighted, N·m.
+    /// An upper bound on the sum of weights times displacements of the distal links, by this step and those beyond it,
+    /// N·m.
     shift: f64,
-    /// The sum of all angles before it, rad.
+    /// The sum of the bounds on the angles of all steps before it, rad.
     before: f64,
 }
 
@@ -137,6 +145,7 @@ impl<'a> GravityLoads<'a> {
             && self.structure.loads.iter().all(|load| turns(load.kind))
     }
 
+    /// Compares the torques in the middle of an interval with their limits, and bounds those in all of it.
     fn assess(&mut self, interval: &Interval, motions: &[JointMotion], gravity: f64) -> Assessment {
         let positions: Vec<f64> = motions.iter().map(|motion| motion.at).collect();
         let posture = self.model.posture(&positions, &mut self.poses);
@@ -164,6 +173,8 @@ impl<'a> GravityLoads<'a> {
         }
     }
 
+    /// Returns the distal links of each step, by the index of the step, in the middle of an interval; `gravity` in
+    /// m/s².
     fn distal(
         &self,
         posture: &Posture,
@@ -204,7 +215,7 @@ impl<'a> GravityLoads<'a> {
         distal
     }
 
-    /// Returns the greatest angle by which a step turns, rad; zero for a slide.
+    /// Returns an upper bound on the angle by which a step turns, rad; zero for a slide.
     fn angle(&self, step: usize, distal: &[DistalLoad]) -> f64 {
         match self.model.kinematics.steps[step].motion {
             Motion::Along(_) => 0.0,
@@ -212,12 +223,13 @@ impl<'a> GravityLoads<'a> {
         }
     }
 
-    /// Returns a point on the axis of a step, in the frame of the base's body.
+    /// Returns a point on the axis of a step, in the frame of the base's body, m.
     fn point(&self, posture: &Posture, step: usize) -> Vec3 {
         let step = &self.model.kinematics.steps[step];
         posture.p[step.link] - posture.R[step.link] * step.offset
     }
 
+    /// Returns the unit vector along the axis of a step, in the frame of the base's body; zero for a fixed one.
     fn axis(&self, posture: &Posture, step: usize) -> Vec3 {
         let step = &self.model.kinematics.steps[step];
         posture.R[step.link] * step.motion.axis().unwrap_or_else(Vec3::zeros)

@@ -19,7 +19,8 @@ pub struct PlanarPose {
     pub x: f64,
     /// The position of the centre of mass along the y axis of the world, m.
     pub y: f64,
-    /// The heading, rad, counter-clockwise from above in the world; 0 at the start.
+    /// The heading of the level axes, rad, counter-clockwise from above in the world; 0 at the start, and wherever a
+    /// stance is built anew.
     pub yaw: f64,
 }
 
@@ -43,27 +44,33 @@ impl PlanarPose {
 /// The greatest number of rounds of reweighted least squares.
 const ROUNDS_MAX: usize = 100;
 
-/// A patch with its motion if the base stood still.
+/// A patch with its motion from the sample before to this one if the base stood still, in level axes.
 struct SlidingPatch {
+    /// The number of its link.
     link: usize,
-    /// Part of the weight, halved.
+    /// The load as a part of the weight, halved.
     load: f64,
-    /// Load times friction.
+    /// The load times the coefficient of friction.
     friction_load: f64,
+    /// The centre of pressure from the centre of mass along x, m.
     x: f64,
+    /// The centre of pressure from the centre of mass along y, m.
     y: f64,
+    /// The mean square distance of the contact points from the centre of pressure, and a little more, m².
     spread: f64,
-    /// Motion at the centre of pressure, and turn about the vertical.
+    /// The displacement at the centre of pressure along x and y, m.
     v: [f64; 2],
+    /// The turn about the vertical, rad.
     spin: f64,
 }
 
 impl SlidingPatch {
-    /// Returns its slip if the robot is displaced by `shift`.
+    /// Returns the slip of the patch, x and y (m) and turn (rad), if the robot is displaced by `shift` (m, m, rad).
     fn slip(&self, shift: &Vec3) -> [f64; 3] {
         [self.v[0] + shift.x - shift.z * self.y, self.v[1] + shift.y + shift.z * self.x, self.spin + shift.z]
     }
 
+    /// Returns the mean square slip of the points of the patch, m².
     fn square(&self, slip: &[f64; 3]) -> f64 {
         slip[0] * slip[0] + slip[1] * slip[1] + self.spread * slip[2] * slip[2]
     }
@@ -91,6 +98,7 @@ pub(super) fn displacement(
     (old.planar_pose.moved(&shift), slips.collect())
 }
 
+/// Returns a patch with the motion that the change of posture and attitude gives it.
 fn drag(
     model: &Model,
     old: &Stance,
@@ -122,7 +130,8 @@ fn drag(
     }
 }
 
-/// Returns the twist (rotation vector, velocity at the origin) whose exponential is a displacement.
+/// Returns the twist, a rotation vector (rad) and a translation at the origin (m), whose exponential is a displacement:
+/// its logarithm.
 fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
     let vee = Vec3::new(R[(2, 1)] - R[(1, 2)], R[(0, 2)] - R[(2, 0)], R[(1, 0)] - R[(0, 1)]) / 2.0;
     let (s, c) = (vee.norm(), (R.trace() - 1.0) / 2.0);
@@ -137,7 +146,7 @@ fn twist(R: &Mat3, t: &Vec3) -> (Vec3, Vec3) {
     (o, t - o.cross(t) * 0.5 + o.cross(&o.cross(t)) * factor)
 }
 
-/// Returns the displacement of least friction, by reweighted least squares.
+/// Returns the displacement (m, m, rad) of least work of friction, by iteratively reweighted least squares.
 fn least_power(patches: &[SlidingPatch]) -> Vec3 {
     let zero = Vec3::zeros();
     let greatest = patches.iter().map(|d| libm::sqrt(d.square(&d.slip(&zero)))).fold(0.0, f64::max);

@@ -12,14 +12,17 @@ use crate::units::{Dimension, quantity};
 pub(super) struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,
-    /// The present loss of support.
+    /// The present loss of support; `None` while the robot stands.
     loss: Option<SupportLoss>,
+    /// The number of samples with a ground and weight.
     samples: usize,
     /// True if every step so far was proved to be free of tip-overs.
     proved: bool,
+    /// True if the last sample stood so well inside its support that a step from it may be proved.
     standing: bool,
-    /// True if any part of the plan has a ground.
+    /// True if any part of the plan has a ground and weight.
     ground: bool,
+    /// True if the base is held by a fixture in any part of the plan.
     fixed_base: bool,
 }
 
@@ -88,14 +91,14 @@ impl<'a> Monitor<'a> {
         self.ended(sample.time)
     }
 
-    /// Returns the margin of a sample as it is judged, m; `None` where there is nothing to stand on, or the support
-    /// is missing for the time that is allowed.
+    /// Returns the margin of a sample as it is judged, m; `None` where there is nothing to stand on or no weight, and
+    /// while the base is held because support is missing.
     pub(super) fn margin(&self, sample: &Sample) -> Option<f64> {
         let off = matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0;
         if off { None } else { judged_margin(sample, self.support(sample).as_ref()) }
     }
 
-    /// Returns true if support is missing at the moment.
+    /// Returns true if support was missing at the last sample.
     pub(super) fn lacking(&self) -> bool {
         self.loss.is_some()
     }
@@ -118,6 +121,7 @@ impl<'a> Monitor<'a> {
         ledger.check(CheckKind::Stability, status);
     }
 
+    /// Begins an interval without support at a sample, or continues it.
     fn lacks(&mut self, sample: &Sample, support: Option<(Margin, [usize; 2])>) {
         let links = support.as_ref().map_or(&[][..], |s| &s.1);
         let (edge, modules) = (edge_words(sample, links), edge_names(sample, links));
@@ -234,7 +238,7 @@ impl SupportLoss {
     }
 }
 
-/// Returns the modules of the links at an edge.
+/// Returns the path names of the modules of the links at an edge; one if they are the same.
 fn edge_names(sample: &Sample, links: &[usize]) -> Vec<String> {
     let mut names: Vec<String> = links.iter().map(|&l| sample.model.module_name(l).to_owned()).collect();
     names.dedup();

@@ -20,20 +20,24 @@ use crate::units::{Dimension, quantity};
 /// The monitor of loads, which judges them from sample to sample.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
+    /// The cuts and loads for the bonds that hold; `None` before the first sample.
     compiled: Option<Compiled>,
-    /// Loads over their limits at the last sample that moved, with their ratios.
+    /// The loads over their limits at the last sample that moved, by index, with their ratios to them.
     over: Vec<(usize, f64)>,
-    /// Overloads so far: one for each load.
+    /// The overloads so far: one for each load.
     failures: Vec<Overload>,
+    /// The contact forces found last: for joints and motors, and for bonds.
     warm_starts: [WarmStart; 2],
     work: MotorWork,
+    /// The number of samples with weight and ground.
     samples: usize,
-    /// Samples at which the forces of the ground do not carry the robot, so that loads are unknown.
+    /// The number of samples at which the forces of the ground do not carry the robot, so that loads are unknown.
     unknown: usize,
     /// The size of all LPs solved so far, columns and loads.
     effort: usize,
-    /// The samples at which the existence of forces that overload nothing was not decided.
+    /// The number of times that the existence of forces that overload nothing was not decided.
     undecided: usize,
+    /// The worst time at which evenly distributed contact forces would overload something, and others do not.
     uneven: Option<UnevenForces>,
     /// True if loads were bounded between the samples, too.
     proved: bool,
@@ -62,9 +66,12 @@ pub(super) struct JudgedLoads {
     pub forces: Option<Vec<Wrench>>,
 }
 
+/// The cuts and loads of a robot, compiled for the bonds that hold.
 struct Compiled {
+    /// A flag for each bond, true if it holds.
     bonds: Vec<bool>,
     structure: Structure,
+    /// The cuts that each joint loads, as [`effects`] returns them.
     effects: Vec<Vec<(usize, f64)>>,
 }
 
@@ -74,11 +81,15 @@ const UNDECIDED: &str =
 
 /// A time at which evenly distributed contact forces would overload something.
 struct UnevenForces {
+    /// The time of the sample, s.
     time: f64,
+    /// The name of the load that is then greatest.
     name: String,
-    /// Greatest load as a fraction of its limit with even forces without friction, and with the best forces.
+    /// The greatest load as a fraction of its limit with even forces without friction.
     even: f64,
+    /// The greatest load as a fraction of its limit with the best forces.
     best: f64,
+    /// True if no forces without friction were found that overload nothing.
     needs_friction: bool,
 }
 
@@ -89,6 +100,7 @@ const UNEVEN_STEP: f64 = 1.1;
 struct Loads {
     /// The ratio of load to limit, of all loads.
     ratios: Vec<f64>,
+    /// The load at every cut, N or N·m.
     held: Vec<f64>,
     /// The loads that are judged, by index: those that are known.
     judged: Vec<usize>,
@@ -157,6 +169,7 @@ impl<'a> Monitor<'a> {
         self.record(sample, ledger);
     }
 
+    /// Compiles cuts and loads anew if the bonds that hold are others.
     fn compile(&mut self, sample: &Sample) {
         if self.compiled.as_ref().is_none_or(|c| c.bonds != sample.bonds) {
             let structure = Structure::new(sample.model);
@@ -165,6 +178,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
+    /// Compares the loads of a sample with their limits.
     fn weigh(&mut self, sample: &Sample, ledger: &mut Ledger) {
         // Taken out while it is used, so that the rest can be written to.
         let Some(compiled) = self.compiled.take() else { return };
@@ -253,8 +267,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Records the greatest load that even contact forces would make, if it is over its limit, and if others without
-    /// friction would do.
+    /// Records the greatest load that even contact forces would make, unless one nearly as great is known, with a flag
+    /// for the need of friction.
     fn uneven(&mut self, time: f64, query: ContactQuery, worst: (usize, f64), best: &ContactForces) {
         if self.uneven.as_ref().is_some_and(|u| worst.1 <= UNEVEN_STEP * u.even) {
             return;
@@ -265,6 +279,7 @@ impl<'a> Monitor<'a> {
         self.uneven = Some(UnevenForces { time, even: worst.1, best: best.ratio, name, needs_friction });
     }
 
+    /// Takes the present overloads into the failures, unless an exemption excuses them.
     fn record(&mut self, sample: &Sample, ledger: &mut Ledger) {
         let Some(compiled) = &self.compiled else { return };
         for &(index, ratio) in &self.over {
@@ -377,8 +392,9 @@ pub(super) fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, l
 /// existence of forces is open. About 500 LPs of a walker of 15 modules, 20 of a snake of 300.
 const EFFORT_FOR_MARGIN: usize = 60_000;
 
-/// Returns the best forces: those of the sample before, brought to balance here, do if nothing is worse than the
-/// worst seen already; otherwise by an LP. `None` if neither gives forces.
+/// Returns the best forces: those found last, brought to balance here, do if their greatest load, as a fraction of its
+/// limit, is at most `seen`, the greatest so far, or after much work at most 1; otherwise those of an LP. `None` if
+/// neither gives forces. `effort` grows by the size of the LP.
 fn best(
     query: &ContactQuery,
     warm_start: &mut WarmStart,
@@ -396,7 +412,7 @@ fn best(
     Some(best)
 }
 
-/// Returns the weights of all links.
+/// Returns the weights of all links, in level axes from the centre of mass.
 fn weights(sample: &Sample) -> Vec<Wrench> {
     let (model, stance) = (sample.model, sample.stance);
     let push = |&link: &usize| {
@@ -474,6 +490,7 @@ fn determinate_cuts<'s>(
     }
 }
 
+/// Returns the index of the load with the greatest ratio, the first of equal ones; `None` without loads.
 fn greatest(loads: &[usize], ratio: impl Fn(usize) -> f64) -> Option<usize> {
     loads.iter().copied().reduce(|w, i| if ratio(i) > ratio(w) { i } else { w })
 }
