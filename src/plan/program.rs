@@ -203,7 +203,7 @@ pub enum Compare {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
-    /// A comparison, which holds while a signal compares with a value.
+    /// A comparison of a signal with a value, such as `elapsed >= 2 s`: it holds while the inequality does.
     Compare {
         /// The signal on the left side.
         signal: Signal,

@@ -31,7 +31,7 @@ pub(in crate::plan) struct TracksJson<'a> {
     events: Vec<EventJson>,
     /// The causes of the start pose, each as (joint, cause).
     start_causes: Cow<'a, [(JointId, CauseId)]>,
-    /// The cause of each bond, as (index of the bond in the robot, cause).
+    /// The causes of bonds, each as (index of the bond in the robot, cause); a bond may have none.
     bond_causes: Cow<'a, [(usize, CauseId)]>,
 }
 

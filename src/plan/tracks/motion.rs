@@ -23,7 +23,7 @@ pub struct Tracks {
     pub duration: f64,
     /// The causes of the start pose, each as (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
-    /// The cause of each bond, as (index of the bond in the robot, cause).
+    /// The causes of bonds, each as (index of the bond in the robot, cause); a bond may have none.
     pub bond_causes: Vec<(usize, CauseId)>,
 }
 
