@@ -30,6 +30,8 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     missed
 }
 
+/// Records a failure if the bonds that hold leave modules without connection to the base. `dock`: the event after which
+/// they hold; `None` for the start.
 fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&DockingEvent>, ledger: &mut Ledger) {
     let robot = &tracks.robot;
     let tree = Kinematics::new(robot, bonds, robot.base).tree;
@@ -59,7 +61,8 @@ fn listed(names: &[String]) -> String {
     if names.len() > NAMES_SHOWN { format!("{shown}, ...") } else { shown }
 }
 
-/// Returns true if the ports of a dock are within capture; records a failure otherwise.
+/// Returns true if the ports of a dock are within capture, or have no connection with the base; records a failure
+/// otherwise. `bonds`: for each bond, true if it holds before.
 fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &mut Ledger) -> bool {
     let robot = &rollout.tracks.robot;
     let kinematics = Kinematics::new(robot, bonds, robot.base);
@@ -86,7 +89,9 @@ pub(super) struct Monitor<'a> {
     rollout: &'a Rollout<'a>,
     /// The bonds that did not dock: that their loops are open is reported already.
     missed: Vec<usize>,
+    /// The number of samples with a loop.
     samples: usize,
+    /// The failures so far: one for each bond whose loop is open.
     open: Vec<Failure>,
 }
 
@@ -124,7 +129,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Records the failures of docking, and the status of the check.
+    /// Records the failures of closure, and the status of the check, which is proved if there are no loops.
     pub(super) fn finish(self, ledger: &mut Ledger) {
         self.open.into_iter().for_each(|failure| ledger.fail(failure));
         let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };
@@ -151,6 +156,7 @@ pub(super) fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> b
         .any(|r| sample.model.robot.bond_name(r.bond) == name && !within(sample.model.robot, r, tolerances))
 }
 
+/// Returns the residuals of the bonds that close loops in a sample.
 fn residuals(sample: &Sample) -> Vec<Residual> {
     let kinematics = &sample.model.kinematics;
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
@@ -158,13 +164,14 @@ fn residuals(sample: &Sample) -> Vec<Residual> {
     kinematics.residuals(sample.model.robot, sample.joints, &poses)
 }
 
+/// Returns true if a residual is within the error that its bond tolerates.
 fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> bool {
     let error = tolerated(robot, residual.bond, tolerances);
     residual.distance <= error.distance && residual.angle <= error.angle
 }
 
-/// Returns the error of two ports at which the bond of an index docks and holds: that which the connector states, or
-/// else that of loops.
+/// Returns the greatest error of two ports, in distance (m) and angle (rad), with which the bond of an index docks and
+/// holds: the capture that its connector states, or else the tolerances of loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let a = robot.bonds[bond].a;
     let connector = robot.module_type(a.module).ports[a.port].connector;

@@ -13,19 +13,24 @@ use crate::units::{Dimension, quantity};
 
 /// A joint that does not begin or end at rest.
 struct Jump {
+    /// The path name of the joint.
     joint: String,
     /// The rate, rad/s or m/s, in words.
     words: String,
     /// The magnitude of the rate, rad/s or m/s.
     rate: f64,
+    /// The time of the jump, s.
     time: f64,
+    /// True at the end of the plan, false at the start.
     at_end: bool,
     /// True if the acceleration of the joint, or of a motor that drives it, is limited.
     limited: bool,
+    /// The cause of the segment that begins or ends there.
     cause: CauseId,
 }
 
-/// Judges the rates of all joints at the start and at the end.
+/// Judges the rates of all joints at the start and at the end of the plan, where those without an acceleration limit
+/// leave the check undecided.
 pub(super) fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
     let jumps = jumps(tracks, tolerances);
     for jump in jumps.iter().filter(|jump| jump.limited) {
@@ -96,7 +101,7 @@ fn jumps(tracks: &Tracks, tolerances: &Tolerances) -> Vec<Jump> {
     found
 }
 
-/// Returns the rate at one of the ends of a segment, per second.
+/// Returns the rate of a joint at one of the ends of a segment, rad/s or m/s.
 fn rate(segment: &Segment, at_end: bool) -> f64 {
     let rates = derivative(&segment.control);
     let rate = if at_end { rates.last() } else { rates.first() };

@@ -83,21 +83,26 @@ pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAt
 /// A point near the ground as a plane under H: `a + b·ω` for a small turn ω = (x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SupportPlane {
+    /// The height of the centre of mass over the point, m.
     a: f64,
+    /// The change of that height with the turn about x and y, m/rad.
     b: [f64; 2],
 }
 
 impl SupportPlane {
+    /// Returns the plane of a point at `p` from the centre of mass, m, with z up.
     fn of(p: &Vec3) -> SupportPlane {
         SupportPlane { a: -p.z, b: [-p.y, p.x] }
     }
 
+    /// Returns the height of the plane at a small turn (rad), m.
     fn at(&self, omega: &[f64; 2]) -> f64 {
         self.a + self.b[0] * omega[0] + self.b[1] * omega[1]
     }
 }
 
-/// Returns the planes of the points that a turn of the present step could bring down to the ground.
+/// Returns the planes of the features whose lowest points are at most `gap_max` (m) above the ground, so that a turn of
+/// the present step could bring them down to it, and of the bundle. `level`: the height of the centre of mass, m.
 fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_max: f64) -> Vec<SupportPlane> {
     let up = turn.transpose() * Vec3::z();
     let mut planes = Vec::new();
@@ -110,7 +115,8 @@ fn planes(features: &[Feature], bundle: &[Vec3], turn: &Mat3, level: f64, gap_ma
     planes
 }
 
-/// Returns the turn to try, not longer than `step` (rad), and the height of the model's minimum there, m.
+/// Returns the rotation vector of the turn to try, not longer than `step` (rad), and the height of the highest plane
+/// there, m. `reach`: the greatest distance of a point from the centre of mass, m.
 fn trial(planes: &[SupportPlane], step: f64, reach: f64) -> (Vec3, f64) {
     let mut tau = REACH_START / reach.max(1.0) / reach.max(1.0);
     let mut basis = lowest_bundle(planes, tau);
@@ -128,9 +134,13 @@ fn trial(planes: &[SupportPlane], step: f64, reach: f64) -> (Vec3, f64) {
 /// A solution of `min t + |ω|²/2τ` with t above a few planes.
 #[derive(Clone, Debug)]
 struct Basis {
+    /// The planes, one to three.
     planes: Vec<SupportPlane>,
+    /// The turn ω about x and y, rad.
     omega: [f64; 2],
+    /// The height t, m.
     t: f64,
+    /// The value that is minimised, m.
     value: f64,
 }
 
