@@ -6,17 +6,20 @@
 /// outside is the panels' front. The range is that of equations 1 and 2 of the origami-folding paper: panels of
 /// thickness d on a hinge of radius r come no nearer than the angle a with sin(a / 2) = d / (2 * r). With
 /// r = d that is 60 degrees between them, 120 degrees from flat.
+///
+/// Speed and torque are round figures, for the paper states none; so is the acceleration an assumption: full speed after an
+/// eighth of a second.
 connector Edge {
   mates Edge
   turns 1
-  hinge(axis: Y, range: -120deg..120deg, max_speed: 90deg/s, max_torque: 0.1N*m)
+  hinge(axis: Y, range: -120deg..120deg, max_speed: 90deg/s, max_accel: 720deg/s^2, max_torque: 0.1N*m)
 }
 
 /// A triangular panel of side `side`, drawn flat with its front up and its first edge towards -y.
 ///
-/// Side, thickness and mass are those of the origami-folding paper, whose passive panels weigh 8 g; speed and torque of the edges
-/// are round figures, for the paper states none. The edges are bevelled by 30 degrees on both sides, so that two
-/// panels close up to 60 degrees between them, as on the paper's hinges whose radius is the thickness.
+/// Side, thickness and mass are those of the origami-folding paper, whose passive panels weigh 8 g. The edges are bevelled
+/// by 30 degrees on both sides, so that two panels close up to 60 degrees between them, as on the paper's hinges whose
+/// radius is the thickness.
 module Mori(side: Length = 80mm, thickness: Length = 6mm, weight: Mass = 26g) {
   let apothem = side / (2 * sqrt(3))
 

@@ -12,8 +12,11 @@ connector Dock { mates Dock, turns 4, capture 5mm 5deg }
 ///
 /// Kinematics are those of the RoFI project: from shoe A to shoe B, in units of the pitch,
 /// Rx(alpha) Rz(gamma) T(0, 0, 1) Ry(180deg) Rx(-beta). Mass, speed and torque are round figures.
+/// The acceleration is an assumption, for the project's firmware and simulator state none: full speed after an eighth
+/// of a second.
 module Rofi(pitch: Length = 100mm) {
   let rate = 90deg/s
+  let surge = 720deg/s^2
 
   mass 500g
 
@@ -22,12 +25,19 @@ module Rofi(pitch: Length = 100mm) {
   link body_b = sphere(radius: 0.45 * pitch, mass: 125g) at [0mm, 0mm, pitch]
   link shoe_b = sphere(radius: pitch / 2, mass: 125g) at [0mm, 0mm, pitch] turned(Y, 180deg)
 
-  joint alpha : shoe_a -> body_a = revolute(axis: X, range: -90deg..90deg, max_speed: rate, max_torque: 10N*m)
-  joint gamma : body_a -> body_b = revolute(axis: Z, max_speed: rate, max_torque: 10N*m)
+  joint alpha : shoe_a -> body_a = revolute(
+    axis: X,
+    range: -90deg..90deg,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 10N*m
+  )
+  joint gamma : body_a -> body_b = revolute(axis: Z, max_speed: rate, max_accel: surge, max_torque: 10N*m)
   joint beta : body_b -> shoe_b = revolute(
     axis: X,
     range: -90deg..90deg,
     max_speed: rate,
+    max_accel: surge,
     max_torque: 10N*m
   ) at [0mm, 0mm, pitch]
 

@@ -19,6 +19,8 @@ const LINK_MASS: f64 = 0.125;
 const BODY_RADIUS: f64 = 0.45;
 /// Greatest joint speed, rad/s.
 const JOINT_SPEED_MAX: f64 = FRAC_PI_2;
+/// Greatest joint acceleration, rad/s²: an assumption, full speed after an eighth of a second.
+const JOINT_ACCELERATION_MAX: f64 = 8.0 * JOINT_SPEED_MAX;
 /// Greatest joint torque, N·m.
 const JOINT_TORQUE_MAX: f64 = 10.0;
 /// Docking tolerances: metres and radians.
@@ -117,8 +119,12 @@ fn joint(
     axis: Vec3,
     range: Option<(f64, f64)>,
 ) -> Joint {
-    let limits =
-        Limits { range, speed: Some(JOINT_SPEED_MAX), acceleration: None, effort: Some(JOINT_TORQUE_MAX) };
+    let limits = Limits {
+        range,
+        speed: Some(JOINT_SPEED_MAX),
+        acceleration: Some(JOINT_ACCELERATION_MAX),
+        effort: Some(JOINT_TORQUE_MAX),
+    };
     let name = name.into();
     Joint { name, parent, child, kind: JointKind::Revolute, pose, axis, limits, passive: false, mimic: None }
 }
