@@ -35,6 +35,7 @@ pub const BEHAVIORS: &[(&str, &str, f64)] = &[
     ("MobManip8", "Sc(x.raise(), x.forward())", 0.0),
     ("Backhoe", "Sc(x.dig(), x.swing())", 0.0),
     ("Backhoe", "x.drive()", 430.0),
+    ("Driver5Puma4", "x.drive()", 430.0),
     ("Driver5Puma4", "x.reach_out()", 0.0),
     ("Driver5Puma4", "x.reach_out(90deg)", 0.0),
     ("TwoCars", "x.drive()", 430.0),

@@ -1,5 +1,6 @@
 //! Robots as models of MuJoCo, and what a simulation of them shows.
 
 mod gait_programs;
+mod library_reserves;
 mod mjcf;
 mod random_gaits;
