@@ -446,7 +446,7 @@ extern fn emit(
   sample: Time = 10ms,
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
-  reserve: Number = 0.15,
+  reserve: Number = 0,
 )
 
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; or a plot.
@@ -474,7 +474,7 @@ extern fn show(
   stability: footprint | centres = footprint,
   at: Time = 0s,
   side: corner | front | back | left | right | top = corner,
-  reserve: Number = 0.15,
+  reserve: Number = 0,
 )
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
@@ -1580,10 +1580,10 @@ extern type World {
 /// module's body is held fast where it is drawn, as if bolted down: that alone carries the robot, and
 /// there is nothing else around it. `off` lets the robot float.
 ///
-/// `dynamics` is the assumption under which forces and travel are judged. Under `statics` every instant is judged at rest:
-/// there is no inertia, and the ground's forces are the best that friction allows. Under `full`, servos and contacts yield,
-/// links have inertia, what slides is dragged, torque keeps a reserve, and no joint may change its speed at once: it says
-/// more of what will happen, and refuses more.
+/// `dynamics` is the assumption under which forces and travel of robots with joints are judged. Under `full`, servos and
+/// contacts yield, links have inertia, what slides is dragged, torque keeps a reserve, and no joint may change its speed at
+/// once. Under `statics`, the assumption of the papers, every instant is judged at rest: there is no inertia, and the
+/// ground's forces are the best that friction allows. Lattices, folded sheets and trusses have assumptions of their own.
 ///
 /// Example:
 /// ```modl
@@ -1594,7 +1594,7 @@ extern fn world(
   ground: settle | fixed | held | off = settle,
   gravity: off | Acceleration = 9.80665m/s^2,
   friction: Number = 1,
-  dynamics: statics | full = statics,
+  dynamics: statics | full = full,
 ) -> World
 
 /// The positions of all joints, the bonds, and where the robot is.
@@ -1783,8 +1783,8 @@ extern fn fastest(plan: Plan, reserve: Number = 0.15) -> Plan
 /// `reserve` is the part of each limit of torque, force and bond load that must be left under `dynamics: full`, from 0 to 1.
 /// `world` judges under other surroundings than the plan's own.
 ///
-/// The first line of the report says under which dynamics the plan was judged: `statics`, unless the world says `full` (see
-/// `world`).
+/// The first line of the report says under which dynamics the plan was judged: for robots with joints `full dynamics`, unless
+/// the world says `statics` (see `world`).
 ///
 /// Example:
 /// ```modl
@@ -1798,7 +1798,7 @@ extern fn verify(
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
   world: World?,
-  reserve: Number = 0.15,
+  reserve: Number = 0,
 ) -> Report
 
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0

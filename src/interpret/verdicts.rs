@@ -64,7 +64,7 @@ fn failure_code(kind: CheckKind) -> Code {
     match kind {
         CheckKind::Form | CheckKind::Momentum => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
-        CheckKind::Collision => code::COLLISION,
+        CheckKind::Collision | CheckKind::Deflection => code::COLLISION,
         CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,
         CheckKind::Torque => code::OVERLOAD,
         CheckKind::BondLoad => code::BOND_OVERLOAD,
@@ -189,9 +189,6 @@ impl Interpreter<'_> {
         }
         if settings.sample > strict.sample {
             lines.push(format!("sample: {}", seconds(settings.sample)));
-        }
-        if settings.reserve < strict.reserve {
-            lines.push(format!("reserve: {}", number(settings.reserve)));
         }
         if settings.stability != strict.stability {
             lines.push("stability: centres".to_string());

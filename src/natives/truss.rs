@@ -13,7 +13,7 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::{Mesh, Value};
 use crate::interrupt;
-use crate::plan::World;
+use crate::plan::{DynamicsModel, World};
 use crate::planners::locomote::{self, Hold, Objective};
 use crate::planners::morph::{self, TargetShape};
 use crate::planners::truss::problem::{InvalidTruss, TrussProblem};
@@ -191,7 +191,8 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "locomote", World::default(), (solution, None)))
+    let world = World { dynamics: DynamicsModel::Statics, ..World::default() };
+    Ok(planned(interpreter, call, design, "locomote", world, (solution, None)))
 }
 
 /// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is no truss, or

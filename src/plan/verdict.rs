@@ -46,6 +46,8 @@ pub enum CheckKind {
     Balance,
     /// Friction determines the robot's travel: no part of it is left open by the contacts.
     Traction,
+    /// Links that are apart as planned do not meet as servos yield under their loads.
+    Deflection,
 }
 
 impl CheckKind {
@@ -70,6 +72,7 @@ impl CheckKind {
             CheckKind::Momentum => "momentum",
             CheckKind::Balance => "balance",
             CheckKind::Traction => "traction",
+            CheckKind::Deflection => "deflection",
         }
     }
 }

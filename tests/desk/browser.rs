@@ -194,7 +194,7 @@ config Loop {
     dock(ring.m[11].bottom, ring.m[0].top),
   )
 }
-emit(Loop().open(), \"ring.plan.json\")
+emit(plan(Loop().open(), world: world(dynamics: statics)), \"ring.plan.json\")
 ";
 
 /// One page of each family is opened on a phone, too.

@@ -421,7 +421,7 @@ fn a_verdict_with_exemptions_says_so_wherever_it_is_shown() {
     let sandbox = Sandbox::new(&[("weak.mod", WEAK.as_bytes())]);
     let ran = sandbox.run(&["run", "weak.mod"]);
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
-    let headline = "verified under statics, except torque (allowed at line 11)";
+    let headline = "verified under full dynamics, except torque (allowed at line 11)";
     assert!(ran.out.starts_with(&format!("{headline}: ")), "{}", ran.out);
     let verified = sandbox.run(&["verify", "out/weak.plan.json"]);
     assert!(

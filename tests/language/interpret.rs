@@ -245,9 +245,10 @@ fn the_square_comes_back_to_where_it_began() {
     let ran = run_text(text, Mode::Run);
     assert_eq!(ran.host.printed[0], "order 1 modules 1 mass 557.2924g");
     let line = &ran.host.printed[1];
-    // 45.3 mm of wheel radius at 2 rad/s for 5 s, less two ramps of 2 rad/s at 12 rad/s².
+    // 45.3 mm of wheel radius at 2 rad/s for 5 s, less two ramps of 2 rad/s at 12 rad/s², and what the wheels creep.
     let side = line.split(" once").next().expect("a line has a beginning");
-    assert!((last_length(side) - 45.3 * 2.0 * (5.0 - 2.0 / 12.0)).abs() < 0.1, "{line}");
+    let rolled = 45.3 * 2.0 * (5.0 - 2.0 / 12.0);
+    assert!((last_length(side) - rolled).abs() < 0.005 * rolled, "{line}");
     assert!(last_length(line) < 20.0, "{line}");
 }
 

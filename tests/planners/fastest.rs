@@ -320,7 +320,7 @@ let l = Leaning()
 fn what_is_too_heavy_at_rest_is_refused() {
     let heavy = PENDULUM.replace("max_torque: 8N*m", "max_torque: 5N*m");
     let written = run_clean(&format!(
-        "{heavy}\nlet p = plan(move(l.a.lift, to: -90deg, in: 4s), world: world(ground: held))\nemit(p, \"p.json\")\n"
+        "{heavy}\nlet p = plan(move(l.a.lift, to: -90deg, in: 4s), world: world(ground: held, dynamics: statics))\nemit(p, \"p.json\")\n"
     ));
     let mut plan = file::read(written.text("p.json")).expect("a plan");
     plan.worlds[0].world.dynamics = modl::plan::DynamicsModel::Full;

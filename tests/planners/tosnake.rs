@@ -119,7 +119,7 @@ config Gate {{
   base m[0]
   behavior swing(to: Angle) = move(m[0].gamma, to: to)
 }}
-let free = world(ground: off, gravity: off)
+let free = world(ground: off, gravity: off, dynamics: statics)
 print(verify(Gate().swing({to}), world: free).ok)
 "
         )
@@ -207,7 +207,7 @@ config Waving closed {{
   part s: Spider
   behavior wave = move(s.foot[0].gamma, by: 30deg)
 }}
-let free = world(ground: off, gravity: off)
+let free = world(ground: off, gravity: off, dynamics: statics)
 print(verify(q ++ plan(Waving().wave(), world: free)).ok)
 emit(q, \"q.plan.json\")
 "
@@ -222,7 +222,8 @@ emit(q, \"q.plan.json\")
 fn what_a_chair_became_crawls() {
     let printed = run_clean(
         "use std.rofi.{Chair, Spider}
-let r = verify(reconfigure(Chair(), Spider(), seed: 1) ++ Spider().crawl())
+let crawl = plan(Spider().crawl(), world: world(dynamics: statics))
+let r = verify(reconfigure(Chair(), Spider(), seed: 1) ++ crawl)
 print(r.ok, r.travel > 20mm)
 ",
     );

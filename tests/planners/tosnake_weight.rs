@@ -4,6 +4,7 @@
 use crate::planners::tosnake::tracks;
 use crate::planners::tosnake_search::{EIGHT, TEN};
 use crate::support::desk::{run, run_clean};
+use crate::support::motions::STATICS;
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
@@ -110,7 +111,7 @@ fn an_arm_holds_what_the_lever_says() {
     for n in 1..=6 {
         let torque = BALL * G * PITCH * f64::from((2 * n - 1) * n);
         let text = format!(
-            "{SHAPES}\nlet r = verify(Arm(n: {n}), world: world(ground: held))\nprint(r.ok, r.torque_margin)\n"
+            "{SHAPES}\nlet r = verify(Arm(n: {n}), world: world(ground: held, dynamics: statics))\nprint(r.ok, r.torque_margin)\n"
         );
         let printed = &run_clean(&text).printed[0];
         let (ok, margin) = printed.split_once(' ').expect("two words");
@@ -123,7 +124,8 @@ fn an_arm_holds_what_the_lever_says() {
 #[test]
 fn a_loop_carries_what_two_arms_would_not() {
     let ok = |config: &str| {
-        let text = format!("{SHAPES}\nprint(verify({config}, world: world(ground: held)).ok)\n");
+        let text =
+            format!("{SHAPES}\nprint(verify({config}, world: world(ground: held, dynamics: statics)).ok)\n");
         run_clean(&text).printed[0] == "true"
     };
     assert!(ok("Ring(n: 12)"));
@@ -142,7 +144,7 @@ fn plans_keep_every_torque_within_its_limit() {
         "reconfigure(Snake(n: 6), Ring(n: 6), gravity: on)",
     ] {
         let plan = planned(call);
-        let held = World { ground: Ground::Held, ..World::default() };
+        let held = World { ground: Ground::Held, ..STATICS };
         assert!(plan.worlds.iter().all(|from| from.world == held), "{call}");
         let verdict = verify(&plan);
         assert!(verdict.ok(), "{call}: {:?}", verdict.failures);
@@ -187,7 +189,7 @@ fn a_plan_that_knows_no_weight_is_too_heavy() {
     let text = |gravity: &str| {
         let program = format!(
             "{SHAPES}\nlet p = tosnake(Spider(gap: true), gravity: {gravity})\n\
-             print(verify(p, world: world(ground: held)).ok, verify(p).ok)\n"
+             print(verify(p, world: world(ground: held, dynamics: statics)).ok, verify(p).ok)\n"
         );
         run_clean(&program).printed[0].clone()
     };
@@ -199,8 +201,8 @@ fn a_plan_that_knows_no_weight_is_too_heavy() {
 fn a_motion_is_judged_between_its_ends() {
     let said = |n: u32, to: &str| {
         let text = format!(
-            "{SHAPES}\nlet r = verify(Mast(n: {n}).bow(to: {to}), world: world(ground: held))\n\
-             print(r.ok, r.torque_margin)\nemit(plan(Mast(n: 4).bow(), world: world(ground: held)), \"p.plan.json\")\n"
+            "{SHAPES}\nlet r = verify(Mast(n: {n}).bow(to: {to}), world: world(ground: held, dynamics: statics))\n\
+             print(r.ok, r.torque_margin)\nemit(plan(Mast(n: 4).bow(), world: world(ground: held, dynamics: statics)), \"p.plan.json\")\n"
         );
         run_clean(&text)
     };

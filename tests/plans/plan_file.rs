@@ -1,6 +1,7 @@
 //! Plan files: nothing is lost, nothing strange is taken in, and the published schema is the truth.
 
 use crate::plans::plan_operations::{plan_of, rolling, squeezing};
+use crate::support::motions::STATICS;
 use crate::support::programs::*;
 use crate::support::robots::{LEFT, TILT, chain, reel, walk4};
 use modl::plan::file::{FileError, read, schema, write};
@@ -67,6 +68,7 @@ fn lattice() -> Plan {
     let cell = Cell { name: "Cube".into(), size: 0.1, shrinks_to: 0.05, mass: 1.0, force: 10.0, speed: 0.1 };
     plan.library = Arc::new(Library { cells: vec![cell], ..Library::default() });
     (plan.body, plan.program) = (Body::Stages(squeezing()), None);
+    plan.worlds[0].world = STATICS;
     plan
 }
 

@@ -1,6 +1,7 @@
 //! `load_plan`: ways that were found in one run serve in another; what a file may not do.
 
 use crate::support::desk::{run, run_clean};
+use crate::support::motions::STATICS;
 use crate::support::suite::{MapFiles, Observed};
 use modl::interpret::Mode;
 use modl::plan::{self, CauseId, Ground, Plan, World};
@@ -44,7 +45,7 @@ let p = chair ++ reverse(spider)
 let q = reconfigure(Chair(), Spider())
 print(verify(p).ok, p.steps == q.steps, p.actions == q.actions, p.duration == q.duration)
 print(chair.actions == tosnake(Chair()).actions)
-print(verify(p ++ Spider().crawl()).ok)
+print(verify(p ++ plan(Spider().crawl(), world: world(dynamics: statics))).ok)
 emit(p, \"p.plan.json\")
 emit(q, \"q.plan.json\")
 emit(chair, \"chair.plan.json\")
@@ -114,7 +115,7 @@ emit(p, \"p.plan.json\")
     let mut files = project(main);
     let bytes = files.0.get_mut("Chair.plan.json").expect("it was put there");
     let mut plan = plan::file::read(std::str::from_utf8(bytes).expect("plans are text")).expect("a plan");
-    plan.worlds[0].world = World { ground: Ground::Held, ..World::default() };
+    plan.worlds[0].world = World { ground: Ground::Held, ..STATICS };
     assert!(plan.verdict.as_ref().is_some_and(|verdict| verdict.ok()));
     *bytes = plan::file::write(&plan).expect("numbers are finite").into_bytes();
     let (observed, desk, _) = run(&files, Mode::Run);

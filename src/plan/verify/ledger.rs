@@ -120,7 +120,7 @@ impl<'a> Ledger<'a> {
         let mut dropped = Vec::new();
         failures.retain(|failure| {
             let moot = match failure.kind {
-                CheckKind::Torque | CheckKind::BondLoad => failure.time >= ended,
+                CheckKind::Torque | CheckKind::BondLoad | CheckKind::Deflection => failure.time >= ended,
                 CheckKind::Balance => failure.time >= ended || tips,
                 CheckKind::Traction => true,
                 _ => false,

@@ -47,7 +47,7 @@ config D {
   part m: Smores
   behavior go = Pc(spin(m.left, 2rad/s, for: 2s), spin(m.right, 2rad/s, for: 2s))
 }
-let p = plan(D().go())
+let p = plan(D().go(), world: world(dynamics: statics))
 let way = p.end.base.position - p.start.base.position
 // Two wheels of 45.3 mm turn at 2 rad/s for 2 s, less two ramps of 2 rad/s at 12 rad/s^2.
 expect abs(norm(way) - 2 * (2 - 1 / 6) * 45.3mm) < 0.01mm

@@ -2,12 +2,13 @@
 //! a bound on motion proves to be separated over an interval are done with (Schwarzer, Saha and Latombe 2005; see
 //! [`collision`](super::collision)).
 
-use super::bodies::{Bodies, Body, InnerPair};
+use super::bodies::{Bodies, InnerPair};
 use super::bonded::{BondedLinks, NominalOverlaps};
 use super::collision::{Collision, Excuse, Findings};
 use super::interval_state::IntervalState;
 use super::module_clusters::{Cluster, ClusterBounds, ClusterPair, NEARLY, Proximity, Scene};
-use super::motion_bounds::MotionBounds;
+use super::motion_bounds::{JointMotions, MotionBounds};
+use super::polyline::Polyline;
 use super::reference_links::{self, ReferenceLinks};
 use super::separation::{self, BodyPair, Bound, ModulePair, Slab, View};
 use super::tolerances::Precision;
@@ -23,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The state of the search over all intervals.
 pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
-    bodies: Bodies,
+    pub bodies: Bodies,
     /// The least penetration depth that any two modules are allowed, m.
     allowed_min: f64,
     /// The instants at which segments begin and end: intervals are preferably cut at them.
@@ -31,13 +32,15 @@ pub(super) struct Advancement<'a> {
     precision: Precision,
     samples_max: usize,
     samples: usize,
-    work: WorkBudget,
+    pub work: WorkBudget,
+    /// True if the least distance is sought, and not only collisions.
+    seeks_clearance: bool,
     clearance: Option<Clearance>,
     /// The key: the pair of modules, and true if it is excused.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
     used: BTreeSet<usize>,
     overlaps: NominalOverlaps,
-    state: IntervalState,
+    pub state: IntervalState,
     clusters: ClusterBounds,
     /// Memory of lists of pairs that are done with.
     spare: Vec<Vec<BodyPair>>,
@@ -50,21 +53,22 @@ struct Clearance {
 }
 
 /// A connected part of the robot, over a window of time.
-struct Region<'a> {
-    kinematics: Kinematics,
+pub(super) struct Region<'a> {
+    /// The kinematics of the part, from a link in its middle.
+    pub kinematics: Kinematics,
     levels: ReferenceLinks,
     /// The place of each module in the order of the tree.
     rank: Vec<usize>,
     /// The pairs of links that bonds join.
-    bonded: BondedLinks,
+    pub bonded: BondedLinks,
     excused: &'a [Excuse],
 }
 
 /// An interval so short that a penetration in it is the first of its pair.
 #[derive(Clone, Copy, Default)]
-struct Instant {
+pub(super) struct Instant {
     /// The bond at whose nominal pose the links penetrate each other; `None` if a motion brings them there.
-    bond: Option<usize>,
+    pub bond: Option<usize>,
 }
 
 /// The state of two modules over an interval.
@@ -101,14 +105,32 @@ impl<'a> Advancement<'a> {
             samples_max,
             samples: 0,
             work: WorkBudget::new(samples_max, tracks.robot.modules.len()),
+            seeks_clearance: true,
             clearance: None,
             collisions: BTreeMap::new(),
             used: BTreeSet::new(),
             overlaps: NominalOverlaps::default(),
-            state: IntervalState::new(MotionBounds::new(tracks)),
+            state: IntervalState::new(JointMotions::Planned(MotionBounds::new(tracks))),
             clusters: ClusterBounds::default(),
             spare: Vec::new(),
         }
+    }
+
+    /// Returns a search for collisions alone along other positions of the joints than the plan's: at instants, between
+    /// which nothing is proved.
+    pub(super) fn deflected(
+        tracks: &'a Tracks,
+        bodies: Bodies,
+        along: Polyline,
+        samples_max: usize,
+    ) -> Advancement<'a> {
+        let instants = along.times().to_vec();
+        let spacing = instants.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+        let precision =
+            Precision { tol_time: spacing.max(Precision::DEFLECTED_TIME_MIN), ..Precision::default() };
+        let planned = Advancement::new(tracks, bodies, precision, samples_max);
+        let state = IntervalState::new(JointMotions::Deflected(along));
+        Advancement { instants, state, seeks_clearance: false, ..planned }
     }
 
     /// Judges a window of time (from, to; s) in which bonds stay as they are. `bonds`: for each bond of the assembly,
@@ -132,7 +154,10 @@ impl<'a> Advancement<'a> {
             for &(module, _) in &region.kinematics.tree.order {
                 self.within(&region, module, &mut within);
             }
-            self.guess_clearance(&region, window.0, &within);
+            self.state.set(&region.kinematics, window.0, window.0);
+            if self.seeks_clearance {
+                self.guess_clearance(&region, window.0, &within);
+            }
             self.enclosed(&region, window.0);
             let clusters = ClusterPair::all(&region.levels, &region.kinematics);
             self.advance(&region, window.0, window.1, Open { clusters, bodies: within });
@@ -176,39 +201,6 @@ impl<'a> Advancement<'a> {
         Findings { status, collisions, clearance, samples: self.samples, used }
     }
 
-    /// Judges the pairs within a module whose distance no joint changes: it is computed once and for all.
-    fn fixed_pairs(&mut self, region: &Region, time: f64) {
-        self.state.interval.middle = time;
-        for &(module, _) in &region.kinematics.tree.order {
-            let first = self.bodies.of(module).start;
-            for index in 0..self.bodies.inner(module).len() {
-                let inner = self.bodies.inner(module)[index];
-                let Some(distance) = inner.fixed else { continue };
-                let pair = inner_pair(&inner, first, 0);
-                self.count(&pair, distance, time);
-                if distance < -inner.allowed {
-                    self.collide(region, &pair, distance, Some(Instant::default()));
-                }
-            }
-        }
-    }
-
-    /// Judges the links that rigid bonds join: they stay at the nominal pose, at which their overlap is known.
-    fn rigid_bonds(&mut self, region: &Region) {
-        for ((x, y), bonded) in region.bonded.iter().filter(|(_, bonded)| bonded.rigid) {
-            let bodies = self.bodies.first_of_link(x).zip(self.bodies.first_of_link(y));
-            let Some((a, b)) = bodies.filter(|_| bonded.overlap > 0.0) else { continue };
-            let (one, other) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
-            let touch = self.bodies.allowed_depth(one.module, other.module);
-            let allowed = bonded.allowed(one, other, touch);
-            if bonded.overlap > allowed {
-                let (a, b) = (a as u32, b as u32);
-                let pair = BodyPair { a, b, level: 0, counts: false, allowed, normal: Vec3::zeros() };
-                self.collide(region, &pair, -bonded.overlap, Some(Instant { bond: Some(bonded.bond) }));
-            }
-        }
-    }
-
     /// Appends the pairs of bodies within a module that joints move.
     fn within(&self, region: &Region, module: usize, out: &mut Vec<BodyPair>) {
         let level = region.levels.between(module, module) as u32;
@@ -229,7 +221,7 @@ impl<'a> Advancement<'a> {
     }
 
     /// Returns the pair of two bodies of different modules; `None` if a rigid bond joins their links.
-    fn pair_of_modules(&self, region: &Region, level: u32, (a, b): (usize, usize)) -> Option<BodyPair> {
+    pub(super) fn pair_of_modules(&self, region: &Region, level: u32, (a, b): (usize, usize)) -> Option<BodyPair> {
         let (x, y) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
         let bonded = region.bonded.get(x.link, y.link);
         if bonded.is_some_and(|pair| pair.rigid) {
@@ -241,10 +233,9 @@ impl<'a> Advancement<'a> {
         Some(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() })
     }
 
-    /// Measures within modules and between neighbours at one instant, so that the search begins with a clearance
+    /// Measures within modules and between neighbours at one instant, whose state is set, so that the search begins with a clearance
     /// that few pairs can go below. In a large robot of which neither count, it measures between the root and others.
     fn guess_clearance(&mut self, region: &Region, time: f64, within: &[BodyPair]) {
-        self.state.set(&region.kinematics, time, time);
         let mut near = within.to_vec();
         for &(module, bond) in &region.kinematics.tree.order {
             let Some(bond) = bond.map(|b| &self.robot.bonds[b]) else { continue };
@@ -276,55 +267,6 @@ impl<'a> Advancement<'a> {
             }
             self.measure(pair, enough, time);
         }
-    }
-
-    /// Judges whether a link is inside another's mesh that is not convex, of which only the surface has bodies: at the
-    /// instant (s) at which a window begins and whose state is set, for later a link gets there through the surface.
-    fn enclosed(&mut self, region: &Region, time: f64) {
-        let modules = || region.kinematics.tree.order.iter().map(|(module, _)| *module);
-        let enclosing: Vec<usize> = modules().filter(|module| self.bodies.may_enclose(*module)).collect();
-        if !enclosing.is_empty() {
-            let links = modules().flat_map(|module| region.kinematics.links_of(module));
-            links.for_each(|link| self.state.require(&region.kinematics, link));
-        }
-        for &m in &enclosing {
-            let mut pairs: Vec<BodyPair> = Vec::new();
-            let first = self.bodies.of(m).start;
-            let inner = self.bodies.inner_enclosing(m).iter();
-            pairs.extend(inner.map(|inner| inner_pair(inner, first, 0)));
-            self.work.spend(region.kinematics.tree.order.len());
-            // Of two modules that may both enclose links each pair is examined once.
-            for n in modules().filter(|n| *n > m || (*n < m && !self.bodies.may_enclose(*n))) {
-                let [a, b] = [m, n].map(|module| self.state.links[region.kinematics.link(module, 0)].p);
-                if (a - b).norm() < self.bodies.reach[m] + self.bodies.reach[n] {
-                    self.expand_links(region, m.min(n), m.max(n), &mut pairs);
-                }
-            }
-            for pair in pairs {
-                interrupt::checkpoint();
-                let depth = self.enclosed_depth(region, &pair);
-                if depth > pair.allowed {
-                    self.count(&pair, -depth, time);
-                    self.collide(region, &pair, -depth, Some(Instant::default()));
-                }
-            }
-        }
-    }
-
-    /// Appends one pair of bodies for each pair of links of two modules that no rigid bond joins.
-    fn expand_links(&self, region: &Region, m: usize, n: usize, out: &mut Vec<BodyPair>) {
-        for a in self.bodies.first_of_links(m) {
-            for b in self.bodies.first_of_links(n) {
-                out.extend(self.pair_of_modules(region, 0, (a, b)));
-            }
-        }
-    }
-
-    /// Returns how deep one of the links of a pair of bodies is inside the other's mesh that is not convex, m.
-    fn enclosed_depth(&self, region: &Region, pair: &BodyPair) -> f64 {
-        let [a, b] = [pair.a, pair.b].map(|body| &self.bodies.bodies[body as usize]);
-        let local = |body: &Body| (body.module, body.link - region.kinematics.link(body.module, 0));
-        self.bodies.enclosed_depth(local(a), local(b), &self.state.relative(a.link, b.link))
     }
 
     /// Discards the pairs that are separated over `from..to` (s), and goes on with the rest in two halves.
@@ -523,8 +465,11 @@ impl<'a> Advancement<'a> {
         if counts { free.max(self.least() - self.precision.tol_clearance) } else { free }
     }
 
-    /// Returns the clearance so far, m.
+    /// Returns the clearance so far, m; minus infinity where none is sought, as no distance needs to be proved for it.
     fn least(&self) -> f64 {
+        if !self.seeks_clearance {
+            return f64::NEG_INFINITY;
+        }
         self.clearance.as_ref().map_or(f64::MAX, |c| c.distance)
     }
 
@@ -546,8 +491,11 @@ impl<'a> Advancement<'a> {
     }
 
     /// Keeps the least distance.
-    fn count(&mut self, pair: &BodyPair, distance: f64, time: f64) {
-        if pair.counts && self.clearance.as_ref().is_none_or(|c| distance < c.distance) {
+    pub(super) fn count(&mut self, pair: &BodyPair, distance: f64, time: f64) {
+        if self.seeks_clearance
+            && pair.counts
+            && self.clearance.as_ref().is_none_or(|c| distance < c.distance)
+        {
             let modules = [pair.a, pair.b].map(|body| self.bodies.bodies[body as usize].module);
             self.clearance = Some(Clearance { distance, time, modules: (modules[0], modules[1]) });
         }
@@ -555,7 +503,7 @@ impl<'a> Advancement<'a> {
 
     /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short enough
     /// to be an instant: before it the pair is proved to be separated.
-    fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: Option<Instant>) {
+    pub(super) fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: Option<Instant>) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);
         let key = (a.module, b.module, excuse.is_some());
@@ -583,7 +531,7 @@ impl<'a> Advancement<'a> {
 }
 
 /// Returns a pair within a module whose first body has this index in [`Bodies::bodies`].
-fn inner_pair(inner: &InnerPair, first: usize, level: u32) -> BodyPair {
+pub(super) fn inner_pair(inner: &InnerPair, first: usize, level: u32) -> BodyPair {
     let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
     BodyPair { a, b, level, counts: inner.counts, allowed: inner.allowed, normal: Vec3::zeros() }
 }

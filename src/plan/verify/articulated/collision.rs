@@ -14,6 +14,7 @@
 use super::advancement::Advancement;
 use super::bodies::{Bodies, UnsoundLink};
 use super::docking;
+use super::polyline::Polyline;
 use super::tolerances::{Precision, Tolerances};
 use crate::geometry::Solid;
 use crate::plan::{
@@ -77,7 +78,28 @@ pub fn judge(
 ) -> Result<Findings, UnsoundLink> {
     let everything = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
     let bodies = Bodies::new(&tracks.robot, &everything)?;
-    let mut advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
+    let advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
+    Ok(search(tracks, exemptions, advancement))
+}
+
+/// Returns the collisions of a plan at instants at which its joints are elsewhere than planned, as `along` says; those that
+/// do not depend on joints are among them. `tracks` must be valid, or it panics; `exemptions`: those of the plan.
+///
+/// # Errors
+/// [`UnsoundLink`] for the first link whose shape is not sound.
+pub(super) fn judge_deflected(
+    tracks: &Tracks,
+    settings: &Settings,
+    exemptions: &[Exemption],
+    along: Polyline,
+) -> Result<Findings, UnsoundLink> {
+    let everything = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
+    let bodies = Bodies::new(&tracks.robot, &everything)?;
+    let advancement = Advancement::deflected(tracks, bodies, along, settings.samples_max);
+    Ok(search(tracks, exemptions, advancement))
+}
+
+fn search(tracks: &Tracks, exemptions: &[Exemption], mut advancement: Advancement) -> Findings {
     let mut bonds = tracks.start.bonds.clone();
     let mut docks = tracks.events.iter().peekable();
     for window in windows(tracks, exemptions) {
@@ -87,7 +109,7 @@ pub fn judge(
         let excused = excused(tracks, exemptions, window);
         advancement.window(&bonds, window, &excused);
     }
-    Ok(advancement.findings(exemptions))
+    advancement.findings(exemptions)
 }
 
 impl Collision {

@@ -3,6 +3,7 @@
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision};
+use super::polyline::Polyline;
 use super::rollout::Rollout;
 use super::work_budget::work_max;
 use crate::geometry::Pose;
@@ -10,8 +11,9 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
-/// Judges the whole plan; needs only the relative poses of links, so the ground does not matter.
-pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
+/// Judges the whole plan; needs only the relative poses of links, so the ground does not matter. `deflected`: the positions
+/// of the joints as servos yield, where loads were found.
+pub(super) fn judge(rollout: &Rollout, deflected: Option<Polyline>, ledger: &mut Ledger) {
     let tracks = rollout.tracks;
     let found =
         match collision::judge(tracks, rollout.settings, rollout.exemptions, &rollout.tolerances.collision) {
@@ -31,7 +33,7 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
         let mut failure = meeting.failure(&tracks.robot);
         match meeting.bond {
             Some(bond) => (failure.blame, failure.blames_start) = docked(tracks, bond, meeting.time),
-            None => failure.blame = blamed(tracks, meeting),
+            None => failure.blame = blamed(tracks, meeting, |_| -meeting.allowed),
         }
         ledger.fail(failure);
     }
@@ -50,7 +52,39 @@ pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) {
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;
     ledger.check(CheckKind::Collision, found.status);
+    if let Some(along) = deflected.filter(|along| !along.times().is_empty()) {
+        judge_deflected(rollout, along, &found.collisions, ledger);
+    }
 }
+
+/// Judges whether links meet as servos yield that do not meet as planned; `planned`: the collisions as planned.
+fn judge_deflected(rollout: &Rollout, along: Polyline, planned: &[Collision], ledger: &mut Ledger) {
+    let tracks = rollout.tracks;
+    let instants = along.times().len();
+    let Ok(found) = collision::judge_deflected(tracks, rollout.settings, rollout.exemptions, along) else {
+        return;
+    };
+    for index in &found.used {
+        ledger.use_exemption(*index, CheckKind::Deflection);
+    }
+    let meets = |c: &&Collision| !c.exempt && planned.iter().all(|p| p.modules != c.modules);
+    for meeting in found.collisions.iter().filter(meets) {
+        let mut failure = meeting.failure(&tracks.robot);
+        failure.kind = CheckKind::Deflection;
+        failure.message += DEFLECTED;
+        // A joint to blame parts them by as much as they meet.
+        failure.blame = blamed(tracks, meeting, |apart| apart + meeting.depth);
+        ledger.fail(failure);
+    }
+    let status = match found.status {
+        Status::Sampled(_) => Status::NotChecked("the work of comparisons was spent".to_owned()),
+        _ => Status::Sampled(instants),
+    };
+    ledger.check(CheckKind::Deflection, status);
+}
+
+/// The words of how links meet that do not meet as planned.
+const DEFLECTED: &str = ", as servos 0.4 times as stiff as stated yield under their loads";
 
 /// Returns the action that docked two links, and false; or the line that connects them from the start, and true.
 fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
@@ -64,8 +98,9 @@ fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
 }
 
 /// Returns the actions whose joint, held still from its start, keeps the two links apart at the instant of their
-/// greatest depth; latest first.
-fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
+/// greatest depth; latest first. `needed`: the function that returns the signed distance that they must then have, m, from
+/// that which they have as planned.
+fn blamed(tracks: &Tracks, meeting: &Collision, needed: impl Fn(f64) -> f64) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, 0);
     let Ok(bodies) = Bodies::new(&tracks.robot, &kinematics) else { return vec![] };
@@ -74,6 +109,14 @@ fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
         kinematics.link(meeting.modules.1, meeting.links.1),
     );
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let distance = |poses: &[Pose]| {
+        let [a, b] = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
+        let enclosed = bodies.enclosed_depth(a, b, &(poses[links.0].inverse() * poses[links.1]));
+        let apart = bodies.distance(links.0, links.1, poses, f64::MAX);
+        if enclosed > 0.0 { apart.min(-enclosed) } else { apart }
+    };
+    kinematics.link_poses(&state.joints, &Pose::identity(), &mut poses);
+    let needed = needed(distance(&poses));
     let mut blamed = vec![];
     for suspect in blame::suspects(tracks, meeting.deepest) {
         if blamed.len() == BLAMED_MAX || blamed.contains(&suspect.cause) {
@@ -83,11 +126,7 @@ fn blamed(tracks: &Tracks, meeting: &Collision) -> Vec<CauseId> {
         let track = tracks.track(JointId(suspect.joint as u32)).expect("a suspect moves on a track");
         joints[suspect.joint] = track.position(tracks.start.joints[suspect.joint], suspect.start);
         kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
-        let X_AB = poses[links.0].inverse() * poses[links.1];
-        let [a, b] = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
-        if bodies.distance(links.0, links.1, &poses, 0.0) >= -meeting.allowed
-            && bodies.enclosed_depth(a, b, &X_AB) <= meeting.allowed
-        {
+        if distance(&poses) >= needed {
             blamed.push(suspect.cause);
         }
     }

@@ -10,7 +10,7 @@
 //! - moving: `v' = v + ω × r`, where r turns with its link, deviates by the deviation of ω times `|r|` plus
 //!   `|ω|` times the distance that the tip of r can move.
 
-use super::motion_bounds::{Interval, JointMotion, MotionBounds};
+use super::motion_bounds::{Interval, JointMotion, JointMotions};
 use super::reference_links::ReferenceLinks;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::Kinematics;
@@ -21,7 +21,7 @@ use nalgebra::Matrix3;
 /// asked for by a `require`; others cost nothing, for most intervals leave few pairs open.
 #[derive(Clone, Debug)]
 pub(super) struct IntervalState {
-    bounds: MotionBounds,
+    along: JointMotions,
     /// The interval of time whose middle this is the state of.
     pub interval: Interval,
     /// The number of the interval: an entry of the lists below is of this interval where its mark is this number.
@@ -77,11 +77,11 @@ pub(super) struct Deviation {
 }
 
 impl IntervalState {
-    /// Returns the state of no interval, of joints that move within these bounds.
-    pub(super) fn new(bounds: MotionBounds) -> IntervalState {
-        let joints = bounds.joint_count();
+    /// Returns the state of no interval, of joints that move so.
+    pub(super) fn new(along: JointMotions) -> IntervalState {
+        let joints = along.joint_count();
         IntervalState {
-            bounds,
+            along,
             interval: Interval::default(),
             epoch: 0,
             motions: vec![JointMotion::default(); joints],
@@ -101,7 +101,7 @@ impl IntervalState {
 
     /// Begins the interval `from..to` (s), of which nothing is computed yet.
     pub(super) fn set(&mut self, kinematics: &Kinematics, from: f64, to: f64) {
-        self.interval = self.bounds.interval(from, to);
+        self.interval = self.along.interval(from, to);
         self.epoch += 1;
         let count = kinematics.link_count();
         self.poses.resize(count, Pose::identity());
@@ -156,7 +156,7 @@ impl IntervalState {
 
     fn require_joint(&mut self, joint: usize) {
         if self.motions_of[joint] != self.epoch {
-            let motion = self.bounds.over(joint, &self.interval);
+            let motion = self.along.over(joint, &self.interval);
             (self.at[joint], self.rate[joint], self.motions[joint]) = (motion.at, motion.rate, motion);
             self.motions_of[joint] = self.epoch;
         }

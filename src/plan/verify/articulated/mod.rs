@@ -41,8 +41,10 @@ mod bonded;
 mod interval_state;
 mod module_clusters;
 mod motion_bounds;
+mod polyline;
 mod reference_links;
 mod separation;
+mod window_begin;
 mod work_budget;
 
 pub mod collision;
@@ -72,6 +74,7 @@ use super::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
+use polyline::Polyline;
 
 /// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. Panics unless the plan passes
 /// [`validation::check`](crate::plan::validation::check).
@@ -87,8 +90,8 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     if samples > rollout::samples_max(&plan.settings, features) {
         ledger.fail(too_many_samples(samples, &plan.settings, features));
     } else {
-        let checkpoints = check_samples(&rollout, missed, &mut ledger);
-        collision_report::judge(&rollout, &mut ledger);
+        let (checkpoints, deflected) = check_samples(&rollout, missed, &mut ledger);
+        collision_report::judge(&rollout, deflected, &mut ledger);
         if rollout.is_full() {
             ledger.drop_consequences();
         }
@@ -113,8 +116,13 @@ fn ground_features_of(plan: &Plan, tracks: &Tracks, samples: usize) -> usize {
 /// The greatest number of checkpoints that are kept for rolling out parts of the plan again.
 const CHECKPOINTS_MAX: usize = 16;
 
-/// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from.
-fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> Vec<Checkpoint> {
+/// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from, and, under full dynamics,
+/// the positions of the joints as servos yield.
+fn check_samples(
+    rollout: &Rollout,
+    missed: Vec<usize>,
+    ledger: &mut Ledger,
+) -> (Vec<Checkpoint>, Option<Polyline>) {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
@@ -145,8 +153,9 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
         ledger.fail(limit_reached(rollout.settings, features, time));
     }
     ledger.verdict.samples = checkpoints.seen();
+    let mut deflected = None;
     if full {
-        dynamics::Course::new(rollout, recorder).judge(ledger);
+        deflected = Some(dynamics::Course::new(rollout, recorder).judge(ledger));
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);
         torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
@@ -159,7 +168,7 @@ fn check_samples(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger) -> 
         ledger.note(dynamics::travel_tolerance(&ledger.verdict));
     }
     loops.finish(ledger);
-    checkpoints.into_kept()
+    (checkpoints.into_kept(), deflected)
 }
 
 fn link_name(rollout: &Rollout, link: usize) -> String {

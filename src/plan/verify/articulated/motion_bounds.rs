@@ -1,6 +1,7 @@
 //! Motion bounds of joints over an interval of time: position and rate in its middle, and a bound on the
 //! difference of the rate from that, from Bernstein control points.
 
+use super::polyline::Polyline;
 use super::tolerances::Tolerances;
 use crate::plan::{Tracks, polynomial};
 
@@ -51,6 +52,41 @@ pub(super) struct JointMotion {
     pub rate: f64,
     /// A bound on the difference of the rate anywhere in the interval from that in the middle, rad/s or m/s.
     pub deviation: f64,
+}
+
+/// The motion of the joints that a search for collisions goes along.
+#[derive(Clone, Debug)]
+pub(super) enum JointMotions {
+    /// The motion as planned.
+    Planned(MotionBounds),
+    /// The motion as servos yield, known at instants.
+    Deflected(Polyline),
+}
+
+impl JointMotions {
+    /// Returns the number of joints.
+    pub(super) fn joint_count(&self) -> usize {
+        match self {
+            JointMotions::Planned(bounds) => bounds.joint_count(),
+            JointMotions::Deflected(line) => line.joint_count(),
+        }
+    }
+
+    /// Returns the interval `from..to` (s).
+    pub(super) fn interval(&self, from: f64, to: f64) -> Interval {
+        match self {
+            JointMotions::Planned(bounds) => bounds.interval(from, to),
+            JointMotions::Deflected(line) => line.interval(from, to),
+        }
+    }
+
+    /// Returns the motion of a joint, by the number in its [`JointId`](crate::robot::JointId), over an interval.
+    pub(super) fn over(&self, joint: usize, interval: &Interval) -> JointMotion {
+        match self {
+            JointMotions::Planned(bounds) => bounds.over(joint, interval),
+            JointMotions::Deflected(line) => line.over(joint, interval),
+        }
+    }
 }
 
 impl MotionBounds {

@@ -14,6 +14,12 @@ pub struct Precision {
     pub tol_time: f64,
 }
 
+impl Precision {
+    /// The least time between instants at which deflected joints are looked at, s. 5 ms: half of the spacing of the instants
+    /// of full dynamics.
+    pub(super) const DEFLECTED_TIME_MIN: f64 = 5e-3;
+}
+
 impl Default for Precision {
     fn default() -> Precision {
         Precision { tol_depth: 1e-6, tol_clearance: 2e-5, tol_time: 1e-6 }

@@ -4,10 +4,12 @@
 use super::super::ground_features::Mat3;
 use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
+use super::super::polyline::Polyline;
 use super::super::rollout::{Rollout, Sample, positions};
-use super::super::statics::{Structure, Wrench as LinkWrench};
+use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
 use super::bursts::Bursts;
 use super::equilibrium::{self, Equilibrium, Warm};
+use super::loads::Loads;
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support};
 use super::tolerances::PARAMETERS;
@@ -110,6 +112,8 @@ struct Loaded {
     held: Vec<f64>,
     /// The effort of each joint, N·m or N.
     efforts: Vec<f64>,
+    /// The deflection of each joint, rad or m.
+    deflections: Vec<f64>,
     /// The forces of the ground, from the centre of mass in level axes.
     ground: Vec<LinkWrench>,
     imbalance: f64,
@@ -219,7 +223,8 @@ impl<'a> Course<'a> {
             .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
             .collect();
         let held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
-        Some(Loaded { held, efforts: loads.efforts, ground, imbalance: loads.imbalance, open, slides })
+        let Loads { efforts, deflections, imbalance, .. } = loads;
+        Some(Loaded { held, efforts, deflections, ground, imbalance, open, slides })
     }
 
     /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it,
@@ -238,8 +243,9 @@ impl<'a> Course<'a> {
         Some((efforts, if part < 0.5 { from.ground } else { to.ground }))
     }
 
-    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors.
-    pub(in super::super) fn judge(&self, ledger: &mut Ledger) {
+    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors. Returns the positions of
+    /// the joints as soft servos yield under these loads.
+    pub(in super::super) fn judge(&self, ledger: &mut Ledger) -> Polyline {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
@@ -261,6 +267,11 @@ impl<'a> Course<'a> {
             }
             let mut joints = Vec::new();
             positions(self.rollout, recorded.time, &mut joints);
+            if !self.is_overloaded(index, &loaded)
+                && let Some(deflected) = deflected(&joints, &loaded.deflections)
+            {
+                found.deflected.push(recorded.time, &deflected);
+            }
             found.work.add(joints, loaded.efforts.clone());
             window.push_back((recorded.time, index, loaded));
             while window.front().is_some_and(|(t, _, _)| recorded.time - t > self.windows[index]) {
@@ -272,6 +283,14 @@ impl<'a> Course<'a> {
             ledger.fail(self.explained(overload));
         }
         self.finish(&found, ledger);
+        found.deflected
+    }
+
+    /// Returns true if a joint is overloaded at an instant, so that it does not yield like a spring.
+    fn is_overloaded(&self, index: usize, loaded: &Loaded) -> bool {
+        let structure = &self.compiled[self.instants[index].bonds].structure;
+        let over = |load: &Load| structure.size(load, &loaded.held) > load.limit;
+        structure.loads.iter().any(|load| matches!(load.kind, LoadKind::Joint { .. }) && over(load))
     }
 
     /// Compares the mean loads of a window with their limits.
@@ -317,6 +336,21 @@ impl<'a> Course<'a> {
         // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
         let shares = size(false, 0.0).zip(size(false, 1.0));
         overload.failure(shares, self.rollout.settings.reserve)
+    }
+
+    /// Notes a margin of torque that is smaller than the error of the loads.
+    fn note_small_margin(&self, ledger: &mut Ledger) {
+        let known = ledger.verdict.torque_margin.as_ref();
+        if let Some(worst) = known.filter(|w| (0.0..PARAMETERS.load_error).contains(&w.value)) {
+            let note = format!(
+                "loads are known within some {} %: {} keeps {} of its limit at {}, and may reach it",
+                number(100.0 * PARAMETERS.load_error),
+                worst.at.join(", "),
+                number(libm::round(worst.value * 1e3) / 1e3),
+                quantity(worst.time, Dimension::TIME)
+            );
+            ledger.note(note);
+        }
     }
 
     /// Judges if friction determines the travel.
@@ -374,6 +408,7 @@ impl<'a> Course<'a> {
             });
         }
         self.travel(ledger);
+        self.note_small_margin(ledger);
         if let Some(step) = self.bursts.steps().first() {
             let name = self.rollout.tracks.robot.name_of(JointId(step.joint as u32));
             let more = self.bursts.steps().len() - 1;
@@ -441,6 +476,19 @@ struct Findings {
     stepped: bool,
     overloads: Vec<MeanOverload>,
     work: MotorWork,
+    /// The positions of the joints as soft servos yield.
+    deflected: Polyline,
+}
+
+/// Returns these positions of the joints with their deflections (rad or m) as great as they are with soft servos; `None`
+/// where one gives way.
+fn deflected(joints: &[f64], deflections: &[f64]) -> Option<Vec<f64>> {
+    let softer = PARAMETERS.servo_softer.recip();
+    let yields =
+        deflections.iter().all(|deflection| (softer * deflection).abs() <= PARAMETERS.deflection_max);
+    let deflected =
+        || joints.iter().zip(deflections).map(|(at, deflection)| at + softer * deflection).collect();
+    yields.then(deflected)
 }
 
 /// Returns a twist in axes turned back by `yaw` (rad) about the vertical: from level axes to those of the world.

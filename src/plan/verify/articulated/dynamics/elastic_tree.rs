@@ -34,7 +34,7 @@ pub(super) struct Displaced {
     /// The displacement of each link, by its number; zero for loose ones.
     links: Vec<Vector6<f64>>,
     /// The deflection of each joint from its position, by [`crate::robot::JointId`], rad or m.
-    joints: Vec<f64>,
+    pub joints: Vec<f64>,
 }
 
 impl Displaced {

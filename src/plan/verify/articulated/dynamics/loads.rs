@@ -84,6 +84,8 @@ pub(super) struct Loads {
     pub normal: Vec<f64>,
     /// The effort of the motor of each joint, N·m or N.
     pub efforts: Vec<f64>,
+    /// The deflection of each joint from its planned position, rad or m.
+    pub deflections: Vec<f64>,
     /// The wrench that each link needs of its joints and bonds, by its number, about the centre of mass in level axes, N and
     /// N·m: what its motion needs, less contacts, stops and closing bonds.
     pub wrenches: Vec<Wrench>,
@@ -133,5 +135,5 @@ pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushin
     let settles = problem.support == Support::Settles && problem.weight > 0.0;
     let imbalance =
         if settles { left.into_iter().fold(0.0, |m, x| x.abs().max(m)) / problem.weight } else { 0.0 };
-    Some(Loads { normal, efforts, wrenches, imbalance })
+    Some(Loads { normal, efforts, deflections: displaced.joints, wrenches, imbalance })
 }

@@ -85,6 +85,11 @@ pub(super) struct Parameters {
     pub servo_softer: f64,
     /// The factor on the stiffness of servos in another one. 3.3: 500 N·m/rad for the default of 150.
     pub servo_stiffer: f64,
+    /// The error of the greatest torque against simulations, as a fraction: 0.1, where nothing touches down.
+    pub load_error: f64,
+    /// The greatest deflection of a joint that counts as yielding, rad or m: 20°. Beyond, the robot gives way, and linear
+    /// springs say nothing of where its links are.
+    pub deflection_max: f64,
     /// The part of the distance travelled by which its end may differ with other friction before it counts as not
     /// determined.
     pub way_undetermined: f64,
@@ -140,6 +145,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     fork_spacing: 0.03 - 1e-6,
     servo_softer: 0.4,
     servo_stiffer: 3.3,
+    load_error: 0.1,
+    deflection_max: 0.35,
     way_undetermined: 0.5,
     way_uncertain: 0.1,
     way_uncertain_min: 0.01,
