@@ -447,6 +447,7 @@ extern fn emit(
   unstable_for: Time = 0s,
   stability: footprint | centres = footprint,
   reserve: Number = 0,
+  slip_max: Length?,
 )
 
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; or a plot.
@@ -475,6 +476,7 @@ extern fn show(
   at: Time = 0s,
   side: corner | front | back | left | right | top = corner,
   reserve: Number = 0,
+  slip_max: Length?,
 )
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
@@ -933,6 +935,10 @@ extern fn placed(
 ///
 /// A `passive` joint has no motor: it takes no commands.
 ///
+/// `stiffness` is that with which its servo holds a position against a load; where it is not stated, a servo yields by 1°
+/// under `max_torque`, and is 150 N*m/rad where that is not stated either. `armature` is the inertia of rotor and gears as the
+/// joint feels it, none unless stated. Full dynamics use both (see `world`).
+///
 /// Example:
 /// ```modl
 /// module Wheel {
@@ -949,10 +955,14 @@ extern fn revolute(
   max_speed: AngularSpeed?,
   max_accel: AngularAcceleration?,
   max_torque: Torque?,
+  stiffness: Quantity<N*m/rad>?,
+  armature: Quantity<kg*m^2>?,
   passive: Bool = false,
 ) -> JointKind
 
 /// A joint that slides along an axis.
+///
+/// `stiffness` and `armature` are as for `revolute`: a servo yields by 1.75 mm under `max_force` where no stiffness is stated.
 ///
 /// Example:
 /// ```modl
@@ -970,6 +980,8 @@ extern fn prismatic(
   max_speed: Speed?,
   max_accel: Acceleration?,
   max_force: Force?,
+  stiffness: Quantity<N/m>?,
+  armature: Mass?,
   passive: Bool = false,
 ) -> JointKind
 
@@ -1781,6 +1793,7 @@ extern fn fastest(plan: Plan, reserve: Number = 0.15) -> Plan
 /// suffice. `unstable_for` is how long support may be missing at a stretch. `stability` is the rule:
 /// the `footprint` of the ground contacts, or the paper's, the `centres` of the lowest modules.
 /// `reserve` is the part of each limit of torque, force and bond load that must be left under `dynamics: full`, from 0 to 1.
+/// `slip_max` is the most that any loaded link may slip over the ground in all; without it, slip is only reported.
 /// `world` judges under other surroundings than the plan's own.
 ///
 /// The first line of the report says under which dynamics the plan was judged: for robots with joints `full dynamics`, unless
@@ -1799,6 +1812,7 @@ extern fn verify(
   stability: footprint | centres = footprint,
   world: World?,
   reserve: Number = 0,
+  slip_max: Length?,
 ) -> Report
 
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0

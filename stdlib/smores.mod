@@ -28,6 +28,9 @@ module Smores {
   // straight out needs a sixth of its torque for that.
   let surge = 12rad/s^2
 
+  // An assumption, too: tilt and pan yield by 0.9 degrees under their greatest torque.
+  let grip = 150N*m/rad
+
   mass 557.2924g  // the sum of the links
 
   // The wheels are the lowest parts; the holder's edges stay 1.3 mm, the top disc 3.3 mm above the ground.
@@ -81,11 +84,30 @@ module Smores {
     range: -90deg..90deg,
     max_speed: rate,
     max_accel: surge,
-    max_torque: 2.3N*m
+    max_torque: 2.3N*m,
+    stiffness: grip
   )
-  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_accel: surge, max_torque: 2.3N*m)
-  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
-  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
+  joint front : block -> top_disc = revolute(
+    axis: X,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 2.3N*m,
+    stiffness: grip
+  )
+  joint left : holder -> left_disc = revolute(
+    axis: Y,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 1.2N*m,
+    stiffness: grip
+  )
+  joint right : holder -> right_disc = revolute(
+    axis: Y,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 1.2N*m,
+    stiffness: grip
+  )
   alias pan = front
   motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)
@@ -117,6 +139,7 @@ connector EPFace {
 module SmoresEP {
   let rate = 2.4086rad/s  // 23 rpm at no load
   let surge = 12rad/s^2   // an assumption, as that of `Smores`
+  let grip = 150N*m/rad   // an assumption, as that of `Smores`
 
   mass 454g
   contact 4mm
@@ -140,11 +163,30 @@ module SmoresEP {
     range: -80deg..80deg,
     max_speed: rate,
     max_accel: surge,
-    max_torque: 2.3N*m
+    max_torque: 2.3N*m,
+    stiffness: grip
   )
-  joint front : block -> top_disc = revolute(axis: X, max_speed: rate, max_accel: surge, max_torque: 1.4N*m)
-  joint left : holder -> left_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
-  joint right : holder -> right_disc = revolute(axis: Y, max_speed: rate, max_accel: surge, max_torque: 1.2N*m)
+  joint front : block -> top_disc = revolute(
+    axis: X,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 1.4N*m,
+    stiffness: grip
+  )
+  joint left : holder -> left_disc = revolute(
+    axis: Y,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 1.2N*m,
+    stiffness: grip
+  )
+  joint right : holder -> right_disc = revolute(
+    axis: Y,
+    max_speed: rate,
+    max_accel: surge,
+    max_torque: 1.2N*m,
+    stiffness: grip
+  )
   alias pan = front
   motor sum = tilt + front (max_speed: rate)
   motor difference = tilt - front (max_speed: rate)

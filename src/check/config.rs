@@ -168,7 +168,16 @@ impl<'a> Checker<'a> {
 
     /// Checks an exemption of an `allows` clause; `None` (and a diagnostic) for an unknown one.
     fn exemption(&mut self, scope: &mut Scope, e: &'a ast::Exemption) -> Option<Exemption> {
-        let known = ["unstable", "slip", "collision", "overload", "acceleration", "balance", "traction"];
+        let known = [
+            "unstable",
+            "slip",
+            "collision",
+            "overload",
+            "acceleration",
+            "balance",
+            "traction",
+            "saturation",
+        ];
         let part = Type::AnyOf(Family::Config);
         let kind = match (e.name.text.as_str(), e.args.as_slice()) {
             ("unstable", []) => ExemptionKind::Unstable,
@@ -176,6 +185,7 @@ impl<'a> Checker<'a> {
             ("acceleration", []) => ExemptionKind::Acceleration,
             ("balance", []) => ExemptionKind::Balance,
             ("traction", []) => ExemptionKind::Traction,
+            ("saturation", []) => ExemptionKind::Saturation,
             ("collision", []) => ExemptionKind::Collision(None),
             ("collision", [a, b]) => {
                 let role = Role::Place("`collision`");

@@ -373,6 +373,8 @@ pub enum ExemptionKind {
     Balance,
     /// The check of traction: friction need not determine the travel.
     Traction,
+    /// The check of torque, where the robot sags little with its motors at their limits.
+    Saturation,
 }
 
 /// A clause of a configuration that is elaborated for each instance, in the order of the text.

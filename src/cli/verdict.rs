@@ -125,7 +125,14 @@ fn settings(plan: &Plan) -> String {
         Stability::Centres => "centres of the lowest modules",
     };
     let (sample, unstable) = (time(settings.sample), time(settings.unstable_for));
-    format!("sampled every {sample}, unstable for {unstable} at most, support by {rule}")
+    let mut words = format!("sampled every {sample}, unstable for {unstable} at most, support by {rule}");
+    if settings.reserve > 0.0 {
+        words += &format!(", with a reserve of {} %", number(100.0 * settings.reserve));
+    }
+    if let Some(slip) = settings.slip_max {
+        words += &format!(", slip of {} at most", quantity(slip, Dimension::LENGTH));
+    }
+    words
 }
 
 /// Returns the status of a check in words.

@@ -13,7 +13,7 @@ use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
-use crate::robot::{Joint, JointKind, Limits, Link, ModulePart, ModuleType, Motor, Port, mass, validation};
+use crate::robot::{Joint, Limits, Link, ModulePart, ModuleType, Motor, Port, mass, validation};
 use crate::source::{Diagnostic, Span, code};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -466,13 +466,13 @@ fn declared_joint(joint: &JointDef, parent: usize, child: usize, spec: &JointSpe
         axis: spec.axis.try_normalize(0.0).unwrap_or(Vec3::z()),
         limits: spec.limits,
         passive: spec.passive,
+        servo: spec.servo,
         mimic: None,
     }
 }
 
 fn fixed_joint(joint: &JointDef, parent: usize, child: usize, pose: Pose) -> Joint {
-    let spec =
-        JointSpec { kind: JointKind::Fixed, axis: Vec3::z(), limits: Limits::default(), passive: true };
+    let spec = JointSpec::fixed();
     declared_joint(joint, parent, child, &spec, pose)
 }
 

@@ -118,6 +118,7 @@ impl Interpreter<'_> {
             ExemptionKind::Acceleration => plan::ExemptionKind::Acceleration,
             ExemptionKind::Balance => plan::ExemptionKind::Balance,
             ExemptionKind::Traction => plan::ExemptionKind::Traction,
+            ExemptionKind::Saturation => plan::ExemptionKind::Saturation,
             ExemptionKind::Collision(None) => plan::ExemptionKind::Collision(None),
             ExemptionKind::Overload(None) => plan::ExemptionKind::Overload(None),
             ExemptionKind::Collision(Some((a, b))) => {

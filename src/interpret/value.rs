@@ -11,7 +11,7 @@ use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
 use crate::plan;
-use crate::robot::{JointId, JointKind, JointOwner, Limits, PortRef};
+use crate::robot::{JointId, JointKind, JointOwner, Limits, PortRef, Servo};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
@@ -261,6 +261,21 @@ pub struct JointSpec {
     pub limits: Limits,
     /// True if no motor drives the joint.
     pub passive: bool,
+    /// The facts of its servo.
+    pub servo: Servo,
+}
+
+impl JointSpec {
+    /// Returns the kind of a joint that does not move.
+    pub fn fixed() -> JointSpec {
+        JointSpec {
+            kind: JointKind::Fixed,
+            axis: Vec3::z(),
+            limits: Limits::default(),
+            passive: true,
+            servo: Servo::default(),
+        }
+    }
 }
 
 /// A polygon mesh: a surface of flat faces over shared vertices.

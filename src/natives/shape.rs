@@ -9,7 +9,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
-use crate::robot::{JointKind, Limits};
+use crate::robot::{JointKind, Limits, Servo};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
@@ -33,12 +33,12 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("placed", parameters![shape: &Solid, at: Vec3, axis: Vec3, turn: f64], placed),
     Native::pure(
         "revolute",
-        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_torque: Option<Positive>, passive: bool],
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_torque: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, passive: bool],
         revolute,
     ),
     Native::pure(
         "prismatic",
-        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_force: Option<Positive>, passive: bool],
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_force: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, passive: bool],
         prismatic,
     ),
     Native::pure("fixed", parameters![], fixed),
@@ -203,12 +203,15 @@ fn joint(call: &Call, kind: JointKind, max_effort: &str) -> Eval<Value> {
         let label = "write the lower end first";
         return Err(fault(code::BAD_MODULE, call.at("range"), "the range ends before it begins", label));
     }
+    let servo = Servo {
+        stiffness: call.positive_if("stiffness", "a stiffness")?,
+        armature: call.positive_if("armature", "an inertia of the rotor")?,
+    };
     let (axis, passive) = (axis(call, "axis")?, call.get("passive")?);
-    Ok(Value::JointKind(Rc::new(JointSpec { kind, axis, limits, passive })))
+    Ok(Value::JointKind(Rc::new(JointSpec { kind, axis, limits, passive, servo })))
 }
 
 fn fixed(_: &mut Interpreter, _: &Call) -> Eval<Value> {
-    let spec =
-        JointSpec { kind: JointKind::Fixed, axis: Vec3::z(), limits: Limits::default(), passive: true };
+    let spec = JointSpec::fixed();
     Ok(Value::JointKind(Rc::new(spec)))
 }

@@ -38,7 +38,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
         stability: Stability,
         at: f64,
         side: Side,
-        reserve: f64
+        reserve: f64,
+        slip_max: Option<f64>
     ],
     show,
 )];

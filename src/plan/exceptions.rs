@@ -62,7 +62,7 @@ fn check(kind: &ExemptionKind) -> CheckKind {
         ExemptionKind::Unstable => CheckKind::Stability,
         ExemptionKind::Slip => CheckKind::Slip,
         ExemptionKind::Collision(_) => CheckKind::Collision,
-        ExemptionKind::Overload(_) => CheckKind::Torque,
+        ExemptionKind::Overload(_) | ExemptionKind::Saturation => CheckKind::Torque,
         ExemptionKind::Acceleration => CheckKind::Acceleration,
         ExemptionKind::Balance => CheckKind::Balance,
         ExemptionKind::Traction => CheckKind::Traction,

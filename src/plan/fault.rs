@@ -75,6 +75,8 @@ pub enum PlanFault {
         /// The reserve that was found, as a fraction of the limits.
         reserve: f64,
     },
+    /// The greatest slip is negative.
+    SlipMax,
     /// Settings by which the judge may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
@@ -405,6 +407,7 @@ impl fmt::Display for PlanFault {
             PlanFault::SampleInterval { interval } => write!(f, "a sample every {interval} s is none"),
             PlanFault::UnstableFor => write!(f, "`unstable_for` is negative"),
             PlanFault::Reserve { reserve } => write!(f, "`reserve` is {reserve}, and not from 0 to 1"),
+            PlanFault::SlipMax => write!(f, "`slip_max` is negative"),
             PlanFault::NoSamples => write!(f, "no samples are allowed"),
             PlanFault::ProgramChild { node, child } => write!(
                 f,

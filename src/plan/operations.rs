@@ -190,6 +190,7 @@ fn stricter(a: &Settings, b: &Settings) -> Settings {
         unstable_for: a.unstable_for.min(b.unstable_for),
         stability,
         reserve: a.reserve.max(b.reserve),
+        slip_max: [a.slip_max, b.slip_max].into_iter().flatten().reduce(f64::min),
         samples_max: a.samples_max.max(b.samples_max),
     }
 }

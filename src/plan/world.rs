@@ -133,6 +133,9 @@ pub struct Settings {
     /// from 0 to 1.
     #[serde(default = "Settings::reserve_default")]
     pub reserve: f64,
+    /// The greatest slip of a loaded link over the ground, summed over the plan, m; `None`: slip fails nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slip_max: Option<f64>,
     /// The greatest number of samples of one verification, refinements included; a verification that needs more
     /// fails.
     pub samples_max: usize,
@@ -153,6 +156,7 @@ impl Default for Settings {
             unstable_for: 0.0,
             stability: Stability::Footprint,
             reserve: Settings::reserve_default(),
+            slip_max: None,
             samples_max: 2_000_000,
         }
     }
@@ -176,6 +180,8 @@ pub enum ExemptionKind {
     Balance,
     /// Traction: friction need not determine the travel.
     Traction,
+    /// Torque, where the robot sags by no more than 5° with its motors at their limits.
+    Saturation,
 }
 
 impl ExemptionKind {
@@ -189,6 +195,7 @@ impl ExemptionKind {
             ExemptionKind::Acceleration => "acceleration",
             ExemptionKind::Balance => "balance",
             ExemptionKind::Traction => "traction",
+            ExemptionKind::Saturation => "saturation",
         }
     }
 }

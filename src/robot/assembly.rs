@@ -4,7 +4,7 @@
 //! A configuration is a tree of parts to a person; here it is a list of modules with path names and a list of bonds
 //! between their ports.
 
-use super::library::{Hinge, JointKind, Library, ModuleType};
+use super::library::{Hinge, JointKind, Library, ModuleType, Servo};
 use crate::geometry::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -110,6 +110,27 @@ impl Assembly {
         });
         let of_bonds = (0..self.bonds.len()).filter(|&b| self.hinge(b).is_some()).map(JointOwner::Bond);
         of_modules.chain(of_bonds)
+    }
+
+    /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is passive or
+    /// follows others. Panics if there is no such joint.
+    pub fn effort_limit(&self, owner: JointOwner) -> Option<f64> {
+        match owner {
+            JointOwner::Module { module, joint } => {
+                let declared = &self.module_type(module).joints[joint];
+                let own = !declared.passive && declared.mimic.is_none();
+                declared.limits.effort.filter(|_| own)
+            }
+            JointOwner::Bond(bond) => self.hinge(bond).and_then(|hinge| hinge.limits.effort),
+        }
+    }
+
+    /// Returns the facts of a joint's servo; none are stated of the hinges of bonds. Panics if there is no such joint.
+    pub fn servo(&self, owner: JointOwner) -> Servo {
+        match owner {
+            JointOwner::Module { module, joint } => self.module_type(module).joints[joint].servo,
+            JointOwner::Bond(_) => Servo::default(),
+        }
     }
 
     /// Returns true if a joint is prismatic, so that its positions are in metres; those of all others, hinges of bonds

@@ -173,18 +173,52 @@ pub struct Joint {
     pub limits: Limits,
     /// True if the joint has no motor, so that it can't be commanded.
     pub passive: bool,
+    /// The facts of its servo.
+    #[serde(default, skip_serializing_if = "Servo::is_unstated")]
+    pub servo: Servo,
     /// The joints of its module, by index in [`ModuleType::joints`], that the joint follows, with factors: `q = Σ
     /// factor · q_index`. Such a joint takes no commands; `None`: it follows none.
     pub mimic: Option<Vec<(usize, f64)>>,
 }
 
-impl Joint {
-    /// The stiffness of the servo of a joint that turns, where the judge assumes one, N·m/rad: 150, of position
-    /// servos of the modules' size.
+/// The facts of the servo that holds a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Servo {
+    /// The stiffness with which the servo holds its position, N·m/rad or N/m; `None`: not stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
+    /// The inertia of its rotor and gears as the joint feels it, kg·m² or kg; `None`: not stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub armature: Option<f64>,
+}
+
+impl Servo {
+    /// The stiffness of the servo of a joint that turns, where neither it nor a greatest torque is stated, N·m/rad.
     pub const TURN_STIFFNESS_DEFAULT: f64 = 150.0;
-    /// The stiffness of the servo of a joint that slides, where the judge assumes one, N/m: 1.5e4, that of a joint
-    /// that turns at a lever of 0.1 m.
+    /// The stiffness of the servo of a joint that slides, where neither it nor a greatest force is stated, N/m: that of
+    /// a joint that turns at a lever of 0.1 m.
     pub const SLIDE_STIFFNESS_DEFAULT: f64 = 1.5e4;
+    /// The angle by which a servo is assumed to yield under its greatest torque where no stiffness is stated, rad: 1°.
+    pub const TURN_YIELD_DEFAULT: f64 = std::f64::consts::PI / 180.0;
+    /// The distance by which a servo is assumed to yield under its greatest force where no stiffness is stated, m: 1° at a
+    /// lever of 0.1 m.
+    pub const SLIDE_YIELD_DEFAULT: f64 = 0.1 * Servo::TURN_YIELD_DEFAULT;
+
+    /// Returns true if nothing is stated.
+    pub fn is_unstated(&self) -> bool {
+        *self == Servo::default()
+    }
+
+    /// Returns the stiffness, N·m/rad or N/m: as stated, or such that the servo yields by 1° under its greatest effort
+    /// (N·m or N), or the default. `slides`: the joint slides.
+    pub fn stiffness(&self, slides: bool, effort: Option<f64>) -> f64 {
+        let (yields, unknown) = match slides {
+            true => (Servo::SLIDE_YIELD_DEFAULT, Servo::SLIDE_STIFFNESS_DEFAULT),
+            false => (Servo::TURN_YIELD_DEFAULT, Servo::TURN_STIFFNESS_DEFAULT),
+        };
+        self.stiffness.unwrap_or_else(|| effort.map_or(unknown, |effort| effort / yields))
+    }
 }
 
 /// The limits of a joint or a motor. Positions are in radians or metres; `None`: no limit stated.

@@ -37,7 +37,8 @@ pub use drive::{Drive, drives, motor_efforts};
 pub use fault::{LibraryFault, ModulePart};
 pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{
-    Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Strut,
+    Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Servo,
+    Strut,
 };
 pub use mass::Mass;
 pub use matching::{Matching, Mismatch, matching};

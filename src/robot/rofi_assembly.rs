@@ -5,7 +5,7 @@
 use super::rofi::{Dock, World};
 use super::{
     Assembly, Bond, Capture, Connector, Joint, JointKind, Library, Limits, Link, ModuleInstance, ModuleType,
-    Port, PortRef, State,
+    Port, PortRef, Servo, State,
 };
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3};
@@ -126,7 +126,18 @@ fn joint(
         effort: Some(JOINT_TORQUE_MAX),
     };
     let name = name.into();
-    Joint { name, parent, child, kind: JointKind::Revolute, pose, axis, limits, passive: false, mimic: None }
+    Joint {
+        name,
+        parent,
+        child,
+        kind: JointKind::Revolute,
+        pose,
+        axis,
+        limits,
+        passive: false,
+        mimic: None,
+        servo: Servo::default(),
+    }
 }
 
 /// Returns the docks +X, -X and -Z of a shoe. A port's x axis points outward.

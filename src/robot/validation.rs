@@ -4,7 +4,9 @@
 //! position of a fault in its text, a plan file the part of its library.
 
 use super::fault::{LibraryFault, ModulePart};
-use super::library::{Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Strut};
+use super::library::{
+    Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Servo, Strut,
+};
 use super::step::MIMIC_DEPTH_MAX;
 use crate::geometry::soundness::{EXTENT_MAX, THICKNESS_MIN, TOL_UNIT, check_placed, check_pose};
 use crate::geometry::{Placed, Solid, Unsound, Vec3, protrusion};
@@ -303,6 +305,9 @@ fn check_joint(joint: &Joint) -> Checked {
     unit(&joint.axis)?;
     let farthest = if joint.kind == JointKind::Prismatic { MODULE_EXTENT_MAX } else { POSITION_MAX };
     check_limits(&joint.limits, farthest)?;
+    let Servo { stiffness, armature } = joint.servo;
+    stiffness.iter().try_for_each(|k| need_positive(*k, QUANTITY_MAX, "the stiffness of its servo"))?;
+    armature.iter().try_for_each(|i| need_positive(*i, QUANTITY_MAX, "the armature of its servo"))?;
     joint.mimic.iter().flatten().try_for_each(|(_, factor)| need_bounded(*factor, POSITION_MAX, "a factor"))
 }
 

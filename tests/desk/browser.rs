@@ -163,7 +163,7 @@ fn hostile() -> Plan {
 const PROGRAMS: &[(&str, &str)] = &[
     ("walkbot", include_str!("../../examples/walkbot.mod")),
     ("falls", include_str!("../acceptance/falls.mod")),
-    ("collision", include_str!("../acceptance/collision.mod")),
+    ("collision", COLLISION),
     ("octahedron", FOLD),
     ("slab", SQUEEZE),
     ("ring", RING),
@@ -181,6 +181,15 @@ const SQUEEZE: &str = "use std.crystal.ExpandingCube
 lattice Row of ExpandingCube = row(16)
 lattice Slab of ExpandingCube = block(4, 4)
 emit(squeeze(Row, Slab), \"slab.plan.json\")
+";
+
+/// A chain that curls up into itself. Under full dynamics it would be overloaded before.
+const COLLISION: &str = "use std.smores.{Smores, Chain3}
+config Curl { part s[2]: Chain3
+  connect s[0].head -- s[1].tail
+  behavior curl = Pc([move(m.tilt, to: 90deg) for m in s[0].m ++ s[1].m])
+}
+emit(plan(Curl().curl(), world: world(dynamics: statics)), \"curl.plan.json\")
 ";
 
 /// A ring that lets go of a connection, opens and closes again.

@@ -65,6 +65,7 @@ fn rail_between(end: Vec<Placed>, borne: Vec<Placed>) -> Assembly {
         axis: Vec3::x(),
         limits: Limits { range: Some((-0.01, 1.0)), ..Limits::default() },
         passive: false,
+        servo: modl::robot::Servo::default(),
         mimic: None,
     };
     let port = |link: usize, pose: Pose| Port { name: "p".into(), link, pose, connector: 0 };

@@ -72,7 +72,18 @@ fn joint(n: &mut Numbers, index: usize, parent: usize, child: usize, between: Ve
     };
     let limits = Limits { range, ..Limits::default() };
     let (pose, axis) = (shifted(between), n.direction());
-    Joint { name: format!("j{index}"), parent, child, kind, pose, axis, limits, passive: false, mimic: None }
+    Joint {
+        name: format!("j{index}"),
+        parent,
+        child,
+        kind,
+        pose,
+        axis,
+        limits,
+        passive: false,
+        mimic: None,
+        servo: modl::robot::Servo::default(),
+    }
 }
 
 /// A place where the module reaches farthest in some direction, most often a little above the surface and sometimes beneath.

@@ -244,6 +244,7 @@ fn oblique() -> Assembly {
         axis: axis.normalize(),
         limits: Limits::default(),
         passive: false,
+        servo: modl::robot::Servo::default(),
         mimic: None,
     };
     let mut kind = robots::smores();

@@ -72,7 +72,18 @@ pub fn revolute(
 ) -> Joint {
     let limits = Limits { range, speed: Some(2.4086), acceleration: None, effort: Some(effort) };
     let (pose, kind) = (Pose::identity(), JointKind::Revolute);
-    Joint { name: name.into(), parent, child, kind, pose, axis, limits, passive: false, mimic: None }
+    Joint {
+        name: name.into(),
+        parent,
+        child,
+        kind,
+        pose,
+        axis,
+        limits,
+        passive: false,
+        mimic: None,
+        servo: modl::robot::Servo::default(),
+    }
 }
 
 fn port(name: &str, link: usize, turn: f64) -> Port {

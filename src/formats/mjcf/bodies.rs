@@ -127,7 +127,7 @@ fn joint(xml: &mut Xml, trees: &Trees, link: usize, step: &Step) {
         attributes.push(("range", numbers(range)));
     }
     if trees.is_driven(joint) {
-        attributes.push(("class", servo::class(trees, joint).into()));
+        attributes.extend(servo::attributes(trees, joint));
     }
     xml.leaf("joint", &attributes);
 }

@@ -1,10 +1,11 @@
-//! The servos of joints: stated values that modules do not have yet, and the actuators that they make.
+//! The servos of joints, from the facts of their modules, and the actuators that they make.
 
 use super::tree::Trees;
 use super::xml::{Attribute, Xml, number, numbers};
-use crate::robot::Joint;
+use crate::robot::Servo as Facts;
 
 /// A position servo with damping, and the inertia of its rotor as the joint feels it.
+#[derive(Clone, Copy, PartialEq)]
 struct Servo {
     /// The name of its class in the model.
     class: &'static str,
@@ -16,25 +17,53 @@ struct Servo {
     armature: f64,
 }
 
-/// The servo of joints that turn.
-const TURNING: Servo =
-    Servo { class: "turning", stiffness: Joint::TURN_STIFFNESS_DEFAULT, damping: 6.0, armature: 2e-3 };
-/// The servo of joints that slide: that of joints that turn at a lever of 0.1 m.
-const SLIDING: Servo =
-    Servo { class: "sliding", stiffness: Joint::SLIDE_STIFFNESS_DEFAULT, damping: 600.0, armature: 0.2 };
+/// The damping of a servo of unit stiffness where none is stated, s: 6 N·m·s/rad for 150 N·m/rad.
+const DAMPING_DEFAULT: f64 = 1.0 / 25.0;
+/// The armature of a servo of unit stiffness where none is stated, s²: 2e-3 kg·m² for 150 N·m/rad, so that the shortest
+/// period of a servo is that of a step of 1 ms or more.
+const ARMATURE_DEFAULT: f64 = 2e-3 / 150.0;
 
-fn servo(trees: &Trees, joint: usize) -> &'static Servo {
-    if trees.slides(joint) { &SLIDING } else { &TURNING }
+impl Servo {
+    fn of_stiffness(class: &'static str, stiffness: f64) -> Servo {
+        Servo {
+            class,
+            stiffness,
+            damping: DAMPING_DEFAULT * stiffness,
+            armature: ARMATURE_DEFAULT * stiffness,
+        }
+    }
+
+    /// Returns the servo of joints of which nothing is stated.
+    fn of_class(slides: bool) -> Servo {
+        let (class, stiffness) = match slides {
+            true => ("sliding", Facts::SLIDE_STIFFNESS_DEFAULT),
+            false => ("turning", Facts::TURN_STIFFNESS_DEFAULT),
+        };
+        Servo::of_stiffness(class, stiffness)
+    }
 }
 
-/// Returns the name of the class of a driven joint.
-pub(super) fn class(trees: &Trees, joint: usize) -> &'static str {
-    servo(trees, joint).class
+fn servo(trees: &Trees, joint: usize) -> Servo {
+    let slides = trees.slides(joint);
+    let facts = trees.servo(joint);
+    let stiffness = facts.stiffness(slides, trees.limits(joint).effort);
+    let assumed = Servo::of_stiffness(Servo::of_class(slides).class, stiffness);
+    Servo { armature: facts.armature.unwrap_or(assumed.armature), ..assumed }
+}
+
+/// Returns the attributes of a driven joint: its class, and its armature where that is not the class's.
+pub(super) fn attributes(trees: &Trees, joint: usize) -> Vec<Attribute<'static>> {
+    let servo = servo(trees, joint);
+    let mut attributes: Vec<Attribute> = vec![("class", servo.class.into())];
+    if servo.armature != Servo::of_class(trees.slides(joint)).armature {
+        attributes.push(("armature", number(servo.armature)));
+    }
+    attributes
 }
 
 /// Adds the classes of servos.
 pub(super) fn defaults(xml: &mut Xml) {
-    for Servo { class, stiffness, damping, armature } in [TURNING, SLIDING] {
+    for Servo { class, stiffness, damping, armature } in [Servo::of_class(false), Servo::of_class(true)] {
         xml.open("default", &[("class", class.into())]);
         xml.leaf("joint", &[("armature", number(armature))]);
         xml.leaf("position", &[("kp", number(stiffness)), ("kv", number(damping))]);
@@ -54,9 +83,13 @@ pub(super) fn actuators(xml: &mut Xml, trees: &Trees) {
         if !trees.is_driven(joint) {
             continue;
         }
-        let name = trees.joint_name(joint);
+        let (name, servo) = (trees.joint_name(joint), servo(trees, joint));
         let mut attributes: Vec<Attribute> =
-            vec![("name", name.clone()), ("class", class(trees, joint).into()), ("joint", name)];
+            vec![("name", name.clone()), ("class", servo.class.into()), ("joint", name)];
+        if servo.stiffness != Servo::of_class(trees.slides(joint)).stiffness {
+            attributes.push(("kp", number(servo.stiffness)));
+            attributes.push(("kv", number(servo.damping)));
+        }
         if let Some(range) = trees.range(joint) {
             attributes.push(("ctrlrange", numbers(range)));
         }

@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{DockingKind, Tracks};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Step};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -184,6 +184,11 @@ impl<'a> Trees<'a> {
             JointOwner::Module { module, joint } => self.robot.module_type(module).joints[joint].limits,
             JointOwner::Bond(bond) => self.robot.hinge(bond).map_or(Limits::default(), |hinge| hinge.limits),
         }
+    }
+
+    /// Returns the facts of a joint's servo.
+    pub(super) fn servo(&self, joint: usize) -> Servo {
+        self.robot.servo(self.joints[joint])
     }
 
     /// Returns true if a joint slides; its positions are then in m.

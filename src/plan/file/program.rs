@@ -250,6 +250,7 @@ pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<Stri
         | ExemptionKind::Acceleration
         | ExemptionKind::Balance
         | ExemptionKind::Traction
+        | ExemptionKind::Saturation
         | ExemptionKind::Collision(None)
         | ExemptionKind::Overload(None) => vec![],
     }

@@ -36,6 +36,7 @@ impl Names<'_> {
             | ExemptionKind::Acceleration
             | ExemptionKind::Balance
             | ExemptionKind::Traction
+            | ExemptionKind::Saturation
             | ExemptionKind::Collision(None)
             | ExemptionKind::Overload(None) => Ok(()),
         }

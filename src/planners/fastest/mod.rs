@@ -41,6 +41,7 @@
 //! #         axis: Vec3::z(),
 //! #         limits,
 //! #         passive: false,
+//! #         servo: modl::robot::Servo::default(),
 //! #         mimic: None,
 //! #     }],
 //! #     ports: vec![],

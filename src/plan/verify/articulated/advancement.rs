@@ -221,7 +221,12 @@ impl<'a> Advancement<'a> {
     }
 
     /// Returns the pair of two bodies of different modules; `None` if a rigid bond joins their links.
-    pub(super) fn pair_of_modules(&self, region: &Region, level: u32, (a, b): (usize, usize)) -> Option<BodyPair> {
+    pub(super) fn pair_of_modules(
+        &self,
+        region: &Region,
+        level: u32,
+        (a, b): (usize, usize),
+    ) -> Option<BodyPair> {
         let (x, y) = (&self.bodies.bodies[a], &self.bodies.bodies[b]);
         let bonded = region.bonded.get(x.link, y.link);
         if bonded.is_some_and(|pair| pair.rigid) {
@@ -503,7 +508,13 @@ impl<'a> Advancement<'a> {
 
     /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short enough
     /// to be an instant: before it the pair is proved to be separated.
-    pub(super) fn collide(&mut self, region: &Region, pair: &BodyPair, distance: f64, instant: Option<Instant>) {
+    pub(super) fn collide(
+        &mut self,
+        region: &Region,
+        pair: &BodyPair,
+        distance: f64,
+        instant: Option<Instant>,
+    ) {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
         let excuse = self.excuse(region, a.module, b.module);
         let key = (a.module, b.module, excuse.is_some());

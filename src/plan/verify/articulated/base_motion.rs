@@ -6,7 +6,7 @@ use super::rollout::Sample;
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, Worst};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status, Worst};
 use crate::units::{Dimension, quantity};
 
 /// The monitor of the base: it follows its motion, sums slip, and looks for contact that penetrates a ground on which
@@ -21,6 +21,10 @@ pub(super) struct Monitor<'a> {
     yaw: f64,
     /// The slip of each link, by its number, summed over the samples at which it carries a share of the weight, m.
     slips: Vec<f64>,
+    /// The greatest slip that is stated, m.
+    slip_max: Option<f64>,
+    /// The times (s) at which links, by their numbers, come to slip by more.
+    exceeded: Vec<(f64, usize)>,
     /// The number of samples.
     samples: usize,
     /// The deepest penetration so far of the present interval: (depth, m; time, s; name of the module; begin of the
@@ -32,7 +36,7 @@ pub(super) struct Monitor<'a> {
 
 impl<'a> Monitor<'a> {
     /// Returns a monitor before the first sample.
-    pub(super) fn new(tolerances: &'a Tolerances) -> Monitor<'a> {
+    pub(super) fn new(settings: &Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
         let identity = Pose::identity();
         Monitor {
             tolerances,
@@ -40,6 +44,8 @@ impl<'a> Monitor<'a> {
             last: identity,
             yaw: 0.0,
             slips: vec![],
+            slip_max: settings.slip_max,
+            exceeded: vec![],
             samples: 0,
             deepest: None,
             grounds: vec![],
@@ -80,13 +86,20 @@ impl<'a> Monitor<'a> {
         let mut excused = false;
         for &(link, slip, load) in sample.slips {
             if load >= self.tolerances.slip_load {
+                let before = self.slips[link];
                 self.slips[link] += slip;
                 excused |= self.slips[link] > self.tolerances.slip;
+                let crosses = |most: f64| before <= most && self.slips[link] > most;
+                if self.slip_max.is_some_and(crosses) {
+                    self.exceeded.push((sample.time, link));
+                }
             }
         }
-        if excused {
-            // Slip is reported, it fails nothing: an exemption is needed as soon as there is some.
-            ledger.excuses(CheckKind::Slip, sample.time, |kind| *kind == ExemptionKind::Slip);
+        // Without a limit slip fails nothing: an exemption is needed as soon as there is some.
+        let covered =
+            excused && ledger.excuses(CheckKind::Slip, sample.time, |kind| *kind == ExemptionKind::Slip);
+        if covered {
+            self.exceeded.retain(|(time, _)| *time < sample.time);
         }
     }
 
@@ -148,14 +161,33 @@ impl<'a> Monitor<'a> {
                 (false, false) => Status::NotChecked("there is no ground".to_owned()),
             },
         );
-        // No limit on slip can be stated yet: it is measured where the robot travels.
+        for &(time, link) in &self.exceeded {
+            ledger.fail(slip_failure(time, names(link), self.slips[link], self.slip_max.unwrap_or(0.0)));
+        }
         ledger.check(
             CheckKind::Slip,
             match settles {
+                true if self.slip_max.is_some() => Status::Sampled(self.samples),
                 true => Status::NoLimit,
                 false => Status::NotChecked("the base is not carried by the ground".to_owned()),
             },
         );
+    }
+}
+
+/// Returns the failure of a link, by name, that slips by `slip` in all, more than `most` (m) from `time` (s) on.
+fn slip_failure(time: f64, name: String, slip: f64, most: f64) -> Failure {
+    let [slipped, allowed] = [slip, most].map(|length| quantity(length, Dimension::LENGTH));
+    Failure {
+        kind: CheckKind::Slip,
+        time,
+        until: None,
+        message: format!("{name} slips {slipped} over the ground in all, and may slip {allowed}"),
+        at: vec![name],
+        value: slip,
+        limit: most,
+        blame: vec![],
+        blames_start: false,
     }
 }
 

@@ -67,7 +67,10 @@ fn judge_deflected(rollout: &Rollout, along: Polyline, planned: &[Collision], le
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Deflection);
     }
-    let meets = |c: &&Collision| !c.exempt && planned.iter().all(|p| p.modules != c.modules);
+    let meets = |c: &&Collision| {
+        let deep = c.depth > c.allowed + rollout.tolerances.deflected_depth;
+        deep && !c.exempt && planned.iter().all(|p| p.modules != c.modules)
+    };
     for meeting in found.collisions.iter().filter(meets) {
         let mut failure = meeting.failure(&tracks.robot);
         failure.kind = CheckKind::Deflection;

@@ -126,7 +126,7 @@ fn check_samples(
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
-    let mut base_motion = base_motion::Monitor::new(rollout.tolerances);
+    let mut base_motion = base_motion::Monitor::new(rollout.settings, rollout.tolerances);
     let mut torque = torque::Monitor::new(rollout.tolerances);
     let full = rollout.is_full();
     let mut recorder = dynamics::Recorder::default();

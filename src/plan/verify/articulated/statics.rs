@@ -12,7 +12,7 @@ use super::ground_features::Mat3;
 use super::model::Model;
 use super::stance::Stance;
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{JointId, JointKind, Motion, PortRef, Step, motor_efforts};
+use crate::robot::{JointId, Motion, PortRef, Step, motor_efforts};
 
 /// The loads of a robot that have a limit, with the cuts of its tree of links that make them: compiled once for the
 /// bonds that hold, for all postures.
@@ -238,16 +238,8 @@ impl Structure {
     /// Adds the loads of the joints that state an effort limit and move a step; passive joints and mimics have none.
     fn joints(&mut self, model: &Model, effects: &[Vec<(usize, f64)>]) {
         for (joint, owner) in model.robot.joints().enumerate() {
-            let (effort, turns) = match owner {
-                crate::robot::JointOwner::Module { module, joint } => {
-                    let declared = &model.robot.module_type(module).joints[joint];
-                    let own = !declared.passive && declared.mimic.is_none();
-                    (declared.limits.effort.filter(|_| own), declared.kind != JointKind::Prismatic)
-                }
-                crate::robot::JointOwner::Bond(bond) => {
-                    (model.robot.hinge(bond).and_then(|h| h.limits.effort), true)
-                }
-            };
+            let effort = model.robot.effort_limit(owner);
+            let turns = !model.robot.slides(owner);
             let Some(limit) = effort.filter(|_| !effects[joint].is_empty()) else { continue };
             self.loads.push(Load {
                 name: model.robot.joint_name(owner),

@@ -95,6 +95,9 @@ pub struct Tolerances {
     pub load_interval: f64,
     /// The distance within which a part counts as round about a joint's axis, m. Default 1e-9 m: rounding of poses.
     pub roundness: f64,
+    /// The depth beyond what is allowed up to which links that meet as servos yield are no failure, m. Default 1 mm: the usual
+    /// contact tolerance; grazing contacts push joints back that yield anyway.
+    pub deflected_depth: f64,
     /// The tolerances of the check of collisions.
     pub collision: Precision,
 }
@@ -105,6 +108,7 @@ impl Default for Tolerances {
         Tolerances {
             fall_min: 1e-9,
             fall_floor: 1e-3,
+            deflected_depth: 1e-3,
             gap_loaded: 1e-3,
             stiffness_min: 1e-3,
             load_min: 1e-6,

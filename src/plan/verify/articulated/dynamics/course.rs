@@ -6,10 +6,11 @@ use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_mo
 use super::super::model::Model;
 use super::super::polyline::Polyline;
 use super::super::rollout::{Rollout, Sample, positions};
-use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench};
+use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
 use super::bursts::Bursts;
+use super::elastic_tree::LimitedMotor;
 use super::equilibrium::{self, Equilibrium, Warm};
-use super::loads::Loads;
+use super::loads::{self, Loads};
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support};
 use super::tolerances::PARAMETERS;
@@ -17,8 +18,8 @@ use super::traction::{Way, Ways};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
-use crate::robot::JointId;
 use crate::robot::dynamics::{Dynamics, Twist};
+use crate::robot::{JointId, JointOwner};
 use crate::units::{Dimension, number, quantity};
 use std::collections::VecDeque;
 
@@ -90,6 +91,29 @@ fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recorded> {
 struct Compiled<'a> {
     model: Model<'a>,
     structure: Structure,
+    /// The rotors of motors whose inertia is stated.
+    rotors: Vec<Rotor>,
+}
+
+/// The rotor of the motor of a joint.
+struct Rotor {
+    /// The joint, by [`JointId`].
+    joint: usize,
+    /// Its inertia as the joint feels it, kg·m² or kg.
+    inertia: f64,
+    /// The index of a cut that the joint drives, and the factor of the cut's motion, which is not 0.
+    cut: usize,
+    factor: f64,
+}
+
+fn rotors(model: &Model) -> Vec<Rotor> {
+    let owners = model.robot.joints().enumerate().zip(effects(model));
+    let of = |((joint, owner), driven): ((usize, JointOwner), Vec<(usize, f64)>)| {
+        let inertia = model.robot.servo(owner).armature?;
+        let (cut, factor) = driven.into_iter().find(|(_, factor)| *factor != 0.0)?;
+        Some(Rotor { joint, inertia, cut, factor })
+    };
+    owners.filter_map(of).collect()
 }
 
 /// The course of loads along a rollout.
@@ -128,7 +152,7 @@ impl<'a> Course<'a> {
         let robot = &rollout.tracks.robot;
         let compile = |bonds: &Vec<bool>| {
             let model = Model::new(robot, bonds);
-            Compiled { structure: Structure::new(&model), model }
+            Compiled { structure: Structure::new(&model), rotors: rotors(&model), model }
         };
         let compiled = recorder.bonds.iter().map(compile).collect();
         let bursts = Bursts::new(rollout.tracks);
@@ -202,7 +226,7 @@ impl<'a> Course<'a> {
     /// found.
     fn loads(&self, index: usize, moving: bool, friction: f64, warm: &mut Warm) -> Option<Loaded> {
         let recorded = &self.instants[index];
-        let Compiled { model, structure } = &self.compiled[recorded.bonds];
+        let Compiled { model, structure, rotors } = &self.compiled[recorded.bonds];
         let posed = self.posed(index);
         let world = World { friction: recorded.world.friction * friction, ..recorded.world };
         let situation = match moving {
@@ -222,9 +246,44 @@ impl<'a> Course<'a> {
             .enumerate()
             .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
             .collect();
-        let held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
-        let Loads { efforts, deflections, imbalance, .. } = loads;
+        let mut held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
+        let Loads { mut efforts, deflections, imbalance, .. } = loads;
+        for rotor in rotors.iter().filter(|_| moving) {
+            let effort = rotor.inertia * posed.accelerations[rotor.joint];
+            efforts[rotor.joint] += effort;
+            held[rotor.cut] -= effort / rotor.factor;
+        }
         Some(Loaded { held, efforts, deflections, ground, imbalance, open, slides })
+    }
+
+    /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more than
+    /// their limits, and its deflection, rad or m. `None` where no rest is found.
+    fn sag(&self, index: usize) -> Option<(usize, f64)> {
+        let recorded = &self.instants[index];
+        let posed = self.posed(index);
+        let situation = Situation::at_rest(&posed, &recorded.world);
+        let found = equilibrium::solve(&situation, None, &mut Warm::default())?;
+        let forces: Vec<Vec3> = found.friction.iter().map(|(_, force)| *force).collect();
+        let robot = &self.rollout.tracks.robot;
+        let limited = |(joint, owner): (usize, JointOwner)| {
+            let effort = robot.effort_limit(owner)?;
+            Some(LimitedMotor { joint, deflection: effort / situation.stiffness[joint] })
+        };
+        let motors = robot.joints().enumerate().filter_map(limited).collect();
+        let deflections = loads::sag(&situation, &forces, motors)?;
+        let most = deflections.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some((most.0, most.1.abs()))
+    }
+
+    /// Returns true if `allows saturation` excuses an overload of a joint at an instant, because the robot then sags little,
+    /// and marks it as needed.
+    fn is_saturated(&self, load: &Load, index: usize, ledger: &mut Ledger) -> bool {
+        let time = self.instants[index].time;
+        let of = |kind: &ExemptionKind| *kind == ExemptionKind::Saturation;
+        matches!(load.kind, LoadKind::Joint { .. })
+            && self.rollout.exemptions.iter().any(|e| of(&e.kind) && e.covers(time))
+            && self.sag(index).is_some_and(|(_, sag)| sag <= PARAMETERS.sag_allowed)
+            && ledger.excuses(CheckKind::Torque, time, of)
     }
 
     /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it,
@@ -305,7 +364,10 @@ impl<'a> Course<'a> {
             let value = structure.size(load, &mean);
             let ratio = value / load.limit;
             keep_margin(load, ratio, *time, ledger);
-            if ratio <= 1.0 - self.rollout.settings.reserve || is_excused(load, *time, ledger) {
+            if ratio <= 1.0 - self.rollout.settings.reserve
+                || is_excused(load, *time, ledger)
+                || self.is_saturated(load, *middle, ledger)
+            {
                 continue;
             }
             match found.overloads.iter_mut().find(|over| over.overload.is_of(load)) {
@@ -335,7 +397,12 @@ impl<'a> Course<'a> {
         };
         // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
         let shares = size(false, 0.0).zip(size(false, 1.0));
-        overload.failure(shares, self.rollout.settings.reserve)
+        let mut failure = overload.failure(shares, self.rollout.settings.reserve);
+        let at_rest = shares.is_some_and(|(_, standing)| standing > load.limit);
+        if at_rest && matches!(load.kind, LoadKind::Joint { .. }) {
+            failure.message += &self.sag_words(overload.instant);
+        }
+        failure
     }
 
     /// Notes a margin of torque that is smaller than the error of the loads.
@@ -350,6 +417,20 @@ impl<'a> Course<'a> {
                 quantity(worst.time, Dimension::TIME)
             );
             ledger.note(note);
+        }
+    }
+
+    /// Returns in words how far the robot would sag at an instant.
+    fn sag_words(&self, index: usize) -> String {
+        let robot = &self.rollout.tracks.robot;
+        match self.sag(index).filter(|(_, sag)| *sag <= PARAMETERS.deflection_max) {
+            None => "; it would give way".to_owned(),
+            Some((joint, sag)) => {
+                let owner = robot.joints().nth(joint).expect("a joint of the robot");
+                let dimension = if robot.slides(owner) { Dimension::LENGTH } else { Dimension::ANGLE };
+                let name = robot.joint_name(owner);
+                format!("; with its motors at their limits, {name} would sag by {}", quantity(sag, dimension))
+            }
         }
     }
 

@@ -26,6 +26,17 @@ pub(super) struct Pushing {
     pub contacts: Vec<bool>,
     /// A flag for each stop.
     pub stops: Vec<bool>,
+    /// Two flags for each motor with a limit ([`ElasticTree::limited`]): it is there upwards, and downwards.
+    pub limits: Vec<bool>,
+}
+
+/// A motor that bears no more than its limit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LimitedMotor {
+    /// Its joint, by [`crate::robot::JointId`].
+    pub joint: usize,
+    /// The deflection at which it bears its limit, rad or m.
+    pub deflection: f64,
 }
 
 /// The displacements of a robot.
@@ -79,6 +90,8 @@ pub(super) struct ElasticTree<'a> {
     /// The driver of each step that has its own.
     drivers: Vec<Option<Driver>>,
     coupled: Vec<Coupled>,
+    /// The motors that bear no more than their limits.
+    motors: Vec<LimitedMotor>,
     /// The load on each link, by its number.
     loads: Vec<Vector6<f64>>,
 }
@@ -135,8 +148,15 @@ impl<'a> ElasticTree<'a> {
             axes: steps.iter().map(axis).collect(),
             drivers: steps.iter().map(driver).collect(),
             coupled: coupled.map(|(joint, steps)| Coupled { joint, steps: steps.clone() }).collect(),
+            motors: vec![],
             loads,
         }
+    }
+
+    /// Returns it with motors that yield at their limits: beyond, their stiffness is but
+    /// [`yielding_share`](super::tolerances::Parameters::yielding_share) of what it is.
+    pub(super) fn limited(self, motors: Vec<LimitedMotor>) -> ElasticTree<'a> {
+        ElasticTree { motors, ..self }
     }
 
     /// Returns the displacements in equilibrium, found from the guess `pushing`, which becomes what does push; `None`
@@ -145,6 +165,7 @@ impl<'a> ElasticTree<'a> {
         let bears = pushing.contacts.iter().any(|pushes| *pushes);
         pushing.contacts.resize(self.situation.candidates.len(), true);
         pushing.stops.resize(self.situation.stops.len(), false);
+        pushing.limits.resize(2 * self.motors.len(), false);
         if !bears {
             pushing.contacts.fill(true);
         }
@@ -155,11 +176,10 @@ impl<'a> ElasticTree<'a> {
             return Some(displaced);
         }
         for _ in 0..PARAMETERS.contact_rounds_max {
-            let (contacts, stops) = gaps.split_at(self.situation.candidates.len());
-            *pushing = Pushing {
-                contacts: contacts.iter().map(|gap| *gap < 0.0).collect(),
-                stops: stops.iter().map(|gap| *gap < 0.0).collect(),
-            };
+            let mut flags = gaps.iter().map(|gap| *gap < 0.0);
+            let contacts = flags.by_ref().take(self.situation.candidates.len()).collect();
+            let stops = flags.by_ref().take(self.situation.stops.len()).collect();
+            *pushing = Pushing { contacts, stops, limits: flags.collect() };
             let next = self.linear(pushing)?;
             let reached = self.gaps(&next);
             if self.agree(&reached, pushing) {
@@ -175,7 +195,8 @@ impl<'a> ElasticTree<'a> {
     /// Returns the force of each contact and stop under displacements, N or N·m.
     pub(super) fn forces(&self, displaced: &Displaced) -> (Vec<f64>, Vec<f64>) {
         let gaps = self.gaps(displaced);
-        let (contacts, stops) = gaps.split_at(self.situation.candidates.len());
+        let (contacts, others) = gaps.split_at(self.situation.candidates.len());
+        let stops = &others[..self.situation.stops.len()];
         let pushes = |gaps: &[f64], stiffness: f64| gaps.iter().map(|g| stiffness * (-g).max(0.0)).collect();
         (pushes(contacts, PARAMETERS.contact_stiffness), pushes(stops, PARAMETERS.stop_stiffness))
     }
@@ -187,17 +208,38 @@ impl<'a> ElasticTree<'a> {
         (0..self.situation.loops.len()).map(|index| wrench(self.relative(index, &displaced.links))).collect()
     }
 
-    /// Returns the gap of each contact, then that of each stop, m or rad; negative where it pushes.
+    /// Returns the gap of each contact, that of each stop, and two of each motor with a limit, upwards and downwards, m or
+    /// rad; negative where it pushes, or where the motor is beyond its limit.
     fn gaps(&self, displaced: &Displaced) -> Vec<f64> {
         let Situation { candidates, stops, .. } = self.situation;
         let contact = candidates.iter().map(|c| c.gap + rise(&c.p).dot(&displaced.links[c.link]));
         let stop = stops.iter().map(|stop| stop.gap + stop.sign * displaced.joints[stop.joint]);
-        contact.chain(stop).collect()
+        let limit = |motor: &LimitedMotor| {
+            let deflection = displaced.joints[motor.joint];
+            [motor.deflection - deflection, motor.deflection + deflection]
+        };
+        contact.chain(stop).chain(self.motors.iter().flat_map(limit)).collect()
     }
 
-    /// Returns true if contacts and stops push as these gaps say, but for those that just touch.
+    /// Returns what the spring of a gap, by its index, adds to the stiffness where it is negative, N/m or N·m/rad.
+    fn gap_stiffness(&self, index: usize) -> f64 {
+        let (contacts, stops) = (self.situation.candidates.len(), self.situation.stops.len());
+        match index.checked_sub(contacts + stops) {
+            Some(limit) => -self.stiffness_lost(&self.motors[limit / 2]),
+            None if index < contacts => PARAMETERS.contact_stiffness,
+            None => PARAMETERS.stop_stiffness,
+        }
+    }
+
+    /// Returns the stiffness that a motor loses beyond its limit, N·m/rad or N/m.
+    fn stiffness_lost(&self, motor: &LimitedMotor) -> f64 {
+        (1.0 - PARAMETERS.yielding_share) * self.situation.stiffness[motor.joint]
+    }
+
+    /// Returns true if contacts and stops push, and motors are at their limits, as these gaps say, but for those that just
+    /// touch.
     fn agree(&self, gaps: &[f64], pushing: &Pushing) -> bool {
-        let flags = pushing.contacts.iter().chain(&pushing.stops);
+        let flags = pushing.contacts.iter().chain(&pushing.stops).chain(&pushing.limits);
         gaps.iter().zip(flags).all(|(gap, pushes)| (*gap < 0.0) == *pushes || gap.abs() < PARAMETERS.touching)
     }
 
@@ -232,7 +274,7 @@ impl<'a> ElasticTree<'a> {
         Displaced { links: response.links, joints }
     }
 
-    /// Returns the spring of each joint with those of its stops that push, by [`crate::robot::JointId`]: its stiffness
+    /// Returns the spring of each joint with those of its stops that push and its motor's limit, by [`crate::robot::JointId`]: its stiffness
     /// and the slope of its potential where it is not deflected.
     fn joint_springs(&self, pushing: &Pushing) -> Vec<(f64, f64)> {
         let mut springs: Vec<(f64, f64)> = self.situation.stiffness.iter().map(|k| (*k, 0.0)).collect();
@@ -240,6 +282,14 @@ impl<'a> ElasticTree<'a> {
             let spring = &mut springs[stop.joint];
             spring.0 += PARAMETERS.stop_stiffness;
             spring.1 += PARAMETERS.stop_stiffness * stop.sign * stop.gap;
+        }
+        for (index, _) in pushing.limits.iter().enumerate().filter(|(_, on)| **on) {
+            let motor = &self.motors[index / 2];
+            let lost = self.stiffness_lost(motor);
+            let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
+            let spring = &mut springs[motor.joint];
+            spring.0 -= lost;
+            spring.1 += sign * lost * motor.deflection;
         }
         springs
     }
@@ -409,13 +459,9 @@ impl<'a> ElasticTree<'a> {
     fn line_search(&self, from: &Displaced, to: &Displaced, gaps: &[f64], reached: &[f64]) -> f64 {
         let change = to.since(from);
         let slopes = [self.slope(from, &change), self.slope(to, &change)];
-        let contacts = self.situation.candidates.len();
         let rates: Vec<f64> = gaps.iter().zip(reached).map(|(a, b)| b - a).collect();
         let slope = |part: f64| {
-            let push = |i: usize| {
-                let k = if i < contacts { PARAMETERS.contact_stiffness } else { PARAMETERS.stop_stiffness };
-                k * (gaps[i] + part * rates[i]).min(0.0) * rates[i]
-            };
+            let push = |i: usize| self.gap_stiffness(i) * (gaps[i] + part * rates[i]).min(0.0) * rates[i];
             slopes[0] + part * (slopes[1] - slopes[0]) + (0..gaps.len()).map(push).sum::<f64>()
         };
         let end = slope(1.0);

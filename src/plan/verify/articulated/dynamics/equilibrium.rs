@@ -46,7 +46,8 @@ pub(super) fn solve(
     let candidates = &situation.candidates;
     let known = |c: &Candidate| warm.loads.get(&c.feature).copied().unwrap_or(0.0);
     let mut loads: Vec<f64> = candidates.iter().map(known).collect();
-    let mut pushing = Pushing { contacts: loads.iter().map(|load| *load > 0.0).collect(), stops: vec![] };
+    let mut pushing =
+        Pushing { contacts: loads.iter().map(|load| *load > 0.0).collect(), ..Pushing::default() };
     let none = vec![Vec3::zeros(); candidates.len()];
     if loads.iter().sum::<f64>() < PARAMETERS.load_guess_min * situation.weight {
         loads = loads::solve(situation, &none, &mut pushing)?.normal;

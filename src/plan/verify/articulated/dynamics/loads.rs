@@ -2,7 +2,7 @@
 //! equilibrium.
 
 use super::super::model::RangedJoint;
-use super::elastic_tree::{ElasticTree, Pushing, joined};
+use super::elastic_tree::{ElasticTree, LimitedMotor, Pushing, joined};
 use super::posed::{Posed, Situation, Support};
 use super::tolerances::PARAMETERS;
 use crate::geometry::Vec3;
@@ -94,18 +94,38 @@ pub(super) struct Loads {
     pub imbalance: f64,
 }
 
-/// Returns the loads under these forces of friction at the candidates (N, in level axes); `None` where the method gives
-/// up. `pushing`: a guess which candidates and stops bear, which becomes those that do.
-pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushing) -> Option<Loads> {
+/// Takes what a force (N) at `p` (m) on a link bears off its wrench.
+fn carry(wrenches: &mut [Wrench], link: usize, p: &Vec3, force: &Vec3) {
+    wrenches[link].force -= force;
+    wrenches[link].moment -= p.cross(force);
+}
+
+/// Returns the wrench that each link needs, by its number, besides these forces of friction at the candidates (N, in level
+/// axes).
+fn under_friction(problem: &Situation, friction: &[Vec3]) -> Vec<Wrench> {
     let mut wrenches = problem.needed.clone();
-    let carry = |wrenches: &mut Vec<Wrench>, link: usize, p: &Vec3, force: &Vec3| {
-        wrenches[link].force -= force;
-        wrenches[link].moment -= p.cross(force);
-    };
     for (candidate, force) in problem.candidates.iter().zip(friction) {
         carry(&mut wrenches, candidate.link, &candidate.p, force);
     }
-    let tree = ElasticTree::new(problem, wrenches.iter().map(|w| joined(&w.force, &w.moment)).collect());
+    wrenches
+}
+
+fn tree<'a>(problem: &'a Situation<'a>, wrenches: &[Wrench]) -> ElasticTree<'a> {
+    ElasticTree::new(problem, wrenches.iter().map(|w| joined(&w.force, &w.moment)).collect())
+}
+
+/// Returns the deflection of each joint (rad or m) under these forces of friction at the candidates (N, in level axes), of
+/// motors that bear no more than their limits; `None` where the method gives up.
+pub(super) fn sag(problem: &Situation, friction: &[Vec3], motors: Vec<LimitedMotor>) -> Option<Vec<f64>> {
+    let tree = tree(problem, &under_friction(problem, friction)).limited(motors);
+    Some(tree.settle(&mut Pushing::default())?.joints)
+}
+
+/// Returns the loads under these forces of friction at the candidates (N, in level axes); `None` where the method gives
+/// up. `pushing`: a guess which candidates and stops bear, which becomes those that do.
+pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushing) -> Option<Loads> {
+    let mut wrenches = under_friction(problem, friction);
+    let tree = tree(problem, &wrenches);
     let displaced = tree.settle(pushing)?;
     let (normal, stops) = tree.forces(&displaced);
     let bonds = tree.bonds(&displaced);

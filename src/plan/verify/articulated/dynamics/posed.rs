@@ -8,8 +8,8 @@ use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, World};
+use crate::robot::JointOwner;
 use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
-use crate::robot::{Joint, JointOwner};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector6};
 use std::collections::BTreeMap;
 
@@ -345,17 +345,18 @@ impl<'a> Situation<'a> {
     }
 }
 
-/// Returns the stiffness of each joint's servo, by [`crate::robot::JointId`], N·m/rad or N/m: the default of joints, or
+/// Returns the stiffness of each joint's servo, by [`crate::robot::JointId`], N·m/rad or N/m
+/// ([`Servo::stiffness`](crate::robot::Servo::stiffness)), or
 /// [`passive_stiffness`](super::tolerances::Parameters::passive_stiffness).
 fn stiffness(model: &Model) -> Vec<f64> {
+    let robot = model.robot;
     let of = |owner| match owner {
-        JointOwner::Module { module, joint } if model.robot.module_type(module).joints[joint].passive => {
+        JointOwner::Module { module, joint } if robot.module_type(module).joints[joint].passive => {
             PARAMETERS.passive_stiffness
         }
-        _ if model.robot.slides(owner) => Joint::SLIDE_STIFFNESS_DEFAULT,
-        _ => Joint::TURN_STIFFNESS_DEFAULT,
+        _ => robot.servo(owner).stiffness(robot.slides(owner), robot.effort_limit(owner)),
     };
-    model.robot.joints().map(of).collect()
+    robot.joints().map(of).collect()
 }
 
 /// Returns the sum of wrenches about one point.

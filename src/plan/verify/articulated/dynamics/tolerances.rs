@@ -87,6 +87,11 @@ pub(super) struct Parameters {
     pub servo_stiffer: f64,
     /// The error of the greatest torque against simulations, as a fraction: 0.1, where nothing touches down.
     pub load_error: f64,
+    /// The part of its stiffness that a servo keeps at the limit of its motor, so that what gives way comes to rest: 1/750,
+    /// 0.2 N·m/rad of 150.
+    pub yielding_share: f64,
+    /// The sag of a joint up to which `allows saturation` excuses an overload, rad or m: 5°.
+    pub sag_allowed: f64,
     /// The greatest deflection of a joint that counts as yielding, rad or m: 20°. Beyond, the robot gives way, and linear
     /// springs say nothing of where its links are.
     pub deflection_max: f64,
@@ -146,6 +151,8 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     servo_softer: 0.4,
     servo_stiffer: 3.3,
     load_error: 0.1,
+    yielding_share: 1.0 / 750.0,
+    sag_allowed: 0.0873,
     deflection_max: 0.35,
     way_undetermined: 0.5,
     way_uncertain: 0.1,
