@@ -424,9 +424,10 @@ const GAINS: [f64; 2] = [60.0, 500.0];
 /// The torque in parts of its limit up to which what happens must be passed.
 pub(super) const SURE: f64 = 0.8;
 
-/// Returns the verdict on a plan under full dynamics.
+/// Returns the verdict on a plan under full dynamics, with no reserve.
 fn under_full_dynamics(plan: &Plan) -> Verdict {
     let mut plan = plan.clone();
+    plan.settings.reserve = 0.0;
     plan.worlds.iter_mut().for_each(|from| from.world.dynamics = DynamicsModel::Full);
     verify(&plan)
 }
@@ -464,7 +465,10 @@ fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Val
     let cases: Vec<Case> = some
         .iter()
         .map(|(robot, behavior, _)| {
-            Case::of(&format!("use std.smores.{robot}\nlet x = {robot}()\nlet p = plan({behavior})"))
+            Case::of(&format!(
+                "use std.smores.{robot}\nlet x = {robot}()\n\
+                 let p = plan({behavior}, world: world(dynamics: statics))"
+            ))
         })
         .collect();
     let tasks = cases.iter().map(Case::task).collect();
@@ -509,7 +513,7 @@ fn what_is_verified_happens_in_a_simulation() {
     let Some(simulated) = played(&tasks, 150.0, "both", "") else { return };
     let mut wrong = vec![];
     for ((case, simulated), (robot, behavior, _)) in cases.iter().zip(&simulated).zip(some) {
-        let verdict = case.plan.verdict.as_ref().expect("it was verified");
+        let verdict = case.plan.verdict.as_ref().expect("it was verified under statics");
         let ours = Vec3::from(verdict.travel);
         let (mm, whole) = (|x: f64| x * 1e3, |x: f64| x.to_degrees().round() + 0.0);
         let get = |key: &str, index: usize| number(&simulated[key][index]);
