@@ -26,12 +26,15 @@ use std::collections::VecDeque;
 /// The attitude of the robot at an instant, as settling found it.
 #[derive(Clone, Copy)]
 struct Recorded {
+    /// The time of the instant, s.
     time: f64,
+    /// The orientation of the base in level axes.
     R: Mat3,
     /// The heading of the level axes in the world, rad.
     yaw: f64,
     /// The index of its bonds in [`Recorder::bonds`].
     bonds: usize,
+    /// The world just after the instant.
     world: World,
 }
 
@@ -40,12 +43,14 @@ struct Recorded {
 #[derive(Default)]
 pub(in super::super) struct Recorder {
     recorded: Vec<Recorded>,
+    /// The sets of bonds that held: a flag for each bond, true if it did.
     bonds: Vec<Vec<bool>>,
+    /// The travel up to the last sample.
     ways: Ways,
 }
 
 impl Recorder {
-    /// Takes a sample.
+    /// Records the attitude and the travel of a sample.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
         self.ways = sample.ways;
         let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
@@ -116,17 +121,21 @@ fn rotors(model: &Model) -> Vec<Rotor> {
     owners.filter_map(of).collect()
 }
 
-/// The course of loads along a rollout.
+/// The loads of a robot's joints, bonds and contacts along a rollout, with inertia and friction.
 pub(in super::super) struct Course<'a> {
     rollout: &'a Rollout<'a>,
+    /// The instants at which loads are determined, in order of time.
     instants: Vec<Recorded>,
+    /// The travel of the whole rollout.
     ways: Ways,
     bursts: Bursts,
-    /// The window of each instant, s.
+    /// The length of the window of each instant, over which velocities, accelerations and loads are means, s.
     windows: Vec<f64>,
     dynamics: Dynamics,
+    /// The robot with each set of bonds that held, by [`Recorded::bonds`].
     compiled: Vec<Compiled<'a>>,
-    /// Velocity and acceleration of the base's frame at each instant, in its level axes.
+    /// The velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of the base's frame at each instant, in the level axes
+    /// of the instant.
     motions: Vec<(Twist, Twist)>,
 }
 
@@ -140,14 +149,17 @@ struct Loaded {
     deflections: Vec<f64>,
     /// The forces of the ground, from the centre of mass in level axes.
     ground: Vec<LinkWrench>,
+    /// The imbalance of the base, as in [`Loads`](super::loads::Loads).
     imbalance: f64,
+    /// True if loads and friction did not come to agree.
     open: bool,
+    /// True if the inertial force is more than friction can carry.
     slides: bool,
 }
 
 impl<'a> Course<'a> {
-    /// Returns the course of a rollout whose attitudes were recorded: the motion of the base that friction gives it at
-    /// rest from instant to instant, and its accelerations.
+    /// Returns the loads along a rollout whose attitudes were recorded, and for them determines the motion of the base
+    /// at all instants.
     pub(in super::super) fn new(rollout: &'a Rollout<'a>, recorder: Recorder) -> Course<'a> {
         let robot = &rollout.tracks.robot;
         let compile = |bonds: &Vec<bool>| {
@@ -165,6 +177,7 @@ impl<'a> Course<'a> {
         course
     }
 
+    /// Returns the robot at the instant of an index, with the means over the window of the instant.
     fn posed(&self, index: usize) -> Posed<'_> {
         let recorded = &self.instants[index];
         let model = &self.compiled[recorded.bonds].model;
@@ -172,6 +185,10 @@ impl<'a> Course<'a> {
         Posed::new(model, &self.dynamics, self.rollout, at, &recorded.R)
     }
 
+    /// Returns velocity and acceleration of the base's frame at each instant, in the level axes of the instant. The
+    /// velocity is on the ground the one at which friction is in balance without inertia, without ground the one at
+    /// which the robot has no momentum, and 0 for a base that keeps its place; the acceleration is the difference
+    /// quotient of the velocity over the window.
     fn base_motions(&self) -> Vec<(Twist, Twist)> {
         let recorded = &self.instants;
         let mut warm = Warm::default();
@@ -222,8 +239,9 @@ impl<'a> Course<'a> {
         Twist { linear: mix(&from.linear, &to.linear), angular: mix(&from.angular, &to.angular) }
     }
 
-    /// Returns the loads of an instant: in motion, or as if the robot stood still in it. `None` where they can't be
-    /// found.
+    /// Returns the loads of the instant of an index: with velocities and accelerations if `moving`, else as if the
+    /// robot were at rest. `friction`: a factor on the friction of the world; `warm`: the guess, which becomes that of
+    /// the next instant. `None` where the loads can't be found.
     fn loads(&self, index: usize, moving: bool, friction: f64, warm: &mut Warm) -> Option<Loaded> {
         let recorded = &self.instants[index];
         let Compiled { model, structure, rotors } = &self.compiled[recorded.bonds];
@@ -352,7 +370,8 @@ impl<'a> Course<'a> {
         structure.loads.iter().any(|load| matches!(load.kind, LoadKind::Joint { .. }) && over(load))
     }
 
-    /// Compares the mean loads of a window with their limits.
+    /// Compares the mean loads over a window, of instants as (time in s, index, loads), with their limits, and the mean
+    /// imbalance of the base with `imbalance_max`.
     fn compare(&self, window: &VecDeque<(f64, usize, Loaded)>, found: &mut Findings, ledger: &mut Ledger) {
         let count = window.len() as f64;
         let (time, middle, _) = &window[window.len() / 2];
@@ -434,7 +453,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Judges if friction determines the travel.
+    /// Judges if friction and servos determine the travel: its end must not move by more than the part
+    /// `way_undetermined` of it under a variation, and if by more than `way_uncertain`, that is noted.
     fn travel(&self, ledger: &mut Ledger) {
         let differs =
             |way: &Way, part: f64| way.away > part * way.length && way.away > PARAMETERS.way_uncertain_min;
@@ -470,6 +490,7 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// Writes the findings of all instants into the verdict: the work, failures, notes, and the status of each check.
     fn finish(&self, found: &Findings, ledger: &mut Ledger) {
         ledger.verdict.energy = found.work.energy();
         if let Some((since, until, worst)) = found.unbalanced {
@@ -544,16 +565,18 @@ impl<'a> Course<'a> {
 /// Findings from instant to instant.
 #[derive(Default)]
 struct Findings {
+    /// The number of instants.
     instants: usize,
-    /// Instants at which no loads were found.
+    /// The number of instants at which no loads were found.
     unknown: usize,
-    /// Instants at which loads and friction did not agree.
+    /// The number of instants at which loads and friction did not come to agree.
     open: usize,
     /// The first time at which friction can't carry the inertial force, s.
     slides: Option<f64>,
-    /// Begin and end (s) of what is not balanced, and the greatest part of the weight.
+    /// The first and the last time (s) at which the base is not balanced and nothing excuses it, and its greatest mean
+    /// imbalance as a part of the weight; `None` if there is none.
     unbalanced: Option<(f64, f64, f64)>,
-    /// True if the robot is not balanced near a step of velocity.
+    /// True if the base is not balanced near a step of velocity, which is no failure.
     stepped: bool,
     overloads: Vec<MeanOverload>,
     work: MotorWork,
@@ -572,7 +595,7 @@ fn deflected(joints: &[f64], deflections: &[f64]) -> Option<Vec<f64>> {
     yields.then(deflected)
 }
 
-/// Returns a twist in axes turned back by `yaw` (rad) about the vertical: from level axes to those of the world.
+/// Returns a twist turned about the vertical by `yaw` (rad): given in level axes, it is returned in those of the world.
 fn turned(twist: &Twist, yaw: f64) -> Twist {
     let (s, c) = libm::sincos(yaw);
     let turn = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);

@@ -2,11 +2,11 @@
 //! contacts, stops and closing bonds are in equilibrium with loads.
 //!
 //! The potential is convex and quadratic by pieces, as contacts and stops only push: its minimum is found by Newton's
-//! method with an exact line search (Qi and Sun 1993, *A nonsmooth version of Newton's method*), from the guess which of
-//! them push. With those given the springs are linear, and one pass up the tree and one down give the displacements: the
-//! recursion of the articulated-body algorithm with stiffness in the place of inertia (Featherstone, *Rigid Body Dynamics
-//! Algorithms*, 2008, ch. 7), in time linear in the links. Bonds that close loops, and joints that drive several steps, cross
-//! the tree: a small dense system joins them to it.
+//! method with an exact line search (Qi and Sun 1993, *A nonsmooth version of Newton's method*), from the guess which
+//! of them push. With those given the springs are linear, and one pass up the tree and one down give the displacements:
+//! the recursion of the articulated-body algorithm with stiffness in the place of inertia (Featherstone, *Rigid Body
+//! Dynamics Algorithms*, 2008, ch. 7), in time linear in the links. Bonds that close loops, and joints that drive
+//! several steps, cross the tree: a small dense system joins them to it.
 //!
 //! Displacements of links are `[translation; rotation]` of the body at the centre of mass, in level axes, m and rad;
 //! loads on links are `[force; moment]` about it, N and N·m.
@@ -19,7 +19,7 @@ use nalgebra::{Cholesky, Const, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vec
 /// The components in which the ground bears the base: height, roll and pitch.
 const BEARING: [usize; 3] = [2, 3, 4];
 
-/// The contacts and stops that push.
+/// The active set: the contacts and stops that push.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pushing {
     /// A flag for each candidate.
@@ -49,7 +49,7 @@ pub(super) struct Displaced {
 }
 
 impl Displaced {
-    /// Returns the displacements a part of the way to others; 1 is there.
+    /// Returns the displacements interpolated linearly between these, at `part` 0, and others, at 1.
     fn toward(&self, other: &Displaced, part: f64) -> Displaced {
         let links = self.links.iter().zip(&other.links).map(|(a, b)| a + (b - a) * part);
         let joints = self.joints.iter().zip(&other.joints).map(|(a, b)| a + (b - a) * part);
@@ -69,7 +69,7 @@ impl Displaced {
 struct Driver {
     /// The joint, by [`crate::robot::JointId`].
     joint: usize,
-    /// The motion of the step for a unit of that of the joint.
+    /// The motion of the step for a unit of the joint's motion; not 0.
     factor: f64,
 }
 
@@ -82,13 +82,14 @@ struct Coupled {
     steps: Vec<(usize, f64)>,
 }
 
-/// A robot with elastic joints.
+/// A robot with elastic joints under loads on its links.
 pub(super) struct ElasticTree<'a> {
     situation: &'a Situation<'a>,
     /// The displacement of what each step carries by a unit of its motion; zero where it is fixed.
     axes: Vec<Vector6<f64>>,
     /// The driver of each step that has its own.
     drivers: Vec<Option<Driver>>,
+    /// The other joints that move steps.
     coupled: Vec<Coupled>,
     /// The motors that bear no more than their limits.
     motors: Vec<LimitedMotor>,
@@ -96,13 +97,14 @@ pub(super) struct ElasticTree<'a> {
     loads: Vec<Vector6<f64>>,
 }
 
-/// The springs with some contacts and stops pushing, factored.
+/// The springs with some contacts and stops pushing, factored by the pass from the leaves to the base.
 struct Factored {
-    /// The stiffness of each link with all that it carries, by the number of the link.
+    /// The articulated stiffness of each link, by its number: that of the contacts on it and on all that it carries,
+    /// with the joints beyond it in between.
     stiffness: Vec<Matrix6<f64>>,
-    /// The stiffness of each step times its axis.
+    /// The articulated stiffness of what each step carries, times the step's axis.
     pushed: Vec<Vector6<f64>>,
-    /// The stiffness along each step that has a driver.
+    /// The stiffness along each step that has a driver, that of its joint included, for a unit of the step's motion.
     pivots: Vec<f64>,
     /// The stiffness of the base in height, roll and pitch; `None` for a base that is held.
     base: Option<Cholesky<f64, Const<3>>>,
@@ -110,15 +112,18 @@ struct Factored {
 
 /// The response of the tree to loads.
 struct Response {
+    /// The displacement of each link, by its number.
     links: Vec<Vector6<f64>>,
     /// The motion of each step that has a driver, rad or m; 0 for others.
     steps: Vec<f64>,
-    /// The load of each link with all that it carries, without what its displacement adds.
+    /// The articulated load of each link, by its number: that of all that it carries, without what its own displacement
+    /// adds.
     carried: Vec<Vector6<f64>>,
 }
 
 impl<'a> ElasticTree<'a> {
-    /// Returns the robot in a situation under a load on each link, by its number.
+    /// Returns the robot in a situation under a load on each link, by its number: the gradient of the potential by the
+    /// link's displacement.
     pub(super) fn new(situation: &'a Situation<'a>, loads: Vec<Vector6<f64>>) -> ElasticTree<'a> {
         let posed = situation.posed;
         let steps = &posed.model.kinematics.steps;
@@ -160,7 +165,7 @@ impl<'a> ElasticTree<'a> {
     }
 
     /// Returns the displacements in equilibrium, found from the guess `pushing`, which becomes what does push; `None`
-    /// where the rounds do not suffice.
+    /// where the rounds do not suffice, or the springs hold no unique equilibrium.
     pub(super) fn settle(&self, pushing: &mut Pushing) -> Option<Displaced> {
         let bears = pushing.contacts.iter().any(|pushes| *pushes);
         pushing.contacts.resize(self.situation.candidates.len(), true);
@@ -171,7 +176,7 @@ impl<'a> ElasticTree<'a> {
         }
         let mut displaced = self.linear(pushing)?;
         let mut gaps = self.gaps(&displaced);
-        // The optimum of the springs that push there is that of all.
+        // If the guess is right, the minimum for its linear springs is that of the whole potential.
         if self.agree(&gaps, pushing) {
             return Some(displaced);
         }
@@ -192,7 +197,8 @@ impl<'a> ElasticTree<'a> {
         None
     }
 
-    /// Returns the force of each contact and stop under displacements, N or N·m.
+    /// Returns the force of each contact (N), and the effort of each stop (N·m or N), under displacements; not
+    /// negative.
     pub(super) fn forces(&self, displaced: &Displaced) -> (Vec<f64>, Vec<f64>) {
         let gaps = self.gaps(displaced);
         let (contacts, others) = gaps.split_at(self.situation.candidates.len());
@@ -201,8 +207,8 @@ impl<'a> ElasticTree<'a> {
         (pushes(contacts, PARAMETERS.contact_stiffness), pushes(stops, PARAMETERS.stop_stiffness))
     }
 
-    /// Returns the wrench in each bond that closes a loop, on the link of its first port at the bond: force (N) and
-    /// moment (N·m).
+    /// Returns the wrench of each bond that closes a loop on the link of its first port, about the bond, in level axes:
+    /// force (N) and moment (N·m).
     pub(super) fn bonds(&self, displaced: &Displaced) -> Vec<[f64; 6]> {
         let wrench = |relative: Vector6<f64>| relative.component_mul(&-bond_stiffness()).into();
         (0..self.situation.loops.len()).map(|index| wrench(self.relative(index, &displaced.links))).collect()
@@ -243,7 +249,8 @@ impl<'a> ElasticTree<'a> {
         gaps.iter().zip(flags).all(|(gap, pushes)| (*gap < 0.0) == *pushes || gap.abs() < PARAMETERS.touching)
     }
 
-    /// Returns the displacements with these contacts and stops as springs that push and pull.
+    /// Returns the displacements in equilibrium with these contacts and stops as springs that push and pull, the others
+    /// left out; `None` where a matrix is singular.
     fn linear(&self, pushing: &Pushing) -> Option<Displaced> {
         let springs = self.joint_springs(pushing);
         let factored = self.factored(pushing, &springs)?;
@@ -263,6 +270,7 @@ impl<'a> ElasticTree<'a> {
         Some(self.displaced(response, &across.as_slice()[..self.coupled.len()]))
     }
 
+    /// Returns the displacements of a response; `coupled`: the deflections of the coupled joints, rad or m.
     fn displaced(&self, response: Response, coupled: &[f64]) -> Displaced {
         let mut joints = vec![0.0; self.situation.stiffness.len()];
         for (driver, motion) in self.drivers.iter().zip(&response.steps) {
@@ -274,8 +282,9 @@ impl<'a> ElasticTree<'a> {
         Displaced { links: response.links, joints }
     }
 
-    /// Returns the spring of each joint with those of its stops that push and its motor's limit, by [`crate::robot::JointId`]: its stiffness
-    /// and the slope of its potential where it is not deflected.
+    /// Returns the spring of each joint with those of its stops that push and its motor's limit, by
+    /// [`crate::robot::JointId`]: its stiffness
+    /// (N·m/rad or N/m) and the slope of its potential where it is not deflected (N·m or N).
     fn joint_springs(&self, pushing: &Pushing) -> Vec<(f64, f64)> {
         let mut springs: Vec<(f64, f64)> = self.situation.stiffness.iter().map(|k| (*k, 0.0)).collect();
         for (stop, _) in self.situation.stops.iter().zip(&pushing.stops).filter(|(_, on)| **on) {
@@ -294,6 +303,8 @@ impl<'a> ElasticTree<'a> {
         springs
     }
 
+    /// Factors the springs with these contacts and stops pushing, from the leaves to the base; `springs`: those of the
+    /// joints. `None` if the base's stiffness is not positive definite.
     fn factored(&self, pushing: &Pushing, springs: &[(f64, f64)]) -> Option<Factored> {
         let Situation { posed, candidates, support, size, .. } = self.situation;
         let kinematics = &posed.model.kinematics;
@@ -335,8 +346,9 @@ impl<'a> ElasticTree<'a> {
         Some(Factored { stiffness, pushed, pivots, base })
     }
 
-    /// Returns the response to a load on each link and imposed motions of steps without a driver (rad or m); with those
-    /// slopes of the joints' springs that are not 0 if `sloped`.
+    /// Returns the response to a load on each link, `gradient`, and to imposed motions of the steps without a driver
+    /// (rad or m), by one pass up the tree and one down; with the slopes of the joints' springs if `sloped`, else
+    /// without.
     fn response(
         &self,
         factored: &Factored,
@@ -380,8 +392,9 @@ impl<'a> ElasticTree<'a> {
         Response { links, steps, carried: gradient }
     }
 
-    /// Returns the deflections of coupled joints and the wrenches in closing bonds, as one vector, that join the tree
-    /// with what crosses it; `free` is its response without them.
+    /// Returns the deflections of the coupled joints (rad or m), then the wrenches in the closing bonds (N and N·m), in
+    /// equilibrium with the tree, as one vector: the solution of a dense linear system. `free`: the
+    /// tree's response without them. `None` where the system is singular.
     fn across(&self, factored: &Factored, springs: &[(f64, f64)], free: &Response) -> Option<DVector<f64>> {
         let size = self.coupled.len() + 6 * self.situation.loops.len();
         let none = vec![Vector6::zeros(); free.links.len()];
@@ -407,8 +420,8 @@ impl<'a> ElasticTree<'a> {
         matrix.lu().solve(&right)
     }
 
-    /// Returns the motions of steps by deflections of the coupled joints, and the loads on links by wrenches in the closing
-    /// bonds; `across` holds both.
+    /// Returns the motions of steps by deflections of the coupled joints, and the loads on links by wrenches in the
+    /// closing bonds; `across` holds both.
     fn effects(&self, across: &[f64]) -> (Vec<f64>, Vec<(usize, Vector6<f64>)>) {
         let mut imposed = vec![0.0; self.axes.len()];
         for (coupled, deflection) in self.coupled.iter().zip(across) {
@@ -426,8 +439,8 @@ impl<'a> ElasticTree<'a> {
         (imposed, wrenches)
     }
 
-    /// Returns the effort (N·m or N) that the tree puts on each coupled joint, and the displacement of the first side of
-    /// each closing bond from its second at the bond.
+    /// Returns the effort (N·m or N) that the tree puts on each coupled joint, then the displacement (m and rad) of the
+    /// first side of each closing bond from its second, at the bond, as one vector.
     fn mismatch(&self, factored: &Factored, response: &Response) -> DVector<f64> {
         let steps = &self.situation.posed.model.kinematics.steps;
         let effort = |coupled: &Coupled| {
@@ -445,7 +458,8 @@ impl<'a> ElasticTree<'a> {
         DVector::from_vec(values)
     }
 
-    /// Returns the displacement of the first side of a closing bond from its second, at the bond.
+    /// Returns the displacement (m and rad) of the first side of the closing bond of an index from its second, at the
+    /// bond.
     fn relative(&self, index: usize, links: &[Vector6<f64>]) -> Vector6<f64> {
         let closing = &self.situation.loops[index];
         let difference = links[closing.sides[0]] - links[closing.sides[1]];
@@ -454,8 +468,8 @@ impl<'a> ElasticTree<'a> {
         joined(&(linear + angular.cross(&closing.p)), &angular)
     }
 
-    /// Returns the part of the way between displacements at which the potential is least, at most 1; `gaps` and `reached`
-    /// are the gaps of both.
+    /// Returns the part of the way between displacements at which the potential is least, at most 1; `gaps` and
+    /// `reached` are the gaps of both.
     fn line_search(&self, from: &Displaced, to: &Displaced, gaps: &[f64], reached: &[f64]) -> f64 {
         let change = to.since(from);
         let slopes = [self.slope(from, &change), self.slope(to, &change)];
@@ -468,7 +482,7 @@ impl<'a> ElasticTree<'a> {
         if end <= 0.0 {
             return 1.0;
         }
-        // The slope grows, and is linear between the points at which contacts begin and end.
+        // The slope grows, and is linear between the points at which contacts and stops begin or cease to push.
         let changes = gaps.iter().zip(&rates).map(|(gap, rate)| -gap / rate);
         let mut changes: Vec<f64> = changes.filter(|part| *part > 0.0 && *part < 1.0).collect();
         changes.sort_by(f64::total_cmp);
@@ -505,13 +519,14 @@ pub(super) fn joined(linear: &Vec3, angular: &Vec3) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
-/// Returns the row by which the displacement of a link lifts a point at `p`.
+/// Returns the row of the Jacobian by which the displacement of a link lifts its point at `p`, m from the centre of
+/// mass.
 fn rise(p: &Vec3) -> Vector6<f64> {
     Vector6::new(0.0, 0.0, 1.0, p.y, -p.x, 0.0)
 }
 
-/// Returns the stiffness of the world for a robot of a size (m) in height (N/m), roll and pitch (N·m/rad): so small that
-/// only the contacts bear it.
+/// Returns the stiffness that penalizes an imbalance of a robot of a size (m) in height (N/m), roll and pitch
+/// (N·m/rad): so small that only the contacts bear the robot.
 fn base_stiffness(size: f64) -> Vector3<f64> {
     let stiffness = PARAMETERS.contact_stiffness / PARAMETERS.balance_weight;
     Vector3::new(1.0, size * size, size * size) * stiffness

@@ -11,9 +11,9 @@ use crate::robot::jacobian::JointAxis;
 
 /// A bond that closes a loop.
 pub(super) struct Loop {
-    /// The links of its two ports, by their numbers among all links.
+    /// The links of the bond's ports `a` and `b`, by their numbers among all links.
     pub sides: [usize; 2],
-    /// The place of the bond from the centre of mass, m.
+    /// The position of port `a` from the centre of mass, in level axes, m.
     pub p: Vec3,
 }
 
@@ -34,25 +34,25 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
         .collect()
 }
 
-/// The stop at an end of a joint's range, near which the joint is.
+/// The stop at an end of a joint's range that the joint is at or near.
 pub(super) struct Stop {
     /// The joint, by [`crate::robot::JointId`].
     pub joint: usize,
-    /// The sign of the effort with which it pushes the joint back: -1 at the upper end, 1 at the lower.
+    /// The sign of the effort with which the stop pushes the joint back: -1 at the upper end, 1 at the lower.
     pub sign: f64,
-    /// The factor of the joint in the motion about its axis: 1 or -1.
+    /// The factor of the joint in the motion of its step: 1 or -1.
     pub factor: f64,
-    /// The motion that is left to it, rad or m.
+    /// The motion that is left to the joint up to the end of its range, rad or m; 0 beyond it.
     pub gap: f64,
-    /// The links that it acts between, by their numbers: the one that carries, and the one that is carried.
+    /// The links that the stop acts between, by their numbers: the parent of the joint, and its child.
     pub sides: [usize; 2],
     /// The axis of the joint, in level axes.
     pub axis: JointAxis,
 }
 
 impl Stop {
-    /// Returns the wrench (N, N·m) of an effort of the stop on the link that is carried, with its moment about the
-    /// centre of mass.
+    /// Returns the wrench (N, N·m) that the stop exerts on the child, for an effort (N·m or N) that is not negative, in
+    /// level axes with its moment about the centre of mass.
     pub(super) fn wrench(&self, effort: f64) -> Wrench {
         let effort = self.sign * self.factor * effort;
         match &self.axis {
@@ -80,17 +80,18 @@ pub(super) fn stops(posed: &Posed) -> Vec<Stop> {
 /// The loads of contacts and joints at an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Loads {
-    /// The normal force at each candidate, N.
+    /// The normal force at each candidate, N; not negative.
     pub normal: Vec<f64>,
-    /// The effort of the motor of each joint, N·m or N.
+    /// The effort of the motor of each joint, by [`crate::robot::JointId`], N·m or N.
     pub efforts: Vec<f64>,
     /// The deflection of each joint from its planned position, rad or m.
     pub deflections: Vec<f64>,
-    /// The wrench that each link needs of its joints and bonds, by its number, about the centre of mass in level axes, N and
-    /// N·m: what its motion needs, less contacts, stops and closing bonds.
+    /// The wrench that each link needs of its joints and bonds, by its number, about the centre of mass in level axes,
+    /// N and N·m: what its motion needs, less what contacts, stops and closing bonds give.
     pub wrenches: Vec<Wrench>,
-    /// The greatest imbalance of the base: of its force in height as a part of the weight, or of its moment in roll or
-    /// pitch as a part of the weight times [`Situation::size`]; 0 unless the robot settles on the ground.
+    /// The greatest imbalance of the base, without unit: of its vertical force as a part of the weight, or of its
+    /// moment in roll or pitch as a part of the weight times [`Situation::size`]; 0 unless the robot settles on the
+    /// ground.
     pub imbalance: f64,
 }
 

@@ -1,39 +1,43 @@
 //! Parameters of the dynamics of the judge: of contacts and servos, and of the methods that find forces.
 
-/// The model with which forces are determined, with the reason of each default. The stiffnesses matter less than that
-/// there are some: static torques of the robots tried changed by under 2 % in half of the plans, at most 20 %, for
-/// servos of 40 to 600 N·m/rad.
+/// The parameters of the model with which forces are determined, with the reasons of their values, and those of the
+/// methods that determine them. The stiffnesses matter less than that there are some: static torques of the robots
+/// tried changed by under 2 % in half of the plans, at most 20 %, for servos of 40 to 600 N·m/rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Parameters {
-    /// The window over which velocities and accelerations are taken and torques averaged, s. 50 ms: what is shorter, a
-    /// servo's yielding takes up.
+    /// The length of the window over which velocities, accelerations and loads are means, s. 50 ms: the yielding of
+    /// servos takes up what is shorter.
     pub window: f64,
     /// The shortest window, s. 1 ms: the step of a servo's own control.
     pub window_min: f64,
-    /// The number of windows that a motion must last; of a shorter one the window is the duration divided by this
+    /// The least duration of a motion in windows; a shorter one gets a window of its own, its duration divided by this
     /// number. 4: the acceleration of a smooth motion is then within a few percent.
     pub burst_windows: f64,
-    /// The number of intervals into which a shorter motion is divided. 8: two in each of its quarters.
+    /// The number of intervals into which such a short motion is divided by instants at which loads are determined. 8:
+    /// two in each of its quarters.
     pub burst_instants: u32,
     /// The speed below which a joint is at rest between two motions, and its greatest jump that counts as none, rad/s
     /// or m/s. 1e-6: rounding of control points.
     pub rest_speed: f64,
     /// The least time between two instants at which forces are determined, s. 10 ms, less rounding.
     pub spacing_least: f64,
-    /// The greatest height of a candidate for contact above the lowest one, m. 2.5 mm: what the servos' sag can close.
+    /// The greatest height of a candidate for contact above the lowest point of the robot, m. 2.5 mm: what the servos'
+    /// sag can close.
     pub gap_max: f64,
     /// The least distance of two candidates of one link, m. 2.5 mm: closer ones bear as one.
     pub candidate_distance: f64,
     /// The speed below which friction is viscous rather than Coulomb's, m/s. 1 mm/s: below any travel that counts.
     pub slip_speed: f64,
-    /// The weight of motion along the normal against slip, without unit. 30: contacts neither sink nor lift.
+    /// The weight of a contact's velocity along the normal, relative to that of its slip, in the twist that friction
+    /// balances, without unit. 30: contacts neither sink nor lift.
     pub normal_weight: f64,
-    /// The weight that keeps the twist unique, in parts of the weight, s/m. 1e-5: far below any friction.
+    /// The damping that keeps the twist unique, in parts of the weight, s/m. 1e-5: far below any friction.
     pub regularization: f64,
-    /// The part of the friction that an inertial force may use up. 0.97: beyond, the slip has no bound.
+    /// The greatest part of the friction that the planar force that a motion needs may use up. 0.97: beyond, the slip
+    /// has no bound.
     pub traction_max: f64,
     /// The stiffness of a joint without a motor against its planned position, N·m/rad or N/m: it bears nothing, but its
-    /// position is planned.
+    /// position is planned; 1e-2, far below that of servos.
     pub passive_stiffness: f64,
     /// The stiffness of a contact, N/m: 1e5, stiffer than the servos.
     pub contact_stiffness: f64,
@@ -41,49 +45,52 @@ pub(super) struct Parameters {
     pub bond_stiffness: f64,
     /// The stiffness of a bond that closes a loop against turns, N·m/rad: that of contacts at a lever of 0.1 m.
     pub bond_turn_stiffness: f64,
-    /// The stiffness of the stop at an end of a joint's range, N·m/rad or N/m: that of a bond against turns.
+    /// The stiffness of the stop at an end of a joint's range, N·m/rad or N/m: the number of a bond's against turns.
     pub stop_stiffness: f64,
     /// The distance from an end of its range at which a joint may come to rest on its stop, rad or m. 0.05: more than
     /// servos yield.
     pub stop_gap_max: f64,
-    /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit. 1e6: stiffer than
-    /// any servo at any lever of a robot, so that balance is not given up for less effort.
+    /// The factor on a contact's softness with which an imbalance of the base is penalized, without unit. 1e6: stiffer
+    /// than any servo at any lever of a robot, so that balance is not given up for less effort.
     pub balance_weight: f64,
-    /// The change of the twist, m/s or rad/s, at which its rounds end.
+    /// The change of the twist from one round of reweighted least squares to the next at which the rounds end, m/s or
+    /// rad/s: 1e-6.
     pub twist_change: f64,
-    /// The greatest number of rounds for the twist.
+    /// The greatest number of rounds of reweighted least squares for the twist.
     pub twist_rounds_max: usize,
-    /// The change of all loads together, in parts of the weight, at which the rounds of twist and loads end.
+    /// The sum of the changes of all normal forces, in parts of the weight, at which the rounds of twist and loads end.
     pub load_change: f64,
-    /// The part of the weight below which known loads are no guess of the next ones.
+    /// The part of the weight that the last normal forces must add up to if they are the guess of the next ones.
     pub load_guess_min: f64,
     /// The gap below which a contact just touches, m or rad. 1e-12: rounding of displacements.
     pub touching: f64,
-    /// The greatest number of rounds in which contacts and stops come to push or leave. 200: some ten suffice for the
-    /// robots tried.
+    /// The greatest number of rounds of Newton's method for the contacts and stops that push. 200: some ten suffice for
+    /// the robots tried.
     pub contact_rounds_max: usize,
-    /// The greatest number of rounds of twist and loads.
+    /// The greatest number of rounds of the fixed-point iteration of twist and loads.
     pub rounds_max: usize,
-    /// The factor on the relaxation of the loads from round to round.
+    /// The factor by which the relaxation of the normal forces, 1 at first, falls from round to round.
     pub relaxation: f64,
-    /// The least relaxation.
+    /// The least relaxation of the normal forces.
     pub relaxation_min: f64,
-    /// The least and greatest time over which friction acts on planar momentum, s.
+    /// The least and the greatest time over which friction acts on planar momentum before the twist is determined anew,
+    /// s: from about the spacing of instants on.
     pub momentum_step: [f64; 2],
-    /// The least size of a robot, to which moments are compared, m.
+    /// The least size of a robot, by which moments are compared with forces, m.
     pub size_min: f64,
     /// The speed from which on a contact counts as sliding, m/s: five times the one below which friction is viscous.
     pub sliding_speed: f64,
-    /// The factor on the friction of contacts that slide, in the other travel with which that of the plan is compared.
+    /// The factor on the friction of contacts that slide, in the variation of friction.
     pub friction_more: f64,
-    /// The factor on the friction of the other contacts there.
+    /// The factor on the friction of the other contacts in that variation.
     pub friction_less: f64,
-    /// The least time between two instants at which the travel with other servos is determined, s. 30 ms: three times the
-    /// spacing of instants, for it costs twice as much.
+    /// The least time between two instants at which the travel with other servos is determined, s. 30 ms: three times
+    /// the spacing of instants, for they take two more equilibria.
     pub fork_spacing: f64,
-    /// The factor on the stiffness of servos in one other travel. 0.4: 60 N·m/rad for the default of 150.
+    /// The factor on the stiffness of servos in the variation with softer ones. 0.4: 60 N·m/rad for the default of 150.
     pub servo_softer: f64,
-    /// The factor on the stiffness of servos in another one. 3.3: 500 N·m/rad for the default of 150.
+    /// The factor on the stiffness of servos in the variation with stiffer ones. 3.3: about 500 N·m/rad for the default
+    /// of 150.
     pub servo_stiffer: f64,
     /// The error of the greatest torque against simulations, as a fraction: 0.1, where nothing touches down.
     pub load_error: f64,
@@ -95,20 +102,21 @@ pub(super) struct Parameters {
     /// The greatest deflection of a joint that counts as yielding, rad or m: 20°. Beyond, the robot gives way, and linear
     /// springs say nothing of where its links are.
     pub deflection_max: f64,
-    /// The part of the distance travelled by which its end may differ with other friction before it counts as not
-    /// determined.
+    /// The part of the distance travelled by which its end may differ under a variation of friction or servos before it
+    /// counts as not determined.
     pub way_undetermined: f64,
-    /// The part of the distance travelled by which its end may differ before that is noted.
+    /// The part of the distance travelled by which its end may differ under a variation before that is noted.
     pub way_uncertain: f64,
-    /// The difference of the ends up to which it is neither noted nor a failure, m.
+    /// The difference of the ends up to which it is neither noted nor a failure, m: 1 cm.
     pub way_uncertain_min: f64,
-    /// The part of the travel within which it is known: 0.1, as random gaits in simulations show.
+    /// The part of the distance travelled within which it is known: 0.1, as simulations of random gaits show.
     pub travel_share: f64,
-    /// The part of the greatest slip of a link within which the travel is known: 0.2, as those show.
+    /// The part of the greatest slip of a link within which the distance travelled is known: 0.2, as those show.
     pub slip_share: f64,
     /// The least tolerance of the travel, m: 5 mm.
     pub travel_tolerance_min: f64,
-    /// The imbalance in parts of the weight above which no loads hold the robot: 2 %.
+    /// The greatest mean imbalance of the base over a window, in parts of the weight, at which its loads hold the
+    /// robot: 2 %.
     pub imbalance_max: f64,
 }
 
