@@ -1695,6 +1695,9 @@ extern type Report {
   bond_margin: Number
   /// What the speed limits leave: 1 - speed / limit.
   speed_margin: Number
+  /// The greatest speed with which a link comes down on the ground, under full dynamics: what that costs is not in
+  /// `torque_margin`.
+  impact: Speed
   /// Of a truss that keeps one: the least angle between struts that share a node.
   angle: Angle
   /// Of a truss that keeps one: the least singular value of its rigidity matrix (rows of unit vectors) that

@@ -155,6 +155,7 @@ fn worst_lines(out: &mut String, verdict: &Verdict) {
             Measure::Length => length(worst.value),
             Measure::Fraction => format!("{}%", number(rounded(worst.value * 100.0, 0.01))),
             Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Speed => quantity(worst.value, Dimension::SPEED),
             Measure::Number => number(rounded(worst.value, 1e-4)),
         };
         let at = if worst.at.is_empty() { String::new() } else { format!(" at {}", worst.at.join(", ")) };

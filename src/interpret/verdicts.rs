@@ -35,6 +35,7 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
         let value = match kind.measure {
             Measure::Length => quantity(worst.value, Dimension::LENGTH),
             Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Speed => quantity(worst.value, Dimension::SPEED),
             Measure::Fraction | Measure::Number => number(worst.value),
         };
         let at = if worst.at.is_empty() { String::new() } else { format!(", {}", worst.at.join(" and ")) };

@@ -86,6 +86,8 @@ pub enum Measure {
     Fraction,
     /// An angle in rad, which texts show in degrees.
     Angle,
+    /// A speed in m/s, which texts show in a unit that suits it.
+    Speed,
     /// A number without unit.
     Number,
 }
@@ -120,12 +122,13 @@ macro_rules! worst_value {
 
 /// Every worst value of a verdict, in the order in which it is shown. All that prints, compares or rounds worst
 /// values goes through this table.
-pub const WORST_VALUES: [WorstKind; 8] = [
+pub const WORST_VALUES: [WorstKind; 9] = [
     worst_value!(clearance, "clearance", Some("clearance"), Length),
     worst_value!(margin, "margin", Some("margin of stability"), Length),
     worst_value!(torque_margin, "torque margin", Some("torque margin"), Fraction),
     worst_value!(bond_margin, "bond margin", Some("bond margin"), Fraction),
     worst_value!(speed_margin, "speed margin", Some("speed margin"), Fraction),
+    worst_value!(impact, "impact", None, Speed),
     worst_value!(angle, "angle", Some("angle"), Angle),
     worst_value!(rigidity, "rigidity", Some("rigidity"), Number),
     worst_value!(slip, "slip", None, Length),
@@ -292,6 +295,10 @@ pub struct Verdict {
     pub bond_margin: Option<Worst>,
     /// The least 1 - speed / limit of joints, cells or struts; `None` if none was measured.
     pub speed_margin: Option<Worst>,
+    /// The greatest speed with which a link of a robot comes down on the ground, m/s, as a mean over 10 ms; `None` if none
+    /// does, and where none was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impact: Option<Worst>,
     /// The least angle between struts of a truss that share a node, rad; `None` if none was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<Worst>,

@@ -103,6 +103,7 @@ fn worst(verdict: &Verdict) -> Vec<Value> {
             Measure::Length => quantity(short_length(worst.value), Dimension::LENGTH),
             Measure::Fraction => format!("{}%", units::number(libm::round(worst.value * 1e4) / 1e2)),
             Measure::Angle => quantity(worst.value, Dimension::ANGLE),
+            Measure::Speed => quantity(worst.value, Dimension::SPEED),
             Measure::Number => units::number(worst.value),
         };
         let at = if worst.at.is_empty() { String::new() } else { format!(", {}", worst.at.join(" and ")) };

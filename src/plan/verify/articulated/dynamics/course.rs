@@ -1,11 +1,10 @@
 //! Loads along a rollout, with inertia and friction: of joints, motors and bonds against their limits, and of contacts
 //! against the balance of the robot.
 
-use super::super::ground_features::Mat3;
 use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
 use super::super::polyline::Polyline;
-use super::super::rollout::{Rollout, Sample, positions};
+use super::super::rollout::{Rollout, positions};
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
 use super::bursts::Bursts;
 use super::elastic_tree::LimitedMotor;
@@ -13,84 +12,16 @@ use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support};
+use super::recorder::{Recorded, Recorder, with_instants};
 use super::tolerances::PARAMETERS;
 use super::traction::{Way, Ways};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World, Worst};
 use crate::robot::dynamics::{Dynamics, Twist};
 use crate::robot::{JointId, JointOwner};
 use crate::units::{Dimension, number, quantity};
-use std::collections::VecDeque;
-
-/// The attitude of the robot at an instant, as settling found it.
-#[derive(Clone, Copy)]
-struct Recorded {
-    /// The time of the instant, s.
-    time: f64,
-    /// The orientation of the base in level axes.
-    R: Mat3,
-    /// The heading of the level axes in the world, rad.
-    yaw: f64,
-    /// The index of its bonds in [`Recorder::bonds`].
-    bonds: usize,
-    /// The world just after the instant.
-    world: World,
-}
-
-/// The attitudes of a rollout, gathered sample by sample: at most one for each 10 ms, and one where bonds or world
-/// change.
-#[derive(Default)]
-pub(in super::super) struct Recorder {
-    recorded: Vec<Recorded>,
-    /// The sets of bonds that held: a flag for each bond, true if it did.
-    bonds: Vec<Vec<bool>>,
-    /// The travel up to the last sample.
-    ways: Ways,
-}
-
-impl Recorder {
-    /// Records the attitude and the travel of a sample.
-    pub(in super::super) fn observe(&mut self, sample: &Sample) {
-        self.ways = sample.ways;
-        let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
-        let bonds = known.unwrap_or_else(|| {
-            self.bonds.push(sample.bonds.to_vec());
-            self.bonds.len() - 1
-        });
-        let near = |last: &Recorded| {
-            sample.time - last.time < PARAMETERS.spacing_least
-                && last.bonds == bonds
-                && last.world == *sample.world
-        };
-        if !self.recorded.last().is_some_and(near) {
-            self.recorded.push(Recorded {
-                time: sample.time,
-                R: sample.stance.R,
-                yaw: sample.stance.planar_pose.yaw,
-                bonds,
-                world: *sample.world,
-            });
-        }
-    }
-}
-
-/// Returns the recorded attitudes with further ones at those of these times (s, ascending) that lie between them, each
-/// that of the last before it.
-fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recorded> {
-    let mut all: Vec<Recorded> = Vec::with_capacity(recorded.len() + times.len());
-    let mut times = times.iter().copied().peekable();
-    for instant in recorded {
-        while let Some(time) = times.next_if(|time| *time < instant.time) {
-            if let Some(last) = all.last().filter(|last| last.time < time) {
-                let between = Recorded { time, ..*last };
-                all.push(between);
-            }
-        }
-        all.push(instant);
-    }
-    all
-}
+use std::collections::{BTreeSet, VecDeque};
 
 /// The robot with bonds that hold, compiled for loads.
 struct Compiled<'a> {
@@ -151,6 +82,8 @@ struct Loaded {
     ground: Vec<LinkWrench>,
     /// The imbalance of the base, as in [`Loads`](super::loads::Loads).
     imbalance: f64,
+    /// The links that bear some of the weight, by their numbers.
+    bearing: BTreeSet<usize>,
     /// True if loads and friction did not come to agree.
     open: bool,
     /// True if the inertial force is more than friction can carry.
@@ -265,13 +198,16 @@ impl<'a> Course<'a> {
             .map(|(link, w)| LinkWrench { link, p: zero, f: -w.force, m: -w.moment })
             .collect();
         let mut held = structure.held(model, &structure.sections_at(&posed.poses), &wrenches);
+        let least = PARAMETERS.bearing_min * situation.weight;
+        let bears = situation.candidates.iter().zip(&loads.normal).filter(|(_, normal)| **normal > least);
+        let bearing = bears.map(|(candidate, _)| candidate.link).collect();
         let Loads { mut efforts, deflections, imbalance, .. } = loads;
         for rotor in rotors.iter().filter(|_| moving) {
             let effort = rotor.inertia * posed.accelerations[rotor.joint];
             efforts[rotor.joint] += effort;
             held[rotor.cut] -= effort / rotor.factor;
         }
-        Some(Loaded { held, efforts, deflections, ground, imbalance, open, slides })
+        Some(Loaded { held, efforts, deflections, ground, imbalance, bearing, open, slides })
     }
 
     /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more than
@@ -342,6 +278,10 @@ impl<'a> Course<'a> {
             if loaded.slides {
                 found.slides.get_or_insert(recorded.time);
             }
+            if let Some((_, before, last)) = window.back() {
+                let landed: Vec<usize> = loaded.bearing.difference(&last.bearing).copied().collect();
+                self.note_impacts(*before, index, &landed, ledger);
+            }
             let mut joints = Vec::new();
             positions(self.rollout, recorded.time, &mut joints);
             if !self.is_overloaded(index, &loaded)
@@ -361,6 +301,25 @@ impl<'a> Course<'a> {
         }
         self.finish(&found, ledger);
         found.deflected
+    }
+
+    /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
+    /// over the time between.
+    fn note_impacts(&self, before: usize, index: usize, landed: &[usize], ledger: &mut Ledger) {
+        if landed.is_empty() {
+            return;
+        }
+        let heights = self.posed(before).heights();
+        let (time, elapsed) =
+            (self.instants[index].time, self.instants[index].time - self.instants[before].time);
+        for &link in landed.iter().filter(|link| heights[**link].is_finite() && elapsed > 0.0) {
+            let speed = heights[link] / elapsed;
+            let known = &mut ledger.verdict.impact;
+            if known.as_ref().is_none_or(|worst| speed > worst.value) {
+                let name = super::super::link_name(self.rollout, link);
+                *known = Some(Worst { value: speed, time, at: vec![name] });
+            }
+        }
     }
 
     /// Returns true if a joint is overloaded at an instant, so that it does not yield like a spring.

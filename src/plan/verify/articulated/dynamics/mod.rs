@@ -20,9 +20,11 @@ mod equilibrium;
 mod loads;
 mod overload;
 mod posed;
+mod recorder;
 mod tolerances;
 mod traction;
 mod twist;
 
-pub(super) use course::{Course, Recorder};
+pub(super) use course::Course;
+pub(super) use recorder::Recorder;
 pub(super) use traction::{GroundStep, Traction, Ways, travel_tolerance};

@@ -102,16 +102,7 @@ impl<'a> Posed<'a> {
     /// [`candidate_distance`](super::tolerances::Parameters::candidate_distance). `friction` is the world's factor.
     pub(super) fn candidates(&self, friction: f64) -> Vec<Candidate> {
         let up = Vec3::z();
-        let mut lowest = f64::INFINITY;
-        let mut placed = Vec::new();
-        for (index, feature) in self.model.features.iter().enumerate() {
-            let pose = &self.poses[self.model.link_of[index]];
-            let feature =
-                feature.placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector);
-            let height = feature.lowest(&up);
-            lowest = lowest.min(height);
-            placed.push((height, feature));
-        }
+        let (placed, lowest) = self.placed();
         let mut near = Vec::new();
         for (index, (height, feature)) in placed.iter().enumerate() {
             if height - lowest > PARAMETERS.gap_max {
@@ -145,6 +136,32 @@ impl<'a> Posed<'a> {
             });
         }
         kept
+    }
+
+    /// Returns the features in level axes about the centre of mass, each with the height of its lowest point, m, and the
+    /// least of these heights.
+    fn placed(&self) -> (Vec<(f64, Feature)>, f64) {
+        let place = |(index, feature): (usize, &Feature)| {
+            let pose = &self.poses[self.model.link_of[index]];
+            let feature =
+                feature.placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector);
+            (feature.lowest(&Vec3::z()), feature)
+        };
+        let placed: Vec<(f64, Feature)> = self.model.features.iter().enumerate().map(place).collect();
+        let lowest = placed.iter().map(|(height, _)| *height).fold(f64::INFINITY, f64::min);
+        (placed, lowest)
+    }
+
+    /// Returns the height of each link, by its number, over the lowest point of the robot, m; infinite for links without
+    /// features.
+    pub(super) fn heights(&self) -> Vec<f64> {
+        let (placed, lowest) = self.placed();
+        let mut heights = vec![f64::INFINITY; self.poses.len()];
+        for (index, (height, _)) in placed.iter().enumerate() {
+            let link = &mut heights[self.model.link_of[index]];
+            *link = link.min(height - lowest);
+        }
+        heights
     }
 
     /// Returns the points in the middle of the lines on which cylinders lie, as `(gap, link, index of the first rim,

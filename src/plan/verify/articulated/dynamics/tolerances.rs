@@ -94,6 +94,8 @@ pub(super) struct Parameters {
     pub servo_stiffer: f64,
     /// The error of the greatest torque against simulations, as a fraction: 0.1, where nothing touches down.
     pub load_error: f64,
+    /// The part of the weight from which on a link bears: 0.02, as that which may stay unbalanced.
+    pub bearing_min: f64,
     /// The part of its stiffness that a servo keeps at the limit of its motor, so that what gives way comes to rest: 1/750,
     /// 0.2 N·m/rad of 150.
     pub yielding_share: f64,
@@ -159,6 +161,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     servo_softer: 0.4,
     servo_stiffer: 3.3,
     load_error: 0.1,
+    bearing_min: 0.02,
     yielding_share: 1.0 / 750.0,
     sag_allowed: 0.0873,
     deflection_max: 0.35,
