@@ -6,8 +6,8 @@
 
 use super::file::digest;
 use super::tolerances::TOLERANCES;
-use crate::robot::{Cell, Joint, JointKind, Library, Limits, ModuleType, Strut};
-use crate::units::{Dimension, quantity};
+use crate::robot::{Cell, Joint, JointKind, Library, Limits, ModuleType, Servo, Strut};
+use crate::units::{Dimension, number, quantity};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -109,7 +109,16 @@ fn of_joint(joint: &Joint) -> String {
     // Few modules state it: it is left out where there is none.
     let acceleration =
         acceleration.map_or_else(String::new, |limit| format!("{}, ", quantity(limit, change)));
-    format!("{} [{range}, {speed}, {acceleration}{effort}]", joint.name)
+    let servo = of_servo(&joint.servo, joint.kind == JointKind::Prismatic);
+    format!("{} [{range}, {speed}, {acceleration}{effort}{servo}]", joint.name)
+}
+
+/// Returns what is stated of a servo in words, each fact behind a comma; `slides`: that of a joint that slides.
+fn of_servo(servo: &Servo, slides: bool) -> String {
+    let (stiffness, inertia) = if slides { ("N/m", "kg") } else { ("N*m/rad", "kg*m^2") };
+    let stated = [(servo.stiffness, stiffness), (servo.armature, inertia)];
+    let words = stated.into_iter().filter_map(|(value, unit)| Some(format!(", {}{unit}", number(value?))));
+    words.collect()
 }
 
 fn of_cell(cell: &Cell) -> String {

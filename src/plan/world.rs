@@ -166,7 +166,8 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
-    /// Stability: the centre of mass may be outside the support polygon.
+    /// Stability: the centre of mass may be outside the support polygon, and no forces of the ground need hold the robot in
+    /// its motion.
     Unstable,
     /// Slip: links in contact may slide over the ground.
     Slip,

@@ -49,6 +49,7 @@ fn random_robot(numbers: &mut Numbers, hinged: bool) -> Assembly {
         axis: numbers.axis(),
         limits: free(),
         passive: false,
+        servo: modl::robot::Servo::default(),
         mimic,
     };
     kind.joints = vec![

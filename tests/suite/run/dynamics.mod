@@ -190,8 +190,8 @@ fn wanted(i: Int) -> Torque = inertia * (rate[i + 1] - rate[i - 1]) / 50ms / 1ra
 print(all([abs(held[2 * i] - wanted(2 * i)) < 1e-6N*m for i in 1..20]), verify(p).ok)
 //> true true
 // The judge of limits knows it: at rest the margin is the same, in motion it is not.
-let light = verify(move(Arm(rotor: 1e-6kg*m^2).bend, to: -60deg, in: 600ms), world: world(ground: held)).torque_margin
-let heavy = verify(move(Arm(rotor: 1kg*m^2).bend, to: -60deg, in: 600ms), world: world(ground: held)).torque_margin
+let light = verify(move(Arm(rotor: 1e-6kg*m^2).bend, to: -60deg, in: 700ms), world: world(ground: held)).torque_margin
+let heavy = verify(move(Arm(rotor: 1kg*m^2).bend, to: -60deg, in: 700ms), world: world(ground: held)).torque_margin
 print(heavy < light - 0.1)
 //> true
 
@@ -227,7 +227,8 @@ print(verify(Sc(Loose().dip(), wait(100ms)), world: w).ok)
 
 --- motors at their limits give way only if the others can't bear what they leave
 // A table of 8 kg on four legs that lean outwards by 30 degrees, on ice: each would bear 2 kg at 50 mm, 0.981 N*m. Where two
-// hold but 0.9 N*m, the others bear the rest, 1.061 N*m, and all sag by that over 150 N*m/rad: 0.405 degrees.
+// hold but 0.9 N*m, the others bear the rest, 1.062 N*m, and sag by that over 150 N*m/rad: 0.406 degrees; the two by 0.037 more,
+// for their contacts, of 1e5 N/m, bear 3.25 N less and rise by 0.03 mm. It rises on its legs, and at last they bear it easily.
 module Table(two: Torque, others: Torque) {
   let grip = 150N*m/rad
   let down = -100mm * cos(30deg)
@@ -243,14 +244,15 @@ module Table(two: Torque, others: Torque) {
 }
 config Stand(two: Torque = 0.9N*m, others: Torque = 2N*m) {
   part t: Table(two: two, others: others)
-  behavior stay allows saturation = wait(100ms)
-  behavior strict = wait(100ms)
+  behavior rise allows saturation = Pc(
+    move(t.e, to: 15deg, in: 1s), move(t.w, to: -15deg, in: 1s), move(t.n, to: -15deg, in: 1s), move(t.s, to: 15deg, in: 1s)
+  )
+  behavior stay = wait(100ms)
 }
 let ice = world(friction: 0)
-let all_weak = Stand(others: 0.9N*m)
-print(verify(Sc(Stand().stay(), wait(0s)), world: ice).ok, verify(all_weak.stay(), world: ice).ok)
+print(verify(Stand().rise(), world: ice).ok, verify(Stand(others: 0.9N*m).rise(), world: ice).ok)
 //> true false
-print(len(split("{verify(Stand().strict(), world: ice)}", "would sag by 0.40")) > 1)
+print(len(split("{verify(Stand().stay(), world: ice)}", "would sag by 0.44")) > 1)
 //> true
 
 --- slip fails where a most is stated

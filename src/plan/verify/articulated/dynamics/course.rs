@@ -355,7 +355,8 @@ impl<'a> Course<'a> {
         }
         let imbalance = window.iter().map(|(_, _, l)| l.imbalance).sum::<f64>() / count;
         let unbalanced = imbalance > PARAMETERS.imbalance_max;
-        let allowed = |kind: &ExemptionKind| *kind == ExemptionKind::Balance;
+        // A robot that tips over an edge is not balanced in between.
+        let allowed = |kind: &ExemptionKind| matches!(kind, ExemptionKind::Balance | ExemptionKind::Unstable);
         if unbalanced && self.bursts.near_step(*time) {
             found.stepped = true;
         } else if unbalanced && !ledger.excuses(CheckKind::Balance, *time, allowed) {
@@ -415,15 +416,16 @@ impl<'a> Course<'a> {
     /// Judges if friction and servos determine the travel: its end must not move by more than the part
     /// `way_undetermined` of it under a variation, and if by more than `way_uncertain`, that is noted.
     fn travel(&self, ledger: &mut Ledger) {
-        let differs =
-            |way: &Way, part: f64| way.away > part * way.length && way.away > PARAMETERS.way_uncertain_min;
+        let differs = |way: &Way, part: f64, least: f64| way.away > part * way.length && way.away > least;
+        let undetermined =
+            |way: &Way| differs(way, PARAMETERS.way_undetermined, PARAMETERS.way_undetermined_min);
         let Ways { judged, allowed } = &self.ways;
-        if let Some((time, _)) = allowed.filter(|(_, way)| differs(way, PARAMETERS.way_undetermined)) {
+        if let Some((time, _)) = allowed.filter(|(_, way)| undetermined(way)) {
             ledger.excuses(CheckKind::Traction, time, |kind| *kind == ExemptionKind::Traction);
         }
         let length = |v| quantity(v, Dimension::LENGTH);
         let words = [length(judged.length), length(judged.away)];
-        if differs(judged, PARAMETERS.way_undetermined) {
+        if undetermined(judged) {
             ledger.fail(Failure {
                 kind: CheckKind::Traction,
                 time: 0.0,
@@ -440,7 +442,7 @@ impl<'a> Course<'a> {
                 blame: vec![],
                 blames_start: false,
             });
-        } else if differs(judged, PARAMETERS.way_uncertain) {
+        } else if differs(judged, PARAMETERS.way_uncertain, PARAMETERS.way_uncertain_min) {
             let [length, away] = words;
             ledger.note(format!(
                 "the travel of {length} would end {away} elsewhere {}",

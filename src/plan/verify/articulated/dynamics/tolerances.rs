@@ -107,6 +107,9 @@ pub(super) struct Parameters {
     /// The part of the distance travelled by which its end may differ under a variation of friction or servos before it
     /// counts as not determined.
     pub way_undetermined: f64,
+    /// The difference of the ends up to which it counts as determined, m. 15 mm: as far as contacts that scrub take robots
+    /// in simulations elsewhere.
+    pub way_undetermined_min: f64,
     /// The part of the distance travelled by which its end may differ under a variation before that is noted.
     pub way_uncertain: f64,
     /// The difference of the ends up to which it is neither noted nor a failure, m: 1 cm.
@@ -166,6 +169,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     sag_allowed: 0.0873,
     deflection_max: 0.35,
     way_undetermined: 0.5,
+    way_undetermined_min: 0.015,
     way_uncertain: 0.1,
     way_uncertain_min: 0.01,
     travel_share: 0.1,
