@@ -1593,9 +1593,10 @@ extern type World {
 /// there is nothing else around it. `off` lets the robot float.
 ///
 /// `dynamics` is the assumption under which forces and travel of robots with joints are judged. Under `full`, servos and
-/// contacts yield, links have inertia, what slides is dragged, torque keeps a reserve, and no joint may change its speed at
-/// once. Under `statics`, the assumption of the papers, every instant is judged at rest: there is no inertia, and the
-/// ground's forces are the best that friction allows. Lattices, folded sheets and trusses have assumptions of their own.
+/// contacts yield, links have inertia, what slides is dragged, links must stay apart as servos yield, and no joint may
+/// change its speed at once. Under `statics`, the assumption of the papers, every instant is judged at rest: there is no
+/// inertia, and the ground's forces are the best that friction allows. Lattices, folded sheets and trusses have assumptions
+/// of their own.
 ///
 /// Example:
 /// ```modl
