@@ -125,6 +125,11 @@ impl Assembly {
         }
     }
 
+    /// Returns the stiffness of a joint's servo, N·m/rad or N/m ([`Servo::stiffness`]). Panics if there is no such joint.
+    pub fn servo_stiffness(&self, owner: JointOwner) -> f64 {
+        self.servo(owner).stiffness(self.slides(owner), self.effort_limit(owner))
+    }
+
     /// Returns the facts of a joint's servo; none are stated of the hinges of bonds. Panics if there is no such joint.
     pub fn servo(&self, owner: JointOwner) -> Servo {
         match owner {

@@ -12,8 +12,7 @@ use modl::plan::{
     Tracks, World,
 };
 use modl::robot::{
-    Assembly, Capture, Joint, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType,
-    Port,
+    Assembly, Capture, JointId, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType, Port,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -56,18 +55,8 @@ fn rail() -> Assembly {
 /// The same with another shape at the end of the rail and on the carriage, both about the middles of the cubes.
 fn rail_between(end: Vec<Placed>, borne: Vec<Placed>) -> Assembly {
     let carriage = vec![boxed(Vec3::new(0.02, 0.0, 0.1), Vec3::new(0.03, 0.01, 0.11))];
-    let slide = Joint {
-        name: "slide".into(),
-        parent: 0,
-        child: 1,
-        kind: JointKind::Prismatic,
-        pose: Pose::identity(),
-        axis: Vec3::x(),
-        limits: Limits { range: Some((-0.01, 1.0)), ..Limits::default() },
-        passive: false,
-        servo: modl::robot::Servo::default(),
-        mimic: None,
-    };
+    let limits = Limits { range: Some((-0.01, 1.0)), ..Limits::default() };
+    let slide = robots::joint("slide", (0, 1), JointKind::Prismatic, Pose::identity(), Vec3::x(), limits);
     let port = |link: usize, pose: Pose| Port { name: "p".into(), link, pose, connector: 0 };
     let kind = |name: &str, links, joints, ports| ModuleType {
         name: name.into(),

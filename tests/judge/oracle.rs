@@ -71,19 +71,7 @@ fn joint(n: &mut Numbers, index: usize, parent: usize, child: usize, between: Ve
         _ => (JointKind::Revolute, None),
     };
     let limits = Limits { range, ..Limits::default() };
-    let (pose, axis) = (shifted(between), n.direction());
-    Joint {
-        name: format!("j{index}"),
-        parent,
-        child,
-        kind,
-        pose,
-        axis,
-        limits,
-        passive: false,
-        mimic: None,
-        servo: modl::robot::Servo::default(),
-    }
+    robots::joint(&format!("j{index}"), (parent, child), kind, shifted(between), n.direction(), limits)
 }
 
 /// A place where the module reaches farthest in some direction, most often a little above the surface and sometimes beneath.

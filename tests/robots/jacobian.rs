@@ -40,17 +40,10 @@ fn random_robot(numbers: &mut Numbers, hinged: bool) -> Assembly {
     for link in &mut kind.links {
         link.pose = shifted(numbers.vector() * 0.1) * turned(numbers.axis(), 2.0 * numbers.next());
     }
-    let mut joint = |name: &str, parent, child, kind, mimic| Joint {
-        name: name.into(),
-        parent,
-        child,
-        kind,
-        pose: shifted(numbers.vector() * 0.1) * turned(numbers.axis(), 3.0 * numbers.next()),
-        axis: numbers.axis(),
-        limits: free(),
-        passive: false,
-        servo: modl::robot::Servo::default(),
-        mimic,
+    let mut joint = |name: &str, parent, child, kind, mimic| {
+        let pose = shifted(numbers.vector() * 0.1) * turned(numbers.axis(), 3.0 * numbers.next());
+        let driven = robots::joint(name, (parent, child), kind, pose, numbers.axis(), free());
+        Joint { mimic, ..driven }
     };
     kind.joints = vec![
         joint("a", 0, 1, JointKind::Revolute, None),

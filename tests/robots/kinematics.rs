@@ -6,9 +6,7 @@
 use crate::support::robots;
 use modl::geometry::pose::turned;
 use modl::geometry::{Pose, Vec3};
-use modl::robot::{
-    Assembly, Bond, Hinge, Joint, JointKind, Kinematics, Library, Limits, ModuleInstance, PortRef,
-};
+use modl::robot::{Assembly, Bond, Hinge, JointKind, Kinematics, Library, Limits, ModuleInstance, PortRef};
 use nalgebra::{Isometry3, Matrix4, Quaternion, Translation3, UnitQuaternion};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -235,17 +233,9 @@ fn what_is_not_connected_is_named() {
 
 /// A module of one joint off its axis, one that mimics it, and a slide, none along an axis.
 fn oblique() -> Assembly {
-    let joint = |name: &str, parent, child, kind, at: Vec3, axis: Vec3| Joint {
-        name: name.into(),
-        parent,
-        child,
-        kind,
-        pose: modl::geometry::pose::shifted(at) * turned(Vec3::new(0.3, -1.0, 0.4), 0.7),
-        axis: axis.normalize(),
-        limits: Limits::default(),
-        passive: false,
-        servo: modl::robot::Servo::default(),
-        mimic: None,
+    let joint = |name: &str, parent, child, kind, at: Vec3, axis: Vec3| {
+        let pose = modl::geometry::pose::shifted(at) * turned(Vec3::new(0.3, -1.0, 0.4), 0.7);
+        robots::joint(name, (parent, child), kind, pose, axis.normalize(), Limits::default())
     };
     let mut kind = robots::smores();
     kind.links.iter_mut().enumerate().for_each(|(i, link)| {

@@ -6,7 +6,7 @@ use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::robot::{
     Assembly, Bond, Capture, Connector, Joint, JointKind, Library, Limits, Link, ModuleInstance, ModuleType,
-    Motor, Port, PortRef, State, Strut,
+    Motor, Port, PortRef, Servo, State, Strut,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -62,6 +62,19 @@ pub fn link(name: &str, shape: Vec<Placed>, mass: f64, com: Vec3, friction: f64)
     }
 }
 
+/// A joint that a motor drives, of which no facts of a servo are stated; `between`: the links that carry and are carried.
+pub fn joint(
+    name: &str,
+    between: (usize, usize),
+    kind: JointKind,
+    pose: Pose,
+    axis: Vec3,
+    limits: Limits,
+) -> Joint {
+    let ((parent, child), servo) = (between, Servo::default());
+    Joint { name: name.into(), parent, child, kind, pose, axis, limits, passive: false, mimic: None, servo }
+}
+
 pub fn revolute(
     name: &str,
     parent: usize,
@@ -71,19 +84,7 @@ pub fn revolute(
     effort: f64,
 ) -> Joint {
     let limits = Limits { range, speed: Some(2.4086), acceleration: None, effort: Some(effort) };
-    let (pose, kind) = (Pose::identity(), JointKind::Revolute);
-    Joint {
-        name: name.into(),
-        parent,
-        child,
-        kind,
-        pose,
-        axis,
-        limits,
-        passive: false,
-        mimic: None,
-        servo: modl::robot::Servo::default(),
-    }
+    joint(name, (parent, child), JointKind::Revolute, Pose::identity(), axis, limits)
 }
 
 fn port(name: &str, link: usize, turn: f64) -> Port {

@@ -44,11 +44,9 @@ impl Servo {
 }
 
 fn servo(trees: &Trees, joint: usize) -> Servo {
-    let slides = trees.slides(joint);
-    let facts = trees.servo(joint);
-    let stiffness = facts.stiffness(slides, trees.limits(joint).effort);
-    let assumed = Servo::of_stiffness(Servo::of_class(slides).class, stiffness);
-    Servo { armature: facts.armature.unwrap_or(assumed.armature), ..assumed }
+    let (stiffness, armature) = trees.servo(joint);
+    let assumed = Servo::of_stiffness(Servo::of_class(trees.slides(joint)).class, stiffness);
+    Servo { armature: armature.unwrap_or(assumed.armature), ..assumed }
 }
 
 /// Returns the attributes of a driven joint: its class, and its armature where that is not the class's.

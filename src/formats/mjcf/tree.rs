@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{DockingKind, Tracks};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -186,9 +186,10 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// Returns the facts of a joint's servo.
-    pub(super) fn servo(&self, joint: usize) -> Servo {
-        self.robot.servo(self.joints[joint])
+    /// Returns the stiffness of a joint's servo, N·m/rad or N/m, and its armature, kg·m² or kg, if one is stated.
+    pub(super) fn servo(&self, joint: usize) -> (f64, Option<f64>) {
+        let owner = self.joints[joint];
+        (self.robot.servo_stiffness(owner), self.robot.servo(owner).armature)
     }
 
     /// Returns true if a joint slides; its positions are then in m.

@@ -271,3 +271,20 @@ print(verify(Sc(Slipping().shift(), wait(100ms)), world: world(friction: 0), sli
 //> true
 print(verify(s, slip_max: -1mm).ok)
 //                        ~~~~ E0506 must not be negative
+
+--- a joint that gives way is in nobody's way
+// The arm hangs in the way of the cart. It is lifted, for which it is too weak, and lowered when the cart has passed.
+module Gate {
+  link frame = box(20mm, 20mm, 400mm, mass: 10kg)
+  link arm = box(20mm, 20mm, 200mm, mass: 1kg) at [40mm, 0mm, 50mm]
+  link cart = box(120mm, 40mm, 40mm, mass: 100g) at [80mm, -150mm, 0mm]
+  joint lift : frame -> arm = revolute(axis: Y, range: -100deg..10deg, max_speed: 1rad/s, max_torque: 0.3N*m) at [40mm, 0mm, 150mm]
+  joint slide : frame -> cart = prismatic(axis: Y, range: 0mm..300mm, max_speed: 200mm/s)
+}
+config Passing {
+  part g: Gate
+  behavior pass(up: Angle = -90deg) allows overload = Sc(move(g.lift, to: up), move(g.slide, to: 300mm), move(g.lift, to: 0deg))
+}
+let w = world(ground: held)
+print(verify(Sc(Passing().pass(), wait(100ms)), world: w).ok, verify(Sc(Passing().pass(up: 0deg), wait(100ms)), world: w).ok)
+//> true false

@@ -24,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The state of the search over all intervals.
 pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
-    pub bodies: Bodies,
+    pub bodies: &'a Bodies,
     /// The least penetration depth that any two modules are allowed, m.
     allowed_min: f64,
     /// The instants at which segments begin and end: intervals are preferably cut at them.
@@ -92,7 +92,7 @@ impl<'a> Advancement<'a> {
     /// Returns a search over a plan; at most `samples_max` intervals are examined.
     pub(super) fn new(
         tracks: &'a Tracks,
-        bodies: Bodies,
+        bodies: &'a Bodies,
         precision: Precision,
         samples_max: usize,
     ) -> Advancement<'a> {
@@ -120,7 +120,7 @@ impl<'a> Advancement<'a> {
     /// which nothing is proved.
     pub(super) fn deflected(
         tracks: &'a Tracks,
-        bodies: Bodies,
+        bodies: &'a Bodies,
         along: Polyline,
         samples_max: usize,
     ) -> Advancement<'a> {
@@ -144,7 +144,7 @@ impl<'a> Advancement<'a> {
             // From the middle of the part, paths are short and numbers small.
             let kinematics = Kinematics::new(self.robot, bonds, reference_links::middle(self.robot, &part));
             let levels = ReferenceLinks::new(self.robot, &kinematics);
-            let bonded = BondedLinks::new(self.robot, bonds, &kinematics, &self.bodies, &mut self.overlaps);
+            let bonded = BondedLinks::new(self.robot, bonds, &kinematics, self.bodies, &mut self.overlaps);
             let mut rank = vec![0; self.robot.modules.len()];
             kinematics.tree.order.iter().enumerate().for_each(|(at, (module, _))| rank[*module] = at);
             let region = Region { kinematics, levels, rank, bonded, excused };
@@ -238,8 +238,9 @@ impl<'a> Advancement<'a> {
         Some(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() })
     }
 
-    /// Measures within modules and between neighbours at one instant, whose state is set, so that the search begins with a clearance
-    /// that few pairs can go below. In a large robot of which neither count, it measures between the root and others.
+    /// Measures within modules and between neighbours at one instant, whose state is set, so that the search begins with
+    /// a clearance that few pairs can go below. In a large robot of which neither count, it measures between the root and
+    /// others.
     fn guess_clearance(&mut self, region: &Region, time: f64, within: &[BodyPair]) {
         let mut near = within.to_vec();
         for &(module, bond) in &region.kinematics.tree.order {
@@ -317,7 +318,7 @@ impl<'a> Advancement<'a> {
                 continue;
             }
             let Region { kinematics, levels, .. } = region;
-            let scene = Scene { bodies: &self.bodies, kinematics, levels };
+            let scene = Scene { bodies: self.bodies, kinematics, levels };
             match self.clusters.proximity(&mut self.state, &scene, &pair, needs) {
                 Proximity::Separated => {}
                 Proximity::Open => open.push(pair),
@@ -386,7 +387,7 @@ impl<'a> Advancement<'a> {
             let link = kinematics.link(module, 0);
             self.state.require_deviation(kinematics, levels, pair.level as usize, link);
         }
-        let bound = separation::module_bound(&self.view(region), &self.bodies, pair);
+        let bound = separation::module_bound(&self.view(region), self.bodies, pair);
         let need = self.need(region, a, b, true, self.bodies.allowed_depth(a, b));
         let near = NEARLY * (self.bodies.reach[a] + self.bodies.reach[b]);
         if bound.least >= need {

@@ -5,6 +5,7 @@ use crate::geometry::distance::{
     distance_of_solids, enclosed_depth, enclosed_point, signed_distance, signed_distance_within,
 };
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3};
+use crate::plan::Tracks;
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 use std::collections::BTreeSet;
 
@@ -68,6 +69,14 @@ pub struct Body {
 }
 
 impl Bodies {
+    /// Compiles the convex parts of all links of a plan's robot, numbered as by its kinematics.
+    ///
+    /// # Errors
+    /// [`UnsoundLink`] for the first link whose shape is not sound.
+    pub(super) fn of_plan(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
+        Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
+    }
+
     /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts. `robot`: the
     /// assembly.
     ///

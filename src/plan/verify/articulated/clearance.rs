@@ -1,7 +1,7 @@
 //! Clearance curves and collision points for those who draw them. Nothing is judged here.
 
 use super::advancement::Advancement;
-use super::bodies::{Bodies, Body, UnsoundLink};
+use super::bodies::{Bodies, Body};
 use super::bonded::{BondedLinks, NominalOverlaps};
 use super::history::base_at;
 use super::tolerances::Precision;
@@ -45,16 +45,13 @@ pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
 }
 
 fn at_times(tracks: &Tracks, times: &[f64]) -> Option<Vec<Option<f64>>> {
-    let mut advancement = Advancement::new(tracks, bodies(tracks).ok()?, Precision::default(), usize::MAX);
+    let bodies = Bodies::of_plan(tracks).ok()?;
+    let mut advancement = Advancement::new(tracks, &bodies, Precision::default(), usize::MAX);
     let at = |time: &f64| {
         interrupt::checkpoint();
         advancement.clearance_at(&tracks.state(*time).bonds, *time)
     };
     Some(times.iter().map(at).collect())
-}
-
-fn bodies(tracks: &Tracks) -> Result<Bodies, UnsoundLink> {
-    Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
 }
 
 /// Returns the point (in the world, m) at which two modules, given by their indices in the assembly, penetrate each
@@ -67,7 +64,7 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
     if validation::check(plan).is_err() {
         return None;
     }
-    let bodies = bodies(tracks).ok()?;
+    let bodies = Bodies::of_plan(tracks).ok()?;
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];

@@ -20,7 +20,7 @@ use crate::geometry::Solid;
 use crate::plan::{
     CheckKind, DockingKind, Exemption, ExemptionKind, Failure, Settings, Status, Tracks, Worst,
 };
-use crate::robot::{Assembly, Bond, Kinematics, PortRef};
+use crate::robot::{Assembly, Bond, PortRef};
 use crate::units::{Dimension, quantity};
 
 /// The collisions and the clearance of a plan, as [`judge`] finds them.
@@ -76,27 +76,30 @@ pub fn judge(
     exemptions: &[Exemption],
     precision: &Precision,
 ) -> Result<Findings, UnsoundLink> {
-    let everything = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
-    let bodies = Bodies::new(&tracks.robot, &everything)?;
-    let advancement = Advancement::new(tracks, bodies, *precision, settings.samples_max);
-    Ok(search(tracks, exemptions, advancement))
+    Ok(planned(tracks, &Bodies::of_plan(tracks)?, settings, exemptions, precision))
+}
+
+/// Returns the collisions and the clearance as [`judge`] does, of a robot whose bodies are compiled.
+pub(super) fn planned(
+    tracks: &Tracks,
+    bodies: &Bodies,
+    settings: &Settings,
+    exemptions: &[Exemption],
+    precision: &Precision,
+) -> Findings {
+    search(tracks, exemptions, Advancement::new(tracks, bodies, *precision, settings.samples_max))
 }
 
 /// Returns the collisions of a plan at instants at which its joints are elsewhere than planned, as `along` says; those that
 /// do not depend on joints are among them. `tracks` must be valid, or it panics; `exemptions`: those of the plan.
-///
-/// # Errors
-/// [`UnsoundLink`] for the first link whose shape is not sound.
-pub(super) fn judge_deflected(
+pub(super) fn deflected(
     tracks: &Tracks,
+    bodies: &Bodies,
     settings: &Settings,
     exemptions: &[Exemption],
     along: Polyline,
-) -> Result<Findings, UnsoundLink> {
-    let everything = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
-    let bodies = Bodies::new(&tracks.robot, &everything)?;
-    let advancement = Advancement::deflected(tracks, bodies, along, settings.samples_max);
-    Ok(search(tracks, exemptions, advancement))
+) -> Findings {
+    search(tracks, exemptions, Advancement::deflected(tracks, bodies, along, settings.samples_max))
 }
 
 fn search(tracks: &Tracks, exemptions: &[Exemption], mut advancement: Advancement) -> Findings {

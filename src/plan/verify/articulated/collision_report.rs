@@ -3,7 +3,7 @@
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::Bodies;
 use super::collision::{self, Collision};
-use super::polyline::Polyline;
+use super::dynamics::{self, DeflectedMotion};
 use super::rollout::Rollout;
 use super::work_budget::work_max;
 use crate::geometry::Pose;
@@ -13,19 +13,18 @@ use crate::robot::{JointId, Kinematics};
 
 /// Judges the whole plan; needs only the relative poses of links, so the ground does not matter. `deflected`: the positions
 /// of the joints as servos yield, where loads were found.
-pub(super) fn judge(rollout: &Rollout, deflected: Option<Polyline>, ledger: &mut Ledger) {
+pub(super) fn judge(rollout: &Rollout, deflected: Option<DeflectedMotion>, ledger: &mut Ledger) {
     let tracks = rollout.tracks;
-    let found =
-        match collision::judge(tracks, rollout.settings, rollout.exemptions, &rollout.tolerances.collision) {
-            Ok(found) => found,
-            Err(unsound) => {
-                let message = format!(
-                    "the shape of {}.{} can't be judged: {}",
-                    unsound.module, unsound.link, unsound.why
-                );
-                return ledger.fail(Failure::form(message));
-            }
-        };
+    let bodies = match Bodies::of_plan(tracks) {
+        Ok(bodies) => bodies,
+        Err(unsound) => {
+            let message =
+                format!("the shape of {}.{} can't be judged: {}", unsound.module, unsound.link, unsound.why);
+            return ledger.fail(Failure::form(message));
+        }
+    };
+    let precision = &rollout.tolerances.collision;
+    let found = collision::planned(tracks, &bodies, rollout.settings, rollout.exemptions, precision);
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Collision);
     }
@@ -33,7 +32,7 @@ pub(super) fn judge(rollout: &Rollout, deflected: Option<Polyline>, ledger: &mut
         let mut failure = meeting.failure(&tracks.robot);
         match meeting.bond {
             Some(bond) => (failure.blame, failure.blames_start) = docked(tracks, bond, meeting.time),
-            None => failure.blame = blamed(tracks, meeting, |_| -meeting.allowed),
+            None => failure.blame = blamed(tracks, &bodies, meeting, |_| -meeting.allowed),
         }
         ledger.fail(failure);
     }
@@ -52,18 +51,21 @@ pub(super) fn judge(rollout: &Rollout, deflected: Option<Polyline>, ledger: &mut
     ledger.verdict.clearance = found.clearance;
     ledger.verdict.samples += found.samples;
     ledger.check(CheckKind::Collision, found.status);
-    if let Some(along) = deflected.filter(|along| !along.times().is_empty()) {
-        judge_deflected(rollout, along, &found.collisions, ledger);
+    if let Some(deflected) = deflected.filter(|deflected| deflected.instants > 0) {
+        judge_deflected(rollout, &bodies, deflected, &found.collisions, ledger);
     }
 }
 
 /// Judges whether links meet as servos yield that do not meet as planned; `planned`: the collisions as planned.
-fn judge_deflected(rollout: &Rollout, along: Polyline, planned: &[Collision], ledger: &mut Ledger) {
-    let tracks = rollout.tracks;
-    let instants = along.times().len();
-    let Ok(found) = collision::judge_deflected(tracks, rollout.settings, rollout.exemptions, along) else {
-        return;
-    };
+fn judge_deflected(
+    rollout: &Rollout,
+    bodies: &Bodies,
+    deflected: DeflectedMotion,
+    planned: &[Collision],
+    ledger: &mut Ledger,
+) {
+    let (tracks, DeflectedMotion { along, instants }) = (rollout.tracks, deflected);
+    let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along);
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Deflection);
     }
@@ -74,9 +76,9 @@ fn judge_deflected(rollout: &Rollout, along: Polyline, planned: &[Collision], le
     for meeting in found.collisions.iter().filter(meets) {
         let mut failure = meeting.failure(&tracks.robot);
         failure.kind = CheckKind::Deflection;
-        failure.message += DEFLECTED;
+        failure.message += &format!(", as {} yield under their loads", dynamics::soft_servos());
         // A joint to blame parts them by as much as they meet.
-        failure.blame = blamed(tracks, meeting, |apart| apart + meeting.depth);
+        failure.blame = blamed(tracks, bodies, meeting, |apart| apart + meeting.depth);
         ledger.fail(failure);
     }
     let status = match found.status {
@@ -85,9 +87,6 @@ fn judge_deflected(rollout: &Rollout, along: Polyline, planned: &[Collision], le
     };
     ledger.check(CheckKind::Deflection, status);
 }
-
-/// The words of how links meet that do not meet as planned.
-const DEFLECTED: &str = ", as servos 0.4 times as stiff as stated yield under their loads";
 
 /// Returns the action that docked two links, and false; or the line that connects them from the start, and true.
 fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
@@ -103,10 +102,14 @@ fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
 /// Returns the actions whose joint, held still from its start, keeps the two links apart at the instant of their
 /// greatest depth; latest first. `needed`: the function that returns the signed distance that they must then have, m, from
 /// that which they have as planned.
-fn blamed(tracks: &Tracks, meeting: &Collision, needed: impl Fn(f64) -> f64) -> Vec<CauseId> {
+fn blamed(
+    tracks: &Tracks,
+    bodies: &Bodies,
+    meeting: &Collision,
+    needed: impl Fn(f64) -> f64,
+) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, 0);
-    let Ok(bodies) = Bodies::new(&tracks.robot, &kinematics) else { return vec![] };
     let links = (
         kinematics.link(meeting.modules.0, meeting.links.0),
         kinematics.link(meeting.modules.1, meeting.links.1),

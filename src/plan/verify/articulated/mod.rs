@@ -74,7 +74,6 @@ use super::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
-use polyline::Polyline;
 
 /// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. Panics unless the plan passes
 /// [`validation::check`](crate::plan::validation::check).
@@ -122,7 +121,7 @@ fn check_samples(
     rollout: &Rollout,
     missed: Vec<usize>,
     ledger: &mut Ledger,
-) -> (Vec<Checkpoint>, Option<Polyline>) {
+) -> (Vec<Checkpoint>, Option<dynamics::DeflectedMotion>) {
     let mut loops = docking::Monitor::new(rollout, missed);
     let mut checkpoints = Decimated::new(CHECKPOINTS_MAX);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);

@@ -21,6 +21,7 @@ use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World, Wors
 use crate::robot::dynamics::{Dynamics, Twist};
 use crate::robot::{JointId, JointOwner};
 use crate::units::{Dimension, number, quantity};
+use std::cell::OnceCell;
 use std::collections::{BTreeSet, VecDeque};
 
 /// The robot with bonds that hold, compiled for loads.
@@ -231,12 +232,20 @@ impl<'a> Course<'a> {
 
     /// Returns true if `allows saturation` excuses an overload of a joint at an instant, because the robot then sags little,
     /// and marks it as needed.
-    fn is_saturated(&self, load: &Load, index: usize, ledger: &mut Ledger) -> bool {
+    /// `sags_little`: whether it does at this instant, once that is known.
+    fn is_saturated(
+        &self,
+        load: &Load,
+        index: usize,
+        sags_little: &OnceCell<bool>,
+        ledger: &mut Ledger,
+    ) -> bool {
         let time = self.instants[index].time;
         let of = |kind: &ExemptionKind| *kind == ExemptionKind::Saturation;
+        let little = || self.sag(index).is_some_and(|(_, sag)| sag <= PARAMETERS.sag_allowed);
         matches!(load.kind, LoadKind::Joint { .. })
             && self.rollout.exemptions.iter().any(|e| of(&e.kind) && e.covers(time))
-            && self.sag(index).is_some_and(|(_, sag)| sag <= PARAMETERS.sag_allowed)
+            && *sags_little.get_or_init(little)
             && ledger.excuses(CheckKind::Torque, time, of)
     }
 
@@ -256,9 +265,9 @@ impl<'a> Course<'a> {
         Some((efforts, if part < 0.5 { from.ground } else { to.ground }))
     }
 
-    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors. Returns the positions of
+    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors. Returns the motion of
     /// the joints as soft servos yield under these loads.
-    pub(in super::super) fn judge(&self, ledger: &mut Ledger) -> Polyline {
+    pub(in super::super) fn judge(&self, ledger: &mut Ledger) -> DeflectedMotion {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
@@ -269,8 +278,11 @@ impl<'a> Course<'a> {
                 window.clear();
             }
             found.instants += 1;
+            let mut joints = Vec::new();
+            positions(self.rollout, recorded.time, &mut joints);
             let Some(loaded) = self.loads(index, true, 1.0, &mut warm) else {
                 found.unknown += 1;
+                found.deflected.along.push(recorded.time, &joints);
                 window.clear();
                 continue;
             };
@@ -282,12 +294,13 @@ impl<'a> Course<'a> {
                 let landed: Vec<usize> = loaded.bearing.difference(&last.bearing).copied().collect();
                 self.note_impacts(*before, index, &landed, ledger);
             }
-            let mut joints = Vec::new();
-            positions(self.rollout, recorded.time, &mut joints);
-            if !self.is_overloaded(index, &loaded)
-                && let Some(deflected) = deflected(&joints, &loaded.deflections)
-            {
-                found.deflected.push(recorded.time, &deflected);
+            match deflected(&joints, &loaded.deflections).filter(|_| !self.is_overloaded(index, &loaded)) {
+                Some(deflected) => {
+                    found.deflected.instants += 1;
+                    found.deflected.along.push(recorded.time, &deflected);
+                }
+                // The plan's own positions stand for those of a robot that gives way: its links do not meet there.
+                None => found.deflected.along.push(recorded.time, &joints),
             }
             found.work.add(joints, loaded.efforts.clone());
             window.push_back((recorded.time, index, loaded));
@@ -338,13 +351,14 @@ impl<'a> Course<'a> {
         let cuts = window[0].2.held.len();
         let mean: Vec<f64> =
             (0..cuts).map(|cut| window.iter().map(|(_, _, l)| l.held[cut]).sum::<f64>() / count).collect();
+        let sags_little = OnceCell::new();
         for (index, load) in structure.loads.iter().enumerate() {
             let value = structure.size(load, &mean);
             let ratio = value / load.limit;
             keep_margin(load, ratio, *time, ledger);
             if ratio <= 1.0 - self.rollout.settings.reserve
                 || is_excused(load, *time, ledger)
-                || self.is_saturated(load, *middle, ledger)
+                || self.is_saturated(load, *middle, &sags_little, ledger)
             {
                 continue;
             }
@@ -541,8 +555,16 @@ struct Findings {
     stepped: bool,
     overloads: Vec<MeanOverload>,
     work: MotorWork,
-    /// The positions of the joints as soft servos yield.
-    deflected: Polyline,
+    deflected: DeflectedMotion,
+}
+
+/// The motion of the joints as soft servos yield under their loads.
+#[derive(Default)]
+pub(in super::super) struct DeflectedMotion {
+    /// The positions of the joints at all instants; as planned, where no loads were found or a joint gives way.
+    pub along: Polyline,
+    /// The number of the instants at which they are deflected.
+    pub instants: usize,
 }
 
 /// Returns these positions of the joints with their deflections (rad or m) as great as they are with soft servos; `None`

@@ -25,6 +25,6 @@ mod tolerances;
 mod traction;
 mod twist;
 
-pub(super) use course::Course;
+pub(super) use course::{Course, DeflectedMotion};
 pub(super) use recorder::Recorder;
-pub(super) use traction::{GroundStep, Traction, Ways, travel_tolerance};
+pub(super) use traction::{GroundStep, Traction, Ways, soft_servos, travel_tolerance};

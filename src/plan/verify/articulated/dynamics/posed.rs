@@ -363,7 +363,7 @@ impl<'a> Situation<'a> {
 }
 
 /// Returns the stiffness of each joint's servo, by [`crate::robot::JointId`], N·m/rad or N/m
-/// ([`Servo::stiffness`](crate::robot::Servo::stiffness)), or
+/// ([`servo_stiffness`](crate::robot::Assembly::servo_stiffness)), or
 /// [`passive_stiffness`](super::tolerances::Parameters::passive_stiffness).
 fn stiffness(model: &Model) -> Vec<f64> {
     let robot = model.robot;
@@ -371,7 +371,7 @@ fn stiffness(model: &Model) -> Vec<f64> {
         JointOwner::Module { module, joint } if robot.module_type(module).joints[joint].passive => {
             PARAMETERS.passive_stiffness
         }
-        _ => robot.servo(owner).stiffness(robot.slides(owner), robot.effort_limit(owner)),
+        _ => robot.servo_stiffness(owner),
     };
     robot.joints().map(of).collect()
 }

@@ -12,7 +12,7 @@ use super::twist::{self, Momentum};
 use crate::geometry::Vec3;
 use crate::plan::{Exemption, ExemptionKind, Verdict, World};
 use crate::robot::dynamics::{Dynamics, Twist};
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, number, quantity};
 use nalgebra::Vector3;
 
 /// The state of travel over the ground, which goes on from sample to sample.
@@ -46,13 +46,17 @@ impl Otherwise {
     const ALL: [Otherwise; 3] = [Otherwise::Friction, Otherwise::Softer, Otherwise::Stiffer];
 
     /// Returns the condition of a sentence: `if servos were 0.4 times as stiff`.
-    pub(super) fn words(self) -> &'static str {
+    pub(super) fn words(self) -> String {
         match self {
-            Otherwise::Friction => {
-                "if contacts that slide had 1.25 times the friction and the others 0.8 times"
+            Otherwise::Friction => format!(
+                "if contacts that slide had {} times the friction and the others {} times",
+                number(PARAMETERS.friction_more),
+                number(PARAMETERS.friction_less)
+            ),
+            Otherwise::Softer => format!("if servos were {} times as stiff", number(PARAMETERS.servo_softer)),
+            Otherwise::Stiffer => {
+                format!("if servos were {} times as stiff", number(PARAMETERS.servo_stiffer))
             }
-            Otherwise::Softer => "if servos were 0.4 times as stiff",
-            Otherwise::Stiffer => "if servos were 3.3 times as stiff",
         }
     }
 }
@@ -274,6 +278,11 @@ pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
         "the travel is known within {}: a tenth of it, 5mm or a fifth of the slip, whichever is most",
         quantity(libm::ceil(within * 1e3) / 1e3, Dimension::LENGTH)
     )
+}
+
+/// Returns the words of servos that are softer than stated: `servos 0.4 times as stiff as stated`.
+pub(in super::super) fn soft_servos() -> String {
+    format!("servos {} times as stiff as stated", number(PARAMETERS.servo_softer))
 }
 
 /// Returns the turn about the vertical from one attitude to another, rad.
