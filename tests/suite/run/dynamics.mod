@@ -269,6 +269,11 @@ print(ok(12mm), ok(8mm))
 config Slipping { part s: Sledge  behavior shift allows slip = move(s.slide, to: 40mm, in: 500ms) }
 print(verify(Sc(Slipping().shift(), wait(100ms)), world: world(friction: 0), slip_max: 8mm).ok)
 //> true
+// What is excused is not counted, and what comes after is.
+let slipping = Slipping()
+fn back(most: Length) -> Bool = verify(Sc(slipping.shift(), move(slipping.s.slide, to: 0mm, in: 500ms)), world: world(friction: 0), slip_max: most).ok
+print(back(12mm), back(8mm))
+//> true false
 print(verify(s, slip_max: -1mm).ok)
 //                        ~~~~ E0506 must not be negative
 

@@ -21,6 +21,8 @@ pub(super) struct Monitor<'a> {
     yaw: f64,
     /// The slip of each link, by its number, summed over the samples at which it carries a share of the weight, m.
     slips: Vec<f64>,
+    /// The part of it that nothing excuses, m.
+    counted: Vec<f64>,
     /// The greatest slip that is stated, m.
     slip_max: Option<f64>,
     /// The times (s) at which links, by their numbers, come to slip by more.
@@ -44,6 +46,7 @@ impl<'a> Monitor<'a> {
             last: identity,
             yaw: 0.0,
             slips: vec![],
+            counted: vec![],
             slip_max: settings.slip_max,
             exceeded: vec![],
             samples: 0,
@@ -80,26 +83,29 @@ impl<'a> Monitor<'a> {
         self.last = pose;
     }
 
-    /// Adds to the slip of the links that carry at least the part `slip_load` of the weight.
+    /// Adds to the slip of the links that carry at least the part `slip_load` of the weight. Excused slip counts for the
+    /// greatest slip, and not against the stated one.
     fn slip(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.slips.resize(sample.model.bodies.len(), 0.0);
-        let mut excused = false;
-        for &(link, slip, load) in sample.slips {
-            if load >= self.tolerances.slip_load {
-                let before = self.slips[link];
-                self.slips[link] += slip;
-                excused |= self.slips[link] > self.tolerances.slip;
-                let crosses = |most: f64| before <= most && self.slips[link] > most;
-                if self.slip_max.is_some_and(crosses) {
-                    self.exceeded.push((sample.time, link));
-                }
-            }
+        self.counted.resize(sample.model.bodies.len(), 0.0);
+        let loaded = || sample.slips.iter().filter(|(_, _, load)| *load >= self.tolerances.slip_load);
+        let mut slides = false;
+        for &(link, slip, _) in loaded() {
+            self.slips[link] += slip;
+            slides |= self.slips[link] > self.tolerances.slip;
         }
         // Without a limit slip fails nothing: an exemption is needed as soon as there is some.
-        let covered =
-            excused && ledger.excuses(CheckKind::Slip, sample.time, |kind| *kind == ExemptionKind::Slip);
-        if covered {
-            self.exceeded.retain(|(time, _)| *time < sample.time);
+        let of = |kind: &ExemptionKind| *kind == ExemptionKind::Slip;
+        if slides && ledger.excuses(CheckKind::Slip, sample.time, of) {
+            return;
+        }
+        for &(link, slip, _) in loaded() {
+            let before = self.counted[link];
+            self.counted[link] += slip;
+            let crosses = |most: f64| before <= most && self.counted[link] > most;
+            if self.slip_max.is_some_and(crosses) {
+                self.exceeded.push((sample.time, link));
+            }
         }
     }
 
@@ -162,7 +168,7 @@ impl<'a> Monitor<'a> {
             },
         );
         for &(time, link) in &self.exceeded {
-            ledger.fail(slip_failure(time, names(link), self.slips[link], self.slip_max.unwrap_or(0.0)));
+            ledger.fail(slip_failure(time, names(link), self.counted[link], self.slip_max.unwrap_or(0.0)));
         }
         ledger.check(
             CheckKind::Slip,
