@@ -15,6 +15,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A cancellation token that any thread may set. Clones share one state.
@@ -29,6 +30,8 @@ struct Flags {
     on_abandon: Mutex<Option<Waker>>,
     /// The token whose cancellation cancels this one, too.
     parent: Option<CancelState>,
+    /// True if the work of this token answers the progress requests of the parent, too.
+    answers_parent: AtomicBool,
 }
 
 /// Wakes the thread that waits for the work.
@@ -96,7 +99,9 @@ impl CancelState {
 
     /// Returns true if a progress request waits, and takes it.
     fn take_progress_request(&self) -> bool {
+        let answered = || self.0.parent.as_ref().filter(|_| self.0.answers_parent.load(Ordering::Relaxed));
         self.is_progress_requested() && self.0.progress_requested.swap(false, Ordering::Relaxed)
+            || answered().is_some_and(CancelState::take_progress_request)
     }
 }
 
@@ -140,6 +145,44 @@ pub fn catch<T>(
         Ok(result) => Some(result),
         Err(thrown) if thrown.is::<Cancelled>() => None,
         Err(panic) => resume_unwind(panic),
+    }
+}
+
+/// Does two independent pieces of work, `here` on this thread and `beside` on another, and returns both results. A
+/// cancellation of this thread's work ends both, and a panic of either goes on to the caller. Progress is that of `here`
+/// until it is done, then that of `beside`. Without a second thread, `beside` is done after `here`.
+///
+/// ```
+/// let (sum, product) = modl::interrupt::join(|| 2 + 3, || 2 * 3);
+/// assert_eq!((sum, product), (5, 6));
+/// ```
+pub fn join<A, B: Send>(here: impl FnOnce() -> A, beside: impl FnOnce() -> B + Send) -> (A, B) {
+    let cancel_state = current().map_or_else(CancelState::default, |user| user.child());
+    let beside = Mutex::new(Some(beside));
+    let take = || beside.lock().unwrap_or_else(PoisonError::into_inner).take().expect("it is done once");
+    let (reports, received) = channel();
+    std::thread::scope(|scope| {
+        let report = move |line| drop(reports.send(line));
+        let work = || catch(&cancel_state, report, || take()());
+        let helper = std::thread::Builder::new().spawn_scoped(scope, work);
+        // However this scope is left, the helper ends.
+        let cancels = CancelOnDrop(&cancel_state);
+        let a = here();
+        let Ok(helper) = helper else { return (a, take()()) };
+        cancel_state.0.answers_parent.store(true, Ordering::Relaxed);
+        received.into_iter().for_each(report_progress);
+        let b = helper.join().unwrap_or_else(|panic| resume_unwind(panic));
+        drop(cancels);
+        (a, b.unwrap_or_else(|| unwind()))
+    })
+}
+
+/// Cancels its token when dropped, so that threads that work under it end however their scope is left.
+pub struct CancelOnDrop<'a>(pub &'a CancelState);
+
+impl Drop for CancelOnDrop<'_> {
+    fn drop(&mut self) {
+        self.0.cancel();
     }
 }
 

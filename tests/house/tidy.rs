@@ -113,7 +113,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::io", &["plan", "cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
-    ("std::thread", &["planners", "interpret", "cli"]),
+    ("std::thread", &["interrupt", "planners", "interpret", "cli"]),
     ("std::time", &["cli"]),
 ];
 

@@ -74,7 +74,7 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
         }
         drop(sender);
         // However this scope is left, the threads end.
-        let _cancels = CancelOnDrop(&cancel_state);
+        let _cancels = interrupt::CancelOnDrop(&cancel_state);
         // Results that came early wait for those before them.
         let mut early = BTreeMap::new();
         let mut awaited = sequential;
@@ -90,13 +90,4 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
         // Before all results came only the user's cancellation ends the threads.
         interrupt::checkpoint();
     });
-}
-
-/// Cancels its state when dropped.
-struct CancelOnDrop<'a>(&'a CancelState);
-
-impl Drop for CancelOnDrop<'_> {
-    fn drop(&mut self) {
-        self.0.cancel();
-    }
 }

@@ -1,8 +1,8 @@
 //! Collisions in the verdict: failures with the actions to blame.
 
 use super::blame::{self, BLAMED_MAX};
-use super::bodies::Bodies;
-use super::collision::{self, Collision};
+use super::bodies::{Bodies, UnsoundLink};
+use super::collision::{self, Collision, Findings};
 use super::dynamics::{self, DeflectedMotion};
 use super::rollout::Rollout;
 use super::work_budget::work_max;
@@ -11,20 +11,40 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
 use crate::robot::{JointId, Kinematics};
 
-/// Judges the whole plan; needs only the relative poses of links, so the ground does not matter. `deflected`: the positions
-/// of the joints as servos yield, where loads were found.
-pub(super) fn judge(rollout: &Rollout, deflected: Option<DeflectedMotion>, ledger: &mut Ledger) {
+/// The collisions as planned, with the compiled bodies of the robot.
+pub(super) struct PlannedCollisions {
+    bodies: Bodies,
+    found: Findings,
+}
+
+/// Returns the collisions of the whole plan; needs only the relative poses of links, so the ground does not matter.
+///
+/// # Errors
+/// [`UnsoundLink`] for the first link whose shape is not sound.
+pub(super) fn find(rollout: &Rollout) -> Result<PlannedCollisions, UnsoundLink> {
+    let bodies = Bodies::of_plan(rollout.tracks)?;
+    let precision = &rollout.tolerances.collision;
+    let found = collision::planned(rollout.tracks, &bodies, rollout.settings, rollout.exemptions, precision);
+    Ok(PlannedCollisions { bodies, found })
+}
+
+/// Judges the collisions that [`find`] returned for the whole plan. `deflected`: the positions of the joints as servos
+/// yield, where loads were found.
+pub(super) fn judge(
+    rollout: &Rollout,
+    planned: Result<PlannedCollisions, UnsoundLink>,
+    deflected: Option<DeflectedMotion>,
+    ledger: &mut Ledger,
+) {
     let tracks = rollout.tracks;
-    let bodies = match Bodies::of_plan(tracks) {
-        Ok(bodies) => bodies,
+    let PlannedCollisions { bodies, found } = match planned {
+        Ok(planned) => planned,
         Err(unsound) => {
             let message =
                 format!("the shape of {}.{} can't be judged: {}", unsound.module, unsound.link, unsound.why);
             return ledger.fail(Failure::form(message));
         }
     };
-    let precision = &rollout.tolerances.collision;
-    let found = collision::planned(tracks, &bodies, rollout.settings, rollout.exemptions, precision);
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Collision);
     }

@@ -71,6 +71,7 @@ pub use time_series::{Detail, GroundForce, Instant, instants};
 pub use tolerances::{Precision, Tolerances};
 
 use super::ledger::Ledger;
+use crate::interrupt;
 use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
@@ -89,8 +90,12 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     if samples > rollout::samples_max(&plan.settings, features) {
         ledger.fail(too_many_samples(samples, &plan.settings, features));
     } else {
-        let (checkpoints, deflected) = check_samples(&rollout, missed, &mut ledger);
-        collision_report::judge(&rollout, deflected, &mut ledger);
+        // The relative poses of links do not depend on the ground.
+        let ((checkpoints, deflected), collisions) = interrupt::join(
+            || check_samples(&rollout, missed, &mut ledger),
+            || collision_report::find(&rollout),
+        );
+        collision_report::judge(&rollout, collisions, deflected, &mut ledger);
         if rollout.is_full() {
             ledger.drop_consequences();
         }

@@ -150,11 +150,11 @@ fn lowest_bundle(planes: &[SupportPlane], tau: f64) -> Basis {
     let first = highest.unwrap_or(SupportPlane { a: 0.0, b: [0.0; 2] });
     let mut basis = solved(&[first], tau).expect("one plane is always a basis");
     for _ in 0..BASES_MAX {
-        let worst =
-            planes.iter().copied().reduce(|w, p| if p.at(&basis.omega) > w.at(&basis.omega) { p } else { w });
-        let Some(worst) = worst.filter(|w| w.at(&basis.omega) > basis.t + NUMERICS.plane_violation) else {
+        let highest = planes.iter().map(|p| p.at(&basis.omega)).fold(f64::NEG_INFINITY, f64::max);
+        if highest <= basis.t + NUMERICS.plane_violation {
             break;
-        };
+        }
+        let Some(worst) = planes.iter().copied().find(|p| p.at(&basis.omega) == highest) else { break };
         match exchanged(&basis, worst, tau).filter(|next| next.value > basis.value) {
             Some(next) => basis = next,
             None => break,

@@ -3,10 +3,10 @@
 
 use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
-use super::super::polyline::Polyline;
 use super::super::rollout::{Rollout, positions};
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
 use super::bursts::Bursts;
+use super::deflection::{DeflectedMotion, deflected};
 use super::elastic_tree::LimitedMotor;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
@@ -22,7 +22,7 @@ use crate::robot::dynamics::{Dynamics, Twist};
 use crate::robot::{JointId, JointOwner};
 use crate::units::{Dimension, number, quantity};
 use std::cell::OnceCell;
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// The robot with bonds that hold, compiled for loads.
 struct Compiled<'a> {
@@ -89,6 +89,16 @@ struct Loaded {
     open: bool,
     /// True if the inertial force is more than friction can carry.
     slides: bool,
+}
+
+/// The loads of an instant as if the robot were at rest.
+struct AtRest {
+    /// The loads without friction; `None` where they can't be found.
+    frictionless: Option<Loaded>,
+    /// The loads with friction; `None` where they can't be found.
+    standing: Option<Loaded>,
+    /// The words of how far the robot sags, once they are known.
+    sag: OnceCell<String>,
 }
 
 impl<'a> Course<'a> {
@@ -309,8 +319,11 @@ impl<'a> Course<'a> {
             }
             self.compare(&window, &mut found, ledger);
         }
+        // Many joints are often overloaded at one instant.
+        let mut at_rest: BTreeMap<usize, AtRest> = BTreeMap::new();
         for overload in &found.overloads {
-            ledger.fail(self.explained(overload));
+            let at_rest = at_rest.entry(overload.instant).or_insert_with(|| self.at_rest(overload.instant));
+            ledger.fail(self.explained(overload, at_rest));
         }
         self.finish(&found, ledger);
         found.deflected
@@ -381,21 +394,24 @@ impl<'a> Course<'a> {
     }
 
     /// Returns the failure of an overload, with its shares by origin.
-    fn explained(&self, overload: &MeanOverload) -> Failure {
+    fn explained(&self, overload: &MeanOverload, at_rest: &AtRest) -> Failure {
         let structure = &self.compiled[self.instants[overload.instant].bonds].structure;
         let load = &structure.loads[overload.load];
-        let size = |moving, friction| {
-            let loaded = self.loads(overload.instant, moving, friction, &mut Warm::default())?;
-            Some(structure.size(load, &loaded.held))
-        };
-        // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
-        let shares = size(false, 0.0).zip(size(false, 1.0));
+        let size = |loaded: &Option<Loaded>| Some(structure.size(load, &loaded.as_ref()?.held));
+        let shares = size(&at_rest.frictionless).zip(size(&at_rest.standing));
         let mut failure = overload.failure(shares, self.rollout.settings.reserve);
-        let at_rest = shares.is_some_and(|(_, standing)| standing > load.limit);
-        if at_rest && matches!(load.kind, LoadKind::Joint { .. }) {
-            failure.message += &self.sag_words(overload.instant);
+        let gives_way = shares.is_some_and(|(_, standing)| standing > load.limit);
+        if gives_way && matches!(load.kind, LoadKind::Joint { .. }) {
+            failure.message += at_rest.sag.get_or_init(|| self.sag_words(overload.instant));
         }
         failure
+    }
+
+    /// Returns the loads of the instant of an index as if the robot were at rest.
+    fn at_rest(&self, index: usize) -> AtRest {
+        let loads = |friction| self.loads(index, false, friction, &mut Warm::default());
+        // Without friction nothing holds the robot in place, but nothing moves it either: it stands still.
+        AtRest { frictionless: loads(0.0), standing: loads(1.0), sag: OnceCell::new() }
     }
 
     /// Notes a margin of torque that is smaller than the error of the loads.
@@ -556,26 +572,6 @@ struct Findings {
     overloads: Vec<MeanOverload>,
     work: MotorWork,
     deflected: DeflectedMotion,
-}
-
-/// The motion of the joints as soft servos yield under their loads.
-#[derive(Default)]
-pub(in super::super) struct DeflectedMotion {
-    /// The positions of the joints at all instants; as planned, where no loads were found or a joint gives way.
-    pub along: Polyline,
-    /// The number of the instants at which they are deflected.
-    pub instants: usize,
-}
-
-/// Returns these positions of the joints with their deflections (rad or m) as great as they are with soft servos; `None`
-/// where one gives way.
-fn deflected(joints: &[f64], deflections: &[f64]) -> Option<Vec<f64>> {
-    let softer = PARAMETERS.servo_softer.recip();
-    let yields =
-        deflections.iter().all(|deflection| (softer * deflection).abs() <= PARAMETERS.deflection_max);
-    let deflected =
-        || joints.iter().zip(deflections).map(|(at, deflection)| at + softer * deflection).collect();
-    yields.then(deflected)
 }
 
 /// Returns a twist turned about the vertical by `yaw` (rad): given in level axes, it is returned in those of the world.

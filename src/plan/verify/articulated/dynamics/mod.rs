@@ -15,6 +15,7 @@
 
 mod bursts;
 mod course;
+mod deflection;
 mod elastic_tree;
 mod equilibrium;
 mod loads;
@@ -25,6 +26,7 @@ mod tolerances;
 mod traction;
 mod twist;
 
-pub(super) use course::{Course, DeflectedMotion};
+pub(super) use course::Course;
+pub(super) use deflection::DeflectedMotion;
 pub(super) use recorder::Recorder;
 pub(super) use traction::{GroundStep, Traction, Ways, soft_servos, travel_tolerance};

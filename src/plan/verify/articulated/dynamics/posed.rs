@@ -11,7 +11,6 @@ use crate::plan::{Ground, World};
 use crate::robot::JointOwner;
 use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector6};
-use std::collections::BTreeMap;
 
 /// A point of the robot that the ground may bear.
 #[derive(Clone, Debug)]
@@ -102,26 +101,32 @@ impl<'a> Posed<'a> {
     /// [`candidate_distance`](super::tolerances::Parameters::candidate_distance). `friction` is the world's factor.
     pub(super) fn candidates(&self, friction: f64) -> Vec<Candidate> {
         let up = Vec3::z();
-        let (placed, lowest) = self.placed();
+        let (heights, lowest) = self.feature_heights();
         let mut near = Vec::new();
-        for (index, (height, feature)) in placed.iter().enumerate() {
+        let mut before: Option<(usize, Feature)> = None;
+        for (index, height) in heights.iter().enumerate() {
             if height - lowest > PARAMETERS.gap_max {
                 continue;
             }
+            let (link, feature) = (self.model.link_of[index], self.placed(index));
             for k in 0..feature.points() {
                 let p = feature.point(k, &up);
                 if p.z - lowest <= PARAMETERS.gap_max {
-                    near.push((p.z - lowest, self.model.link_of[index], index, k, p));
+                    near.push((p.z - lowest, link, index, k, p));
                 }
             }
+            let rims = before.filter(|(other, _)| other + 1 == index && self.model.link_of[*other] == link);
+            if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature)) {
+                near.push((p.z - lowest, link, index - 1, feature.points(), p));
+            }
+            before = Some((index, feature));
         }
-        near.extend(self.treads(&placed, lowest));
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3))));
+        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3))));
         let by_joints = self.by_joints();
-        let mut kept: Vec<Candidate> = Vec::new();
-        let mut on_link: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
+        let mut kept: Vec<Candidate> = Vec::with_capacity(near.len());
+        let mut on_link: Vec<Vec<Vec3>> = vec![Vec::new(); self.poses.len()];
         for (gap, link, index, k, p) in near {
-            let others = on_link.entry(link).or_default();
+            let others = &mut on_link[link];
             if others.iter().any(|other| (other - p).norm() < PARAMETERS.candidate_distance) {
                 continue;
             }
@@ -138,52 +143,37 @@ impl<'a> Posed<'a> {
         kept
     }
 
-    /// Returns the features in level axes about the centre of mass, each with the height of its lowest point, m, and the
-    /// least of these heights.
-    fn placed(&self) -> (Vec<(f64, Feature)>, f64) {
-        let place = |(index, feature): (usize, &Feature)| {
-            let pose = &self.poses[self.model.link_of[index]];
-            let feature =
-                feature.placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector);
-            (feature.lowest(&Vec3::z()), feature)
-        };
-        let placed: Vec<(f64, Feature)> = self.model.features.iter().enumerate().map(place).collect();
-        let lowest = placed.iter().map(|(height, _)| *height).fold(f64::INFINITY, f64::min);
-        (placed, lowest)
+    /// Returns the feature of an index in level axes about the centre of mass.
+    fn placed(&self, index: usize) -> Feature {
+        let pose = &self.poses[self.model.link_of[index]];
+        self.model.features[index]
+            .placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector)
+    }
+
+    /// Returns the height of the lowest point of each feature over the centre of mass, m, and the least of these heights;
+    /// infinity without features.
+    fn feature_heights(&self) -> (Vec<f64>, f64) {
+        let mut heights = Vec::with_capacity(self.model.features.len());
+        for &link in &self.model.attached {
+            let pose = &self.poses[link];
+            let up = pose.rotation.inverse_transform_vector(&Vec3::z());
+            let own = &self.model.features[self.model.bodies[link].features.clone()];
+            heights.extend(own.iter().map(|feature| feature.lowest(&up) + pose.translation.vector.z));
+        }
+        let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        (heights, lowest)
     }
 
     /// Returns the height of each link, by its number, over the lowest point of the robot, m; infinite for links without
     /// features.
     pub(super) fn heights(&self) -> Vec<f64> {
-        let (placed, lowest) = self.placed();
+        let (of_features, lowest) = self.feature_heights();
         let mut heights = vec![f64::INFINITY; self.poses.len()];
-        for (index, (height, _)) in placed.iter().enumerate() {
+        for (index, height) in of_features.iter().enumerate() {
             let link = &mut heights[self.model.link_of[index]];
             *link = link.min(height - lowest);
         }
         heights
-    }
-
-    /// Returns the points in the middle of the lines on which cylinders lie, as `(gap, link, index of the first rim,
-    /// number, point)`. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims
-    /// bore it.
-    fn treads(&self, placed: &[(f64, Feature)], lowest: f64) -> Vec<(f64, usize, usize, u8, Vec3)> {
-        let up = Vec3::z();
-        let mut found = Vec::new();
-        for (index, pair) in placed.windows(2).enumerate() {
-            let (Form::Circle(axis, radius), Form::Circle(other, same)) = (pair[0].1.form, pair[1].1.form)
-            else {
-                continue;
-            };
-            let link = self.model.link_of[index];
-            let one = axis == other && radius == same && self.model.link_of[index + 1] == link;
-            let low = pair.iter().all(|(height, _)| height - lowest <= PARAMETERS.gap_max);
-            if one && low {
-                let p = (pair[0].1.point(0, &up) + pair[1].1.point(0, &up)) / 2.0;
-                found.push((p.z - lowest, link, index, pair[0].1.points(), p));
-            }
-        }
-        found
     }
 
     /// Returns the twist of the base's own frame from the base's twist at the centre of mass, both in level axes (m/s,
@@ -267,6 +257,16 @@ impl<'a> Posed<'a> {
         let down = Vec3::new(0.0, 0.0, -gravity);
         self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros())
     }
+}
+
+/// Returns the point in the middle of the line on which a cylinder with these two rims lies, m; `None` if they are not
+/// the rims of one. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore it.
+fn tread(first: &Feature, second: &Feature) -> Option<Vec3> {
+    let (Form::Circle(axis, radius), Form::Circle(other, same)) = (first.form, second.form) else {
+        return None;
+    };
+    let up = Vec3::z();
+    (axis == other && radius == same).then(|| (first.point(0, &up) + second.point(0, &up)) / 2.0)
 }
 
 /// The support of the robot by its surroundings.

@@ -9,7 +9,7 @@ use super::posed::Candidate;
 use super::tolerances::PARAMETERS;
 use crate::geometry::Vec3;
 use crate::robot::dynamics::Twist;
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use std::collections::BTreeMap;
 
 /// The planar momentum that the robot keeps where friction is low.
@@ -48,32 +48,35 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     let mut twist = start;
     let ridge = PARAMETERS.regularization * problem.weight;
     let press = PARAMETERS.normal_weight / PARAMETERS.slip_speed;
-    for _ in 0..PARAMETERS.twist_rounds_max {
-        let mut matrix = Matrix6::identity() * ridge;
-        let mut right = start * ridge;
+    let loaded = || problem.candidates.iter().zip(problem.loads).filter(|(_, load)| **load > 0.0);
+    let (mut given, mut given_right) = (Matrix6::identity() * ridge, start * ridge);
+    for (axis, row) in PLANAR.into_iter().enumerate() {
+        given_right[row] -= problem.needed[axis];
+    }
+    if let Some(momentum) = &problem.momentum {
+        let inertia = momentum.inertia / momentum.step;
         for (axis, row) in PLANAR.into_iter().enumerate() {
-            right[row] -= problem.needed[axis];
+            given_right[row] += inertia[axis] * momentum.free[axis];
+            given[(row, row)] += inertia[axis];
         }
-        if let Some(momentum) = &problem.momentum {
-            let inertia = momentum.inertia / momentum.step;
-            for (axis, row) in PLANAR.into_iter().enumerate() {
-                right[row] += inertia[axis] * momentum.free[axis];
-                matrix[(row, row)] += inertia[axis];
-            }
+    }
+    // Along the normal the weights do not change with the slip.
+    let mut normal = Resistance::default();
+    for (candidate, load) in loaded() {
+        normal.add(&candidate.p, &candidate.by_joints, press * load);
+    }
+    normal.along_normal(&mut given, &mut given_right);
+    for _ in 0..PARAMETERS.twist_rounds_max {
+        let (mut matrix, mut right) = (given, given_right);
+        let mut along = Resistance::default();
+        for (candidate, load) in loaded() {
+            let (p, v) = (&candidate.p, &candidate.by_joints);
+            let x = twist[0] + twist[4] * p.z - twist[5] * p.y + v.x;
+            let y = twist[1] + twist[5] * p.x - twist[3] * p.z + v.y;
+            let speed = libm::sqrt(x * x + y * y + PARAMETERS.slip_speed * PARAMETERS.slip_speed);
+            along.add(p, v, candidate.friction * load / speed);
         }
-        for (i, candidate) in problem.candidates.iter().enumerate() {
-            let load = problem.loads[i];
-            if load <= 0.0 {
-                continue;
-            }
-            let slip = moved(&twist).at(&candidate.p) + candidate.by_joints;
-            let speed = libm::hypot(libm::hypot(slip.x, slip.y), PARAMETERS.slip_speed);
-            let (along, normal) = (candidate.friction * load / speed, press * load);
-            add_contact(&mut matrix, &candidate.p, along, normal);
-            let v = &candidate.by_joints;
-            let force = Vec3::new(along * v.x, along * v.y, normal * v.z);
-            right -= joined(&force, &candidate.p.cross(&force));
-        }
+        along.along_ground(&mut matrix, &mut right);
         let Some(next) = matrix.cholesky().map(|c| c.solve(&right)) else { break };
         let change = (next - twist).amax();
         twist = next;
@@ -84,30 +87,74 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     moved(&twist)
 }
 
-/// Adds a point at `p` that resists a twist with these weights of its velocities, along the ground and along the
-/// normal: `Jᵀ W J` with the Jacobian J of the point's velocity, upper and lower triangle.
-fn add_contact(matrix: &mut Matrix6<f64>, p: &Vec3, along: f64, normal: f64) {
-    let mut add = |row: usize, column: usize, value: f64| {
+/// Weighted sums over points that resist motion, each at p (m) with the velocity v (m/s) that it has without the twist.
+#[derive(Default)]
+struct Resistance {
+    /// The sum of the weights.
+    weight: f64,
+    /// The sum of p.
+    p: Vec3,
+    /// The sum of the squares of p: x², y², z².
+    squares: Vec3,
+    /// The sum of the products of p: xy, xz, yz.
+    products: Vec3,
+    /// The sum of v.
+    v: Vec3,
+    /// The sum of `p vᵀ`.
+    moments: Matrix3<f64>,
+}
+
+impl Resistance {
+    fn add(&mut self, p: &Vec3, v: &Vec3, weight: f64) {
+        let (weighted, pull) = (p * weight, v * weight);
+        self.weight += weight;
+        self.p += weighted;
+        self.squares += weighted.component_mul(p);
+        self.products += Vec3::new(weighted.x * p.y, weighted.x * p.z, weighted.y * p.z);
+        self.v += pull;
+        self.moments += p * pull.transpose();
+    }
+
+    /// Adds the points as they resist along the ground: `Jᵀ W J` with the Jacobian J of their velocities in x and y, and
+    /// `-Jᵀ W v`.
+    fn along_ground(&self, matrix: &mut Matrix6<f64>, right: &mut Vector6<f64>) {
+        let ([x, y, z], [xx, yy, zz]) = (self.p.into(), self.squares.into());
+        let [_, xz, yz]: [f64; 3] = self.products.into();
+        add_symmetric(matrix, [(0, 0), (1, 1)], self.weight);
+        add_symmetric(matrix, [(0, 4)], z);
+        add_symmetric(matrix, [(1, 3)], -z);
+        add_symmetric(matrix, [(0, 5)], -y);
+        add_symmetric(matrix, [(1, 5)], x);
+        add_symmetric(matrix, [(3, 3), (4, 4)], zz);
+        add_symmetric(matrix, [(5, 5)], xx + yy);
+        add_symmetric(matrix, [(3, 5)], -xz);
+        add_symmetric(matrix, [(4, 5)], -yz);
+        let m = &self.moments;
+        *right -= Vector6::new(self.v.x, self.v.y, 0.0, -m[(2, 1)], m[(2, 0)], m[(0, 1)] - m[(1, 0)]);
+    }
+
+    /// Adds the points as they resist along the normal: `Jᵀ W J` with the Jacobian J of their velocities in z, and
+    /// `-Jᵀ W v`.
+    fn along_normal(&self, matrix: &mut Matrix6<f64>, right: &mut Vector6<f64>) {
+        add_symmetric(matrix, [(2, 2)], self.weight);
+        add_symmetric(matrix, [(2, 3)], self.p.y);
+        add_symmetric(matrix, [(2, 4)], -self.p.x);
+        add_symmetric(matrix, [(3, 3)], self.squares.y);
+        add_symmetric(matrix, [(4, 4)], self.squares.x);
+        add_symmetric(matrix, [(3, 4)], -self.products.x);
+        let m = &self.moments;
+        *right -= Vector6::new(0.0, 0.0, self.v.z, m[(1, 2)], -m[(0, 2)], 0.0);
+    }
+}
+
+/// Adds a value at these places of a symmetric matrix, each (row, column) of its upper triangle.
+fn add_symmetric<const N: usize>(matrix: &mut Matrix6<f64>, at: [(usize, usize); N], value: f64) {
+    for (row, column) in at {
         matrix[(row, column)] += value;
         if row != column {
             matrix[(column, row)] += value;
         }
-    };
-    add(0, 0, along);
-    add(1, 1, along);
-    add(2, 2, normal);
-    add(0, 4, along * p.z);
-    add(0, 5, -along * p.y);
-    add(1, 3, -along * p.z);
-    add(1, 5, along * p.x);
-    add(2, 3, normal * p.y);
-    add(2, 4, -normal * p.x);
-    add(3, 3, along * p.z * p.z + normal * p.y * p.y);
-    add(4, 4, along * p.z * p.z + normal * p.x * p.x);
-    add(5, 5, along * (p.x * p.x + p.y * p.y));
-    add(3, 4, -normal * p.x * p.y);
-    add(3, 5, -along * p.z * p.x);
-    add(4, 5, -along * p.z * p.y);
+    }
 }
 
 /// Returns the twist of `[linear; angular]`.
@@ -121,7 +168,7 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     let one = |(i, candidate): (usize, &Candidate)| {
         let mut slip = twist.at(&candidate.p) + candidate.by_joints;
         slip.z = 0.0;
-        let speed = libm::hypot(slip.norm(), PARAMETERS.slip_speed);
+        let speed = libm::sqrt(slip.norm_squared() + PARAMETERS.slip_speed * PARAMETERS.slip_speed);
         (slip, slip * (-candidate.friction * problem.loads[i] / speed))
     };
     problem.candidates.iter().enumerate().map(one).collect()
