@@ -21,50 +21,64 @@ use crate::robot::{Assembly, Kinematics};
 use crate::units::{Dimension, quantity};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The state of the search over all intervals.
+/// The search for the collisions and the clearance of a plan by conservative advancement: the robot, the limits of
+/// the work, and the findings in the windows of time examined so far.
 pub(super) struct Advancement<'a> {
     robot: &'a Assembly,
+    /// The convex bodies of the robot's links.
     pub bodies: &'a Bodies,
     /// The least penetration depth that any two modules are allowed, m.
     allowed_min: f64,
     /// The instants at which segments begin and end: intervals are preferably cut at them.
     instants: Vec<f64>,
     precision: Precision,
+    /// The greatest number of intervals that may be examined.
     samples_max: usize,
+    /// The number of intervals examined so far.
     samples: usize,
+    /// The work done so far, and the most that may be done.
     pub work: WorkBudget,
     /// True if the least distance is sought, and not only collisions.
     seeks_clearance: bool,
+    /// The least signed distance found so far of links that may not touch; `None` before the first.
     clearance: Option<Clearance>,
-    /// The key: the pair of modules, and true if it is excused.
+    /// The collisions so far. The key: the indices of the two modules, and true if an exemption excuses it.
     collisions: BTreeMap<(usize, usize, bool), Collision>,
+    /// The indices in the plan's list of the exemptions that excused a collision.
     used: BTreeSet<usize>,
+    /// The overlaps of bonded links computed so far.
     overlaps: NominalOverlaps,
+    /// The state of the robot over the present interval.
     pub state: IntervalState,
+    /// The bounding spheres of clusters of modules over the present interval.
     clusters: ClusterBounds,
-    /// Memory of lists of pairs that are done with.
+    /// Emptied lists of pairs, whose memory is used again.
     spare: Vec<Vec<BodyPair>>,
 }
 
+/// The least signed distance, m, with its time (s) and the indices of the two modules.
 struct Clearance {
     distance: f64,
     time: f64,
     modules: (usize, usize),
 }
 
-/// A connected part of the robot, over a window of time.
+/// A part of the robot that bonds connect, over a window of time in which those bonds stay.
 pub(super) struct Region<'a> {
     /// The kinematics of the part, from a link in its middle.
     pub kinematics: Kinematics,
+    /// The reference links of its pairs of modules.
     levels: ReferenceLinks,
-    /// The place of each module in the order of the tree.
+    /// The position of each module, by its index in the assembly, in the breadth-first order of the tree of modules.
     rank: Vec<usize>,
     /// The pairs of links that bonds join.
     pub bonded: BondedLinks,
+    /// The exemptions that hold in the window.
     excused: &'a [Excuse],
 }
 
-/// An interval so short that a penetration in it is the first of its pair.
+/// The mark of an interval no longer than `tol_time`, in which a penetration that is found is the first of its two
+/// modules: before it they are proved to be separated.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Instant {
     /// The bond at whose nominal pose the links penetrate each other; `None` if a motion brings them there.
@@ -89,7 +103,9 @@ struct Open {
 }
 
 impl<'a> Advancement<'a> {
-    /// Returns a search over a plan; at most `samples_max` intervals are examined.
+    /// Returns a search along the motion that a plan prescribes, before the first window. `bodies`: those of the
+    /// plan's robot; `precision`: the depth (m), distance (m) and time (s) to which it is exact; at most
+    /// `samples_max` intervals are examined.
     pub(super) fn new(
         tracks: &'a Tracks,
         bodies: &'a Bodies,
@@ -116,8 +132,9 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Returns a search for collisions alone along other positions of the joints than the plan's: at instants, between
-    /// which nothing is proved.
+    /// Returns a search for collisions alone, without the clearance, along the positions of the joints `along` in
+    /// place of the plan's. Intervals are halved down to the least time between two instants of `along`, at least 5
+    /// ms: what happens between instants is not proved.
     pub(super) fn deflected(
         tracks: &'a Tracks,
         bodies: &'a Bodies,
@@ -133,9 +150,9 @@ impl<'a> Advancement<'a> {
         Advancement { instants, state, seeks_clearance: false, ..planned }
     }
 
-    /// Judges a window of time (from, to; s) in which bonds stay as they are. `bonds`: for each bond of the assembly,
-    /// true if it holds; `excused`: the exemptions of the window. Parts that are not connected are judged each by
-    /// itself: their relative pose is unknown.
+    /// Examines a window of time (from, to; s) in which bonds stay as they are, and adds to the findings. `bonds`:
+    /// for each bond of the assembly, by index, true if it holds; `excused`: the exemptions that hold in the window.
+    /// Parts of the robot that no bond connects are examined each by itself: their relative pose is unknown.
     pub(super) fn window(&mut self, bonds: &[bool], window: (f64, f64), excused: &[Excuse]) {
         let mut seen = vec![false; self.robot.modules.len()];
         while let Some(first) = seen.iter().position(|seen| !seen) {
@@ -173,7 +190,8 @@ impl<'a> Advancement<'a> {
         self.clearance.as_ref().map(|nearest| nearest.distance)
     }
 
-    /// Returns the collisions and the clearance that were found in all windows; `exemptions`: those of the plan.
+    /// Returns the collisions, the clearance and the status that follow from all windows; `exemptions`: the plan's
+    /// list, to which the indices in `Findings::used` refer.
     pub(super) fn findings(self, exemptions: &[Exemption]) -> Findings {
         let reached_limit = self.reached_limit();
         let mut collisions: Vec<Collision> = self.collisions.into_values().collect();
@@ -220,7 +238,9 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Returns the pair of two bodies of different modules; `None` if a rigid bond joins their links.
+    /// Returns the pair of two bodies of different modules, given by their indices in [`Bodies::bodies`]; `None` if a
+    /// rigid bond joins their links, which is judged once instead. `level`: that of their reference link, an index in
+    /// [`ReferenceLinks::levels`].
     pub(super) fn pair_of_modules(
         &self,
         region: &Region,
@@ -496,7 +516,8 @@ impl<'a> Advancement<'a> {
         distance
     }
 
-    /// Keeps the least distance.
+    /// Keeps the distance (m) of a pair at a time (s) as the clearance, if the pair counts for it and no lesser one
+    /// was found. Does nothing in a search for collisions alone.
     pub(super) fn count(&mut self, pair: &BodyPair, distance: f64, time: f64) {
         if self.seeks_clearance
             && pair.counts
@@ -507,8 +528,10 @@ impl<'a> Advancement<'a> {
         }
     }
 
-    /// Records a penetration in the middle. It is the first of its pair of modules if the interval is short enough
-    /// to be an instant: before it the pair is proved to be separated.
+    /// Records that a pair penetrates in the middle of the present interval, where its signed distance is `distance`
+    /// (m, negative). A known collision of the two modules only takes in the depth, if it is greater. A new one is
+    /// recorded only if `instant` marks an interval short enough to be its first instant; `None` leaves it to shorter
+    /// intervals.
     pub(super) fn collide(
         &mut self,
         region: &Region,
@@ -542,7 +565,8 @@ impl<'a> Advancement<'a> {
     }
 }
 
-/// Returns a pair within a module whose first body has this index in [`Bodies::bodies`].
+/// Returns a pair of bodies within a module. `first`: the index of the module's first body in [`Bodies::bodies`];
+/// `level`: that of the pair's reference link, an index in [`ReferenceLinks::levels`].
 pub(super) fn inner_pair(inner: &InnerPair, first: usize, level: u32) -> BodyPair {
     let (a, b) = ((first + inner.a) as u32, (first + inner.b) as u32);
     BodyPair { a, b, level, counts: inner.counts, allowed: inner.allowed, normal: Vec3::zeros() }

@@ -16,8 +16,10 @@ pub(super) fn rotation(omega: Vec3) -> Mat3 {
     *turned(omega, omega.norm()).rotation.to_rotation_matrix().matrix()
 }
 
-/// Returns the rotation R_ON from the new robot frame to the old that moves the masses least about the centre of mass
-/// (Kabsch algorithm). It does not depend on which module is the base.
+/// Returns the rotation `R_ON`, from the base's frame N in the new posture to its frame O in the old one, under which
+/// the masses move least about the centre of mass, in the mean square (Kabsch 1976; orientations of links count a
+/// little). The motion that it leaves does not depend on which module is the base. The identity where the singular
+/// value decomposition fails.
 pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat3 {
     let mut S = Mat3::zeros();
     for &link in &model.attached {
@@ -34,9 +36,10 @@ pub(super) fn mass_alignment(model: &Model, old: &Posture, new: &Posture) -> Mat
     U * Mat3::from_diagonal(&flip) * Vt
 }
 
-/// Returns the rotation about a horizontal axis, in the world's axes, that keeps the loaded contacts of the sample
-/// before at their heights above the ground: without it a swinging arm would turn the guess. `features`: placed in the
-/// new posture about the centre of mass; `contact_points`: those of the sample before.
+/// Returns the rotation about a horizontal axis, in level axes, that brings the loaded contact points of the sample
+/// before nearest to their heights above the ground, by linearised least squares weighted with their loads: without
+/// it a swinging arm would tilt the first guess. The identity without loaded contacts. `features`: in the new
+/// posture, in level axes from the centre of mass; `contact_points`: those of the sample before.
 pub(super) fn height_keeping_turn(
     features: &[Feature],
     contact_points: &[ContactPoint],

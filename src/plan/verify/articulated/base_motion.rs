@@ -9,8 +9,8 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Status, Worst};
 use crate::units::{Dimension, quantity};
 
-/// The monitor of the base: it follows its motion, sums slip, and looks for contact that penetrates a ground on which
-/// the base is fixed.
+/// The monitor of the base during a rollout: it sums the turn of the base and the slip of links, and looks for
+/// contact that penetrates the ground where the base is fixed to it.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     /// The world pose of the base at the first sample, m; `None` before it.
@@ -37,7 +37,7 @@ pub(super) struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    /// Returns a monitor before the first sample.
+    /// Returns a monitor before the first sample. `settings`: those of the plan, which may state a greatest slip.
     pub(super) fn new(settings: &Settings, tolerances: &'a Tolerances) -> Monitor<'a> {
         let identity = Pose::identity();
         Monitor {
@@ -55,8 +55,9 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes a sample, in order of time: follows the base, adds to the slip, which fails nothing, and records a failure
-    /// where a robot with a fixed base penetrates the ground.
+    /// Takes a sample, in order of time: follows the base, and sums the slip of links that carry weight. Where a
+    /// robot with a fixed base has penetrated the ground, the failure is recorded as the penetration ends; slip
+    /// beyond what is stated fails in [`finish`](Self::finish).
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {
@@ -140,8 +141,9 @@ impl<'a> Monitor<'a> {
         });
     }
 
-    /// Records the displacement and turn of the base, the greatest slip and the status of each check; `names` returns
-    /// the name of a link, given by its number among all links.
+    /// Records the displacement (m) and turn (rad) of the base, the greatest slip (m), the failures of links that
+    /// slip by more than is stated, and the status of the checks of ground and slip. `names` returns the name of a
+    /// link, given by its number among all links.
     pub(super) fn finish(&mut self, names: impl Fn(usize) -> String, ledger: &mut Ledger) {
         let end = ledger.verdict.duration;
         self.end_penetration(end, ledger);
@@ -197,8 +199,8 @@ fn slip_failure(time: f64, name: String, slip: f64, most: f64) -> Failure {
     }
 }
 
-/// Returns the deepest contact point, if it penetrates the ground by more than its module may; `None` if it does not,
-/// and without contact points.
+/// Returns the deepest contact point of a sample, if it is deeper in the ground than its module's `touch`; `None` if
+/// it is not, and without contact points.
 pub(super) fn penetrating_contact<'s>(sample: &Sample<'s>) -> Option<&'s ContactPoint> {
     let deepest = sample.stance.contact_points.iter().reduce(|d, t| if t.gap < d.gap { t } else { d });
     deepest.filter(|t| {

@@ -13,9 +13,9 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, Failure, Tracks};
 use crate::robot::{JointId, JointOwner};
 
-/// The greatest number of actions that are named.
+/// The greatest number of actions that are blamed for one failure.
 pub(super) const BLAMED_MAX: usize = 3;
-/// The greatest number of actions that are tried.
+/// The greatest number of actions that are held still, one after the other, for one failure.
 const TRIED_MAX: usize = 24;
 
 /// The number of failures for which the blame is sought; the rest name the actions that move at that time.
@@ -24,7 +24,7 @@ const FAILURES_MAX: usize = 12;
 /// The number of segments of each joint that are examined, the latest first.
 const SEGMENTS_EACH: usize = 2;
 
-/// An action that may be to blame: a candidate.
+/// An action of the plan that may be to blame for a failure.
 pub(super) struct Candidate {
     /// The joint that the action moves, by the number in its [`JointId`].
     pub joint: usize,
@@ -36,10 +36,12 @@ pub(super) struct Candidate {
     moving: bool,
 }
 
-/// Adds the actions to blame to the failures that do not name any: up to [`BLAMED_MAX`] whose joint, held still,
-/// removes the failure; else all that move at its time, or the start. A removal is tried for the first [`FAILURES_MAX`]
-/// failures only, and not for ranges and collisions; faults of the form get no blame. `checkpoints`: states of the
-/// rollout from which it is repeated.
+/// Fills in the actions to blame for each failure that names none. An action is to blame if the failure is gone once
+/// its joint is held still from its beginning on (a counterfactual rollout); at most [`BLAMED_MAX`] are named. If
+/// there is none, those that move at the time of the failure are, else the lines that set the robot up at the start.
+/// Rollouts are repeated for the first [`FAILURES_MAX`] failures only, and not for ranges, collisions, and loads
+/// under full dynamics; faults of the form get no blame. `checkpoints`: states of the rollout, in order of time, from
+/// which it is repeated.
 pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
@@ -75,8 +77,8 @@ pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mu
     }
 }
 
-/// Returns the actions begun before a time (s), latest first, of equal times by joint; of each joint the last few
-/// only.
+/// Returns the actions that begin before a time (s): of each joint the last two, latest first, those of equal
+/// beginning by joint.
 pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Candidate> {
     let mut found = Vec::new();
     for track in &tracks.tracks {

@@ -9,7 +9,7 @@ use crate::plan::Tracks;
 use crate::robot::{Assembly, Joint, JointKind, Kinematics, ModuleType};
 use std::collections::BTreeSet;
 
-/// A link whose shape can't be judged, with the fault.
+/// The error of a link whose collision shape can't be judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnsoundLink {
     /// The name of the module type.
@@ -20,7 +20,7 @@ pub struct UnsoundLink {
     pub why: Unsound,
 }
 
-/// The convex parts of a robot's links, compiled for the checks of collisions.
+/// The convex parts of all links of a robot, compiled for the checks of collisions.
 #[derive(Clone, Debug)]
 pub struct Bodies {
     /// The bodies, ascending by the number of their link ([`Kinematics::link`]); links without shapes have none.
@@ -30,7 +30,9 @@ pub struct Bodies {
     /// An upper bound, for each module by index, on the distance of its points from the origin of its body link (link
     /// 0) in any posture, m.
     pub reach: Vec<f64>,
+    /// The module types, by their index in the library.
     kinds: Vec<Kind>,
+    /// The index of the type of each module, by the module's index in the assembly.
     kind_of: Vec<usize>,
 }
 
@@ -50,7 +52,7 @@ pub struct InnerPair {
     pub fixed: Option<f64>,
 }
 
-/// One convex part of a link, numbered among all, in the frame of the link that carries it.
+/// One convex part of a link, in the frame of the link that carries it.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// The convex part, in the frame of the carrier.
@@ -69,7 +71,7 @@ pub struct Body {
 }
 
 impl Bodies {
-    /// Compiles the convex parts of all links of a plan's robot, numbered as by its kinematics.
+    /// Compiles the convex parts of all links of a plan's robot; links are numbered as by [`Kinematics::link`].
     ///
     /// # Errors
     /// [`UnsoundLink`] for the first link whose shape is not sound.
@@ -77,8 +79,8 @@ impl Bodies {
         Bodies::new(&tracks.robot, &Kinematics::new(&tracks.robot, &tracks.start.bonds, 0))
     }
 
-    /// Compiles the convex parts of all links, numbered as by `kinematics`. Empty shapes give no parts. `robot`: the
-    /// assembly.
+    /// Compiles the convex parts of all links of the assembly `robot`; `kinematics` gives the links their numbers. A
+    /// link with an empty shape has no parts.
     ///
     /// # Errors
     /// [`UnsoundLink`] for the first link whose shape is not sound.
@@ -110,64 +112,66 @@ impl Bodies {
         Ok(all)
     }
 
-    /// Returns the indices in [`Bodies::bodies`] of the bodies of a module, given by its index in the assembly.
-    /// Panics if there is no such module.
+    /// Returns the range of indices in [`Bodies::bodies`] that the bodies of a module take, given by its index in the
+    /// assembly. Panics if there is no such module.
     pub fn of(&self, module: usize) -> std::ops::Range<usize> {
         self.first[module]..self.first[module + 1]
     }
 
-    /// Returns the pairs of bodies within a module (its index in the assembly) that are checked for collision. Each
-    /// may penetrate by `InnerPair::allowed`: `touch`, plus the overlap as drawn for two links that a joint joins.
-    /// Panics if there is no such module.
+    /// Returns the pairs of bodies within a module (its index in the assembly) that are checked for collision. Panics
+    /// if there is no such module.
     pub fn inner(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner
     }
 
-    /// Returns the allowed penetration depth of two modules, given by index, m: the smaller of those that the two
-    /// allow. `a` and `b`: the indices in the assembly.
+    /// Returns the depth up to which links of two modules may penetrate each other, m: the lesser of the `touch` that
+    /// their types state. `a` and `b`: their indices in the assembly; it panics if there are no such modules.
     pub fn allowed_depth(&self, a: usize, b: usize) -> f64 {
         let touch = |module: usize| self.kinds[self.kind_of[module]].touch;
         f64::min(touch(a), touch(b))
     }
 
-    /// Returns the least penetration depth that any two modules are allowed, m; infinite for no module.
+    /// Returns the least `touch` that a module of the robot states, m; infinite for a robot without modules.
     pub(super) fn least_allowed_depth(&self) -> f64 {
         self.kind_of.iter().map(|kind| self.kinds[*kind].touch).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the penetration depth of two links, m, each given by the index of its module and its index there;
-    /// `X_AB` is the pose of the second in the first. 0 if they are apart.
+    /// Returns the penetration depth of two links at a relative pose, m; 0 if they are apart. `a`, `b`: each link as
+    /// (index of its module in the assembly, index of the link in the module); `X_AB`: the pose of b in a's frame.
     pub(super) fn overlap(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         let distance = distance_of_solids(self.solid(a), &Pose::identity(), self.solid(b), X_AB);
         (-distance).max(0.0)
     }
 
-    /// Returns true if a link of a module, given by its index in the assembly, has a mesh that is not convex, which
-    /// may enclose other links without a contact.
+    /// Returns true if a link of a module, given by its index in the assembly, has a mesh that is not convex, inside
+    /// which another link could be without touching the surface.
     pub(super) fn may_enclose(&self, module: usize) -> bool {
         self.kinds[self.kind_of[module]].solids.iter().any(Solid::has_shells)
     }
 
-    /// Returns one of the pairs of bodies for each pair of links within a module (its index in the assembly) of which
-    /// one may enclose the other.
+    /// Returns one pair of bodies for each pair of links within a module (its index in the assembly) of which at
+    /// least one has a mesh that is not convex, and so may enclose the other.
     pub(super) fn inner_enclosing(&self, module: usize) -> &[InnerPair] {
         &self.kinds[self.kind_of[module]].inner_enclosing
     }
 
-    /// Iterates over the first body of each link of a module that has any, as indices in [`Bodies::bodies`].
+    /// Iterates over the first body of each link of a module (its index in the assembly), as indices in
+    /// [`Bodies::bodies`]; links without a shape are left out.
     pub(super) fn first_of_links(&self, module: usize) -> impl Iterator<Item = usize> {
         let all = self.of(module);
         let first = all.start;
         all.filter(move |&body| body == first || self.bodies[body].link != self.bodies[body - 1].link)
     }
 
-    /// Returns how deep one of two links is inside the other's meshes that are not convex, m, as
-    /// [`overlap`](Self::overlap) takes them; 0 if neither is.
+    /// Returns the depth to which one of two links is inside the meshes of the other that are not convex, m: a lower
+    /// bound ([`enclosed_depth`](crate::geometry::enclosed_depth)), 0 if neither is. The arguments are as for
+    /// [`overlap`](Self::overlap).
     pub(super) fn enclosed_depth(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         enclosed_depth(self.solid(a), self.solid(b), X_AB)
     }
 
-    /// Returns that depth with a point that is as deep, in the frame of the first link (m); `None` if neither is.
+    /// Returns the depth as [`enclosed_depth`](Self::enclosed_depth) does, m, with a point that is as deep, in the
+    /// frame of link a, m; `None` if neither link is inside the other's meshes.
     pub(super) fn enclosed_point(
         &self,
         a: (usize, usize),
@@ -181,17 +185,17 @@ impl Bodies {
         &self.kinds[self.kind_of[module]].solids[link]
     }
 
-    /// Returns the index in [`Bodies::bodies`] of the first body of a link, by the numbering of [`Kinematics`]; `None`
-    /// for a link without a shape.
+    /// Returns the index in [`Bodies::bodies`] of the first body of a link, by its number ([`Kinematics::link`]);
+    /// `None` for a link without a shape.
     pub(super) fn first_of_link(&self, link: usize) -> Option<usize> {
         let first = self.bodies.partition_point(|body| body.link < link);
         self.bodies.get(first).filter(|body| body.link == link).map(|_| first)
     }
 
-    /// Returns the signed distance between two links, given by the numbering of [`Kinematics`], m, or `enough` (m) if
-    /// it is no less; `poses`: the world poses of all links, by the same numbering. A link that is inside another's
-    /// mesh that is not convex, without a contact, is as far away as the surface of the mesh: see
-    /// [`distance_of_solids`].
+    /// Returns the signed distance of two links, given by their numbers ([`Kinematics::link`]), m, or `enough` (m) if
+    /// it is no less. `poses`: the poses of all links, by their numbers, in one common frame. A link wholly inside
+    /// another's mesh that is not convex counts as outside of it: its distance is that from the surface, unlike that
+    /// of [`distance_of_solids`].
     pub fn distance(&self, a: usize, b: usize, poses: &[Pose], enough: f64) -> f64 {
         let of = |link: usize| {
             let from = self.bodies.partition_point(|body| body.link < link);

@@ -12,12 +12,14 @@ use crate::geometry::Vec3;
 use crate::robot::{Assembly, Bond, Capture, Kinematics, PortRef, mate};
 use std::collections::BTreeMap;
 
-/// The overlaps of pairs of links at the nominal poses of their bonds, m, by what decides them: the types and ports of
-/// the two modules, and the turn, as indices.
+/// A table of the penetration depths of two bonded links at the nominal pose of their bond, m, filled as they are
+/// computed. The key: type and port of the one module, type and port of the other, and the turn of the bond, as
+/// indices.
 #[derive(Debug, Default)]
 pub(super) struct NominalOverlaps(BTreeMap<[usize; 5], f64>);
 
-/// The pairs of links that bonds join, by their numbers in the kinematics, in both orders.
+/// The pairs of links that bonds join, by the two links' numbers ([`Kinematics::link`]); each pair is there in both
+/// orders.
 #[derive(Debug, Default)]
 pub(super) struct BondedLinks(BTreeMap<(usize, usize), BondedPair>);
 
@@ -51,8 +53,8 @@ impl NominalOverlaps {
 }
 
 impl BondedLinks {
-    /// Finds the pairs of links that bonds join which hold, in the part of the robot that `kinematics` reaches.
-    /// `bonds`: for each bond of the assembly, true if it holds.
+    /// Finds the pairs of links that bonds join, in the part of the robot that `kinematics` reaches. `bonds`: for
+    /// each bond of the assembly, by index, true if it holds; `overlaps`: the table of depths, which grows.
     pub(super) fn new(
         robot: &Assembly,
         bonds: &[bool],
@@ -72,13 +74,14 @@ impl BondedLinks {
         found
     }
 
-    /// Returns the bonded pair of two links, given by their numbers in the kinematics, in any order; `None` if no bond
-    /// joins them.
+    /// Returns the bonded pair of two links, given by their numbers ([`Kinematics::link`]) in either order; `None` if
+    /// no bond joins them.
     pub(super) fn get(&self, a: usize, b: usize) -> Option<&BondedPair> {
         self.0.get(&(a, b))
     }
 
-    /// Iterates over the pairs, each once, in ascending order of the two links' numbers, the lesser first.
+    /// Iterates over the pairs, each once, as ((number of the one link, number of the other), pair), ascending, the
+    /// lesser number first.
     pub(super) fn iter(&self) -> impl Iterator<Item = ((usize, usize), &BondedPair)> {
         self.0.iter().filter(|((a, b), _)| a < b).map(|(links, pair)| (*links, pair))
     }
@@ -110,8 +113,9 @@ impl BondedLinks {
 }
 
 impl BondedPair {
-    /// Returns the penetration depth that two bodies of the links may have, m: `touch`, the overlap that the bond
-    /// explains, and the motion that its error allows.
+    /// Returns the depth, m, up to which two bodies of the links may penetrate each other: `touch` (m), plus the part
+    /// of the nominal overlap that the error of docking explains, plus, for a bond that closes a loop, the motion
+    /// that its error allows. `a`: a body of the first link of the pair, `b`: one of the second.
     pub(super) fn allowed(&self, a: &Body, b: &Body, touch: f64) -> f64 {
         let moved = self.error.as_ref().map_or(0.0, |(error, ports)| {
             // To turn a body about its port moves none of its points by more than this.

@@ -21,7 +21,8 @@ const POINTS_MIN: usize = 20;
 /// Returns the clearance over time: (time, s; least signed distance of links that may not touch, m) at evenly spaced
 /// times from the start to `until` (s), both included, in order of time. There are `count` + 1 of them, or fewer for
 /// robots of more than a few hundred modules, but not fewer than 21 for that reason. Empty if there are no two such
-/// links, if `until` is not positive, for a plan that is not of an articulated robot, and for one that is not valid.
+/// links, if `until` is not positive, for a plan that is not of an articulated robot or not valid, and for a robot
+/// with a shape that is not sound.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
     if until <= 0.0 || validation::check(plan).is_err() {
@@ -35,9 +36,9 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     times.iter().zip(found).filter_map(|(time, distance)| Some((*time, distance?))).collect()
 }
 
-/// Returns the least signed distance of links that may not touch, m, for each of `times` (s) in their order, `None` if
-/// there are no two such links. `None` instead of the list for a plan that is not of an articulated robot, or is not
-/// valid.
+/// Returns the least signed distance of links that may not touch, m, for each of `times` (s) in their order, `None`
+/// if there are no two such links. `None` instead of the list for a plan that is not of an articulated robot or not
+/// valid, and for a robot with a shape that is not sound.
 pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     validation::check(plan).ok()?;
@@ -54,11 +55,11 @@ fn at_times(tracks: &Tracks, times: &[f64]) -> Option<Vec<Option<f64>>> {
     Some(times.iter().map(at).collect())
 }
 
-/// Returns the point (in the world, m) at which two modules, given by their indices in the assembly, penetrate each
-/// other at a time (s); for one index twice, at which two links of that module do. It is that of the two links that
-/// exceed their allowed depth most; of a link that is wholly inside another's mesh that is not convex, a point within
-/// it, far from the surface of the mesh. `None` if these do not overlap, for a plan that is not of an articulated robot,
-/// and for one that is not valid.
+/// Returns the point, in the world, m, at which two modules penetrate each other at a time (s); for one module given
+/// twice, at which two of its links do. `modules`: their indices in the assembly; it panics if there are none. Of
+/// several pairs of links it is that which exceeds its allowed depth most. If a link is wholly inside another's mesh
+/// that is not convex, the point is one within it, far from the mesh's surface. `None` if none overlap, for a plan
+/// that is not of an articulated robot or not valid, and for a shape that is not sound.
 pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Option<Vec3> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     if validation::check(plan).is_err() {
@@ -114,7 +115,8 @@ fn enclosed_point(
     found.max_by(|x, y| x.0.total_cmp(&y.0))
 }
 
-/// Returns the pairs of bodies that may not meet, with the penetration depth that each may have, m.
+/// Returns the pairs of bodies of two modules, or within one given twice, by their indices in [`Bodies::bodies`],
+/// with the penetration depth that each may have, m.
 fn pairs(
     tracks: &Tracks,
     bodies: &Bodies,

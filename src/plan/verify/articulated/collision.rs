@@ -79,7 +79,8 @@ pub fn judge(
     Ok(planned(tracks, &Bodies::of_plan(tracks)?, settings, exemptions, precision))
 }
 
-/// Returns the collisions and the clearance as [`judge`] does, of a robot whose bodies are compiled.
+/// Returns the collisions and the clearance as [`judge`] does, with the robot's bodies already compiled. `tracks`
+/// must be valid, or it panics.
 pub(super) fn planned(
     tracks: &Tracks,
     bodies: &Bodies,
@@ -90,8 +91,9 @@ pub(super) fn planned(
     search(tracks, exemptions, Advancement::new(tracks, bodies, *precision, settings.samples_max))
 }
 
-/// Returns the collisions of a plan at instants at which its joints are elsewhere than planned, as `along` says; those that
-/// do not depend on joints are among them. `tracks` must be valid, or it panics; `exemptions`: those of the plan.
+/// Returns the collisions, without a clearance, of a robot whose joints follow `along` instead of the plan, at the
+/// instants of `along` and not between. Collisions that do not depend on joints are among them. `tracks` must be
+/// valid, or it panics; `exemptions`: those of the plan.
 pub(super) fn deflected(
     tracks: &Tracks,
     bodies: &Bodies,
@@ -116,8 +118,8 @@ fn search(tracks: &Tracks, exemptions: &[Exemption], mut advancement: Advancemen
 }
 
 impl Collision {
-    /// Returns the collision as a failure for the verdict, with a message and without blame; `robot` is the one that
-    /// was judged. Panics if that has no such modules or links.
+    /// Returns the failure of the check of collisions that this collision is, with a message and without blame;
+    /// `robot`: the one that was judged. Panics if it has no such modules, links or bond.
     pub fn failure(&self, robot: &Assembly) -> Failure {
         let module = |m: usize| robot.modules[m].name.clone();
         let link = |m: usize, l: usize| robot.module_type(m).links[l].name.as_str();

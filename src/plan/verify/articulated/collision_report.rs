@@ -17,7 +17,7 @@ pub(super) struct PlannedCollisions {
     found: Findings,
 }
 
-/// Returns the collisions of the whole plan; needs only the relative poses of links, so the ground does not matter.
+/// Returns the collisions of the whole plan. It needs the relative poses of links only, whatever the ground is.
 ///
 /// # Errors
 /// [`UnsoundLink`] for the first link whose shape is not sound.
@@ -28,8 +28,9 @@ pub(super) fn find(rollout: &Rollout) -> Result<PlannedCollisions, UnsoundLink> 
     Ok(PlannedCollisions { bodies, found })
 }
 
-/// Judges the collisions that [`find`] returned for the whole plan. `deflected`: the positions of the joints as servos
-/// yield, where loads were found.
+/// Judges the collisions of the whole plan, those that [`find`] returned: records failures with the actions to blame, the
+/// clearance, and the status of the check. `deflected`: the positions of the joints as soft servos yield, which are
+/// judged besides; `None` where no loads were determined.
 pub(super) fn judge(
     rollout: &Rollout,
     planned: Result<PlannedCollisions, UnsoundLink>,

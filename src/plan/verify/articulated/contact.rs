@@ -7,7 +7,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon::{self, Margin};
 
-/// A point of a ground feature near the ground, with its normal force.
+/// A point of a ground feature that is near the ground, with its normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
     /// The index of the feature in [`Model::features`], from 0.
@@ -40,9 +40,10 @@ pub struct ContactPatch {
     pub spread: f64,
 }
 
-/// Returns all points within their module's contact tolerance (at least `gap_loaded`) of the ground, which is `height`
-/// (m) below the centre of mass, with normal forces as on elastic ground, or without if nothing is `weighed`.
-/// `features`: as [`Model::placed`] returns them.
+/// Returns all points no higher above the ground than the contact tolerance of their module, or `gap_loaded` if that
+/// is more. If `weighed`, those within `gap_loaded` carry the weight as springs would whose stiffness falls with the
+/// gap, without friction; else none carries any. `features`: as [`Model::placed`] returns them; `height`: that of the
+/// centre of mass above the ground, m.
 pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],
@@ -72,13 +73,14 @@ pub(super) fn contact_points(
     found
 }
 
-/// Returns true if a contact point is within the contact tolerance of its module.
+/// Returns true if the gap of a contact point is at most the contact tolerance of its module.
 pub(super) fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
-/// Returns the static stability margin in the support polygon of the contact points for which `chosen` returns true;
-/// its edge is given by indices in `contact_points`. `None` if they span no area.
+/// Returns the static stability margin (McGhee and Frank 1968), m: the distance of the centre of mass inside the hull
+/// of the contact points for which `chosen` returns true, negative outside; its edge is given by indices in
+/// `contact_points`. `None` if they span no area.
 pub(super) fn margin(
     contact_points: &[ContactPoint],
     chosen: impl Fn(&ContactPoint) -> bool,
@@ -89,8 +91,8 @@ pub(super) fn margin(
     Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
 }
 
-/// Returns the contact points gathered by link, in ascending order of link: one patch a link, since a wheel with two
-/// rims that each stuck would track as wide as its outer rim.
+/// Returns the loaded contact points gathered by link, in ascending order of link. A wheel that touches with both
+/// rims has one patch so: two patches that each stuck would make it turn as a wheel as far out as its outer rim.
 pub(super) fn patches(contact_points: &[ContactPoint]) -> Vec<ContactPatch> {
     let mut found: Vec<ContactPatch> = Vec::new();
     let loaded = || contact_points.iter().filter(|t| t.load > 0.0);

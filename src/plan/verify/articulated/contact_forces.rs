@@ -24,8 +24,8 @@ const INSCRIBED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// The greatest number of columns of an LP that is still solved.
 const COLUMNS_MAX: usize = 100_000;
 
-/// A unit of a force that may act: an edge of a contact's pyramid, or a component of the wrench that a bond that
-/// closes a loop transmits.
+/// A unit force that may act, a column of the LP: along an edge of a contact's friction pyramid, or a component of
+/// the wrench that a bond that closes a loop transmits.
 pub(super) struct Column {
     /// The wrenches on links, each on one, that one unit of the force makes: the robot's weight, for a component of a
     /// moment the weight times a metre.
@@ -34,7 +34,7 @@ pub(super) struct Column {
     pub free: bool,
 }
 
-/// Contact forces in balance, with the loads that they cause.
+/// Contact forces that balance the weight in one stance, with the loads that they cause.
 #[derive(Clone, Debug)]
 pub(super) struct ContactForces {
     /// The greatest load as a fraction of its limit, with forces that balance.
@@ -67,7 +67,7 @@ pub(super) struct WarmStart {
 /// The number of edges of the friction pyramid of a contact.
 const EDGES: usize = 4;
 
-/// A query for contact forces in one stance.
+/// A query for the contact forces in one stance under which the greatest of some loads is least.
 pub(super) struct ContactQuery<'a> {
     /// The model of the robot with the bonds that hold.
     pub model: &'a Model<'a>,
@@ -94,7 +94,8 @@ pub(super) struct ContactQuery<'a> {
 }
 
 impl ContactForces {
-    /// Returns the force of the ground at each contact point that carries something, in the order of the contacts.
+    /// Returns the force of the ground at each contact point that carries something, N, at its point from the centre
+    /// of mass in level axes, m, in the order of the contacts.
     pub(super) fn of_ground(&self) -> Vec<Wrench> {
         let edges = &self.wrenches[..self.warm_start.contacts.len() * EDGES];
         let force = |edges: &[Wrench]| Wrench { f: edges.iter().map(|edge| edge.f).sum(), ..edges[0] };
@@ -103,8 +104,8 @@ impl ContactForces {
 }
 
 impl ContactQuery<'_> {
-    /// Returns the forces of an earlier sample brought to balance here, which certifies them without an LP; `None`
-    /// if they cannot be.
+    /// Returns the forces of an earlier sample brought to exact balance in this stance, which certifies them without
+    /// an LP; `None` if they cannot be.
     pub(super) fn warm_started(&self, warm_start: &WarmStart) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
@@ -123,13 +124,13 @@ impl ContactQuery<'_> {
         self.certified(&contacts, &columns, &sizes, f64::NEG_INFINITY)
     }
 
-    /// Returns the size of the LP, columns and loads, as a measure of its cost.
+    /// Returns the number of columns of the LP plus the number of its loads, as a measure of its cost.
     pub(super) fn lp_size(&self) -> usize {
         self.columns(&self.contacts()).len() + self.loads.len()
     }
 
-    /// Solves the LP of the least greatest load; `None` if no forces balance the weight, the LP is too large, or the
-    /// solver did not converge.
+    /// Returns contact forces whose greatest load, as a fraction of its limit, is least, by a linear program (LP);
+    /// `None` if no forces balance the weight, the LP is too large, or the solver did not converge.
     pub(super) fn minimise_peak_load(&self) -> Option<ContactForces> {
         let contacts = self.contacts();
         let columns = self.columns(&contacts);
@@ -187,8 +188,8 @@ impl ContactQuery<'_> {
         columns
     }
 
-    /// Returns force and moment of a column about the centre of mass, as fractions of the weight (and of the weight
-    /// times a metre).
+    /// Returns the force of a unit of a column, as a fraction of the weight, and its moment about the centre of mass,
+    /// as a fraction of the weight times a metre, in level axes; zero for a column of a loop, which balances itself.
     pub(super) fn balance(&self, column: &Column) -> Vector6<f64> {
         let mut sum = Vector6::zeros();
         for push in column.wrenches.iter().filter(|_| !column.free) {

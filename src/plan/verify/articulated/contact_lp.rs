@@ -22,8 +22,9 @@ const DIRECTIONS: [[f64; 3]; 9] = [
     [0.0, HALF_ROOT, -HALF_ROOT],
 ];
 
-/// The LP with its rows of loads. Forces are in fractions of the weight, moments in fractions of the weight times a
-/// metre. Columns: sizes of the wrenches, then six for every node but the first, then the greatest load.
+/// The LP of the least greatest load. Forces are in fractions of the weight, moments in fractions of the weight times
+/// a metre. Its variables are the sizes of the query's columns, then the wrench that each piece of the robot but the
+/// first passes on to the one before (six components), then the greatest load as a fraction of its limit.
 pub(super) struct ContactLp {
     /// The linear program as it is given to the solver.
     pub problem: LinearProgram,
@@ -51,7 +52,7 @@ struct Row {
 }
 
 impl ContactLp {
-    /// Builds the LP of a query over these columns.
+    /// Builds the LP of a query. `columns`: the forces that may act, in the order of the LP's first variables.
     pub(super) fn new(query: &ContactQuery, columns: &[Column]) -> ContactLp {
         let (nodes, node_of) = nodes(query);
         let rows = rows(query);
@@ -78,10 +79,10 @@ impl ContactLp {
         ContactLp { problem, rows }
     }
 
-    /// Returns a lower bound on the greatest load, the Lagrangian dual bound of any multipliers, whatever
-    /// solver made them: for any weights `z ≥ 0` of the rows that sum to 1 and any `y`,
-    /// `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and the sizes λ of the contacts'
-    /// forces sum to 1, so that the least coefficient bounds the sum.
+    /// Returns a lower bound on the greatest load, as a fraction of its limit, from the multipliers of a solution
+    /// (Lagrangian dual bound), which need not be exact; minus infinity if they prove nothing. For any weights `z ≥
+    /// 0` of the rows that sum to 1 and any `y`, `s ≥ Σ z row = Σ λ (z row + y balance) + z constant - y·weight`, and
+    /// the sizes λ of the contacts' forces sum to 1, so that the least coefficient bounds the sum.
     pub(super) fn bound(&self, query: &ContactQuery, columns: &[Column], solution: &LinearSolution) -> f64 {
         let z: Vec<f64> = solution.z[..self.rows.len()].iter().map(|z| z.max(0.0)).collect();
         let total: f64 = z.iter().sum();

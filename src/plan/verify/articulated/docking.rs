@@ -8,8 +8,9 @@ use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
-/// Judges every docking, and that the robot is one piece from the start to the end. Returns the indices in the
-/// assembly of the bonds that missed, in order of time.
+/// Judges every docking of the plan, that the ports are then within capture of each other, and that bonds connect all
+/// modules with the base from the start to the end; records failures and the status of both checks. Returns the
+/// indices in the assembly of the bonds whose ports missed, in order of time.
 pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
     let mut missed = Vec::new();
@@ -84,7 +85,7 @@ fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &
     false
 }
 
-/// The monitor of the loops that the bonds close: mated faces must not be driven against each other.
+/// The monitor of the loops that bonds close, during a rollout: the two ports of such a bond must stay together.
 pub(super) struct Monitor<'a> {
     rollout: &'a Rollout<'a>,
     /// The bonds that did not dock: that their loops are open is reported already.
@@ -96,12 +97,14 @@ pub(super) struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    /// Returns a monitor; `missed`: the indices in the assembly of bonds that did not dock.
+    /// Returns a monitor before the first sample; `missed`: the indices in the assembly of the bonds whose ports
+    /// missed when they docked, whose loops are not reported again.
     pub(super) fn new(rollout: &'a Rollout<'a>, missed: Vec<usize>) -> Monitor<'a> {
         Monitor { rollout, missed, samples: 0, open: vec![] }
     }
 
-    /// Checks the closure of every loop at a sample.
+    /// Takes a sample, in order of time: each bond that closes a loop whose ports are farther apart than its
+    /// connector tolerates fails, once.
     pub(super) fn observe(&mut self, sample: &Sample) {
         if sample.model.kinematics.tree.closing.is_empty() {
             return;
@@ -129,7 +132,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Records the failures of closure, and the status of the check, which is proved if there are no loops.
+    /// Records the failures of open loops, and the status of the check of closure, which is proved if there were no
+    /// loops.
     pub(super) fn finish(self, ledger: &mut Ledger) {
         self.open.into_iter().for_each(|failure| ledger.fail(failure));
         let status = if self.samples == 0 { Status::Proved } else { Status::Sampled(self.samples) };
@@ -149,7 +153,7 @@ fn on_loop(sample: &Sample, closing: usize, bond: usize) -> bool {
     bond == closing || ends(bond).iter().all(|link| path.contains(link))
 }
 
-/// Returns true if the loop that the bond of this name closes is open in a sample.
+/// Returns true if the bond of this name closes a loop in a sample and its ports are farther apart than is tolerated.
 pub(super) fn is_open(sample: &Sample, name: &str, tolerances: &Tolerances) -> bool {
     residuals(sample)
         .iter()
@@ -170,8 +174,8 @@ fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> boo
     residual.distance <= error.distance && residual.angle <= error.angle
 }
 
-/// Returns the greatest error of two ports, in distance (m) and angle (rad), with which the bond of an index docks and
-/// holds: the capture that its connector states, or else the tolerances of loops.
+/// Returns the greatest distance (m) and angle (rad) between the two ports of a bond, given by its index, with which
+/// it docks and holds: the capture that the connector of its port `a` states, or else the tolerances for loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let a = robot.bonds[bond].a;
     let connector = robot.module_type(a.module).ports[a.port].connector;

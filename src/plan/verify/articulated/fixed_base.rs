@@ -16,7 +16,7 @@ use crate::interrupt;
 use crate::plan::{ExemptionKind, Ground};
 use crate::robot::Motion;
 
-/// The result about the time between samples.
+/// The result of the proof about the torques between samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum BetweenSamples {
     /// No load is ever over its limit.
@@ -28,8 +28,9 @@ pub(super) enum BetweenSamples {
     Over { time: f64, load: usize, ratio: f64 },
 }
 
-/// Judges the torques of the whole plan between samples, if its base is held fixed all the time and no loop leaves the
-/// distribution of loads open; [`BetweenSamples::Open`] otherwise.
+/// Proves that the torques of weight stay within their limits at all instants, also between samples, by bisection
+/// with bounds on the motion of the joints. [`BetweenSamples::Open`] unless a fixture holds the base all the time,
+/// all loads are of joints that turn, no loop leaves their distribution open, and no overload is exempt.
 pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     let held = |world: &crate::plan::World| world.ground == Ground::Held;
     let excused = |e: &crate::plan::Exemption| matches!(e.kind, ExemptionKind::Overload(_));

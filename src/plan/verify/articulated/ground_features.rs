@@ -6,11 +6,11 @@
 use super::tolerances::NUMERICS;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
-/// A 3×3 matrix, mostly a rotation; its columns are the axes of the turned frame.
+/// A 3×3 matrix of `f64`, mostly a rotation `R_AB`, whose columns are the axes of frame B in frame A.
 pub(super) type Mat3 = nalgebra::Matrix3<f64>;
 
-/// The number of points that represent a circle: the lowest, and others round it so that a disc lying flat is more
-/// than one point.
+/// The number of points that represent a circle: its lowest, and seven more at eighths of a turn, so that a disc that
+/// lies flat touches the ground at more than one point.
 pub(super) const CIRCLE_POINTS: u8 = 8;
 
 /// A part of a link's surface that can touch the ground: a vertex, circle or sphere, in the frame of the link or in
@@ -83,7 +83,7 @@ impl Feature {
     }
 
     /// Returns an upper bound on the distance of any point of the feature from the corresponding point of `other`, m;
-    /// the two must be one feature in two poses of one frame.
+    /// the two must be one feature in two poses, in one frame.
     pub fn moved(&self, other: &Feature) -> f64 {
         let centre = (self.centre - other.centre).norm();
         match (self.form, other.form) {
@@ -126,8 +126,8 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     (across - axis * across.dot(axis)).normalize()
 }
 
-/// Returns the features of a link's shapes, of all of them however many they are, in the frame of the link, in the order
-/// in which the shapes are declared.
+/// Returns the features of all shapes of a link, in the frame of the link, in the order in which the shapes are
+/// declared: corners of boxes, hulls and meshes, rims of cylinders, spheres, and the end spheres of capsules.
 pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();

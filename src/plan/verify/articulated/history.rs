@@ -9,14 +9,14 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
 
-/// The greatest number of moments of a history besides the last: of a longer rollout every second, fourth, ...
-/// sample is kept.
+/// The greatest number of moments of a history besides the last: of a rollout with more samples only every second,
+/// fourth, ... is kept.
 pub const MOMENTS_MAX: usize = 4096;
 
 /// The stride of moments that have the loads of the joints, which take longer to compute.
 const LOADS_EACH: usize = 8;
 
-/// The greatest number of contact points of a moment; of more every second, third, ... is kept.
+/// The greatest number of contact points that a moment holds: of more only every second, third, ... is kept.
 pub const CONTACTS_MAX: usize = 128;
 
 /// The robot at an instant of a rollout.
@@ -69,9 +69,9 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     moments
 }
 
-/// Returns the world pose of the base module's body (`X_WB`) at the last sample up to a time (s), as standing,
-/// rolling and tipping have brought it there. `None` for plans of other families, and for plans that are not valid.
-/// `plan`: the plan of an articulated robot.
+/// Returns the world pose of the base module's body (`X_WB`) at the last sample up to a time (s), as settling, travel
+/// and tip-overs of the rollout have brought it there. `None` for plans of other families, and for plans that are not
+/// valid.
 pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
     visit(plan, time, &Tolerances::default(), &mut |sample| {

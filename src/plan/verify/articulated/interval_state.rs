@@ -17,8 +17,9 @@ use crate::robot::Kinematics;
 use crate::robot::{Motion, Step};
 use nalgebra::Matrix3;
 
-/// The state of the links in the middle of an interval, with bounds on their motion. A link is computed when it is first
-/// asked for by a `require`; others cost nothing, for most intervals leave few pairs open.
+/// The poses and velocities of the links in the middle of an interval of time, with bounds on how their velocities
+/// deviate from these until its ends. A link is computed only when it is first [required](Self::require): most
+/// intervals need few.
 #[derive(Clone, Debug)]
 pub(super) struct IntervalState {
     along: JointMotions,
@@ -63,7 +64,8 @@ pub(super) struct Moving {
     pub v: Vec3,
 }
 
-/// Bounds on the difference of a link's velocities, relative to a reference link, from those in the middle.
+/// Bounds on the difference of a link's velocities anywhere in an interval from those in its middle, both relative to
+/// a reference link.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Deviation {
     /// A bound on the deviation of the velocity of the link's origin, m/s.
@@ -77,7 +79,8 @@ pub(super) struct Deviation {
 }
 
 impl IntervalState {
-    /// Returns the state of no interval, of joints that move so.
+    /// Returns a state for joints that move as `along` says; an interval must be [`set`](Self::set) before anything
+    /// is computed.
     pub(super) fn new(along: JointMotions) -> IntervalState {
         let joints = along.joint_count();
         IntervalState {
@@ -99,7 +102,8 @@ impl IntervalState {
         }
     }
 
-    /// Begins the interval `from..to` (s), of which nothing is computed yet.
+    /// Begins the interval `from..to` (s): nothing is computed yet but the root link, whose frame is that of all
+    /// poses. `kinematics`: that of the part of the robot that is examined.
     pub(super) fn set(&mut self, kinematics: &Kinematics, from: f64, to: f64) {
         self.interval = self.along.interval(from, to);
         self.epoch += 1;
@@ -114,18 +118,19 @@ impl IntervalState {
         self.links_of[root] = self.epoch;
     }
 
-    /// Returns the number of the interval among all that were [`set`](Self::set).
+    /// Returns the number of the present interval, counted from 1 over all that were [`set`](Self::set); 0 before the
+    /// first.
     pub(super) fn epoch(&self) -> u32 {
         self.epoch
     }
 
-    /// Returns the number of links and of deviations computed since it was asked for, as a measure of work.
+    /// Returns the number of links and of deviations computed since this was called last, as a measure of work.
     pub(super) fn take_computed(&mut self) -> usize {
         std::mem::take(&mut self.computed)
     }
 
-    /// Computes pose and velocity in the middle of the interval of a link, by its number in the kinematics, and of the
-    /// links on its way to the root.
+    /// Computes pose and velocity, in the middle of the interval, of a link and of those between it and the root.
+    /// `link`: its number ([`Kinematics::link`]), of the part that `kinematics` reaches, or it panics.
     #[inline]
     pub(super) fn require(&mut self, kinematics: &Kinematics, link: usize) {
         if self.links_of[link] != self.epoch {
@@ -182,8 +187,9 @@ impl IntervalState {
         }
     }
 
-    /// Computes the bounds of a link, by its number in the kinematics, at a level (an index in
-    /// [`ReferenceLinks::levels`]), and what they rest on: its pose and velocity, and those of its reference link.
+    /// Computes the deviation of a link at a level, an index in [`ReferenceLinks::levels`], and all that it follows
+    /// from: pose and velocity of the links between it and its reference link. `link`: its number
+    /// ([`Kinematics::link`]).
     #[inline]
     pub(super) fn require_deviation(
         &mut self,
@@ -240,8 +246,8 @@ impl IntervalState {
         self.deviations[level] = deviations;
     }
 
-    /// Returns the bound of a link, by its number in the kinematics, at a level for which it was
-    /// [required](Self::require_deviation).
+    /// Returns the deviation of a link, by its number ([`Kinematics::link`]), from its velocity relative to the
+    /// reference link of a level. It must have been [required](Self::require_deviation) in this interval.
     #[inline]
     pub(super) fn deviation(&self, level: usize, link: usize) -> &Deviation {
         let (mark, deviation) = &self.deviations[level][link];
@@ -249,8 +255,8 @@ impl IntervalState {
         deviation
     }
 
-    /// Returns `X_AB`, the pose of link b in link a, both by their numbers in the kinematics, in the middle of the
-    /// interval.
+    /// Returns `X_AB`, the pose of link b in link a's frame in the middle of the interval; both by their numbers
+    /// ([`Kinematics::link`]), and both [required](Self::require) before.
     pub(super) fn relative(&self, a: usize, b: usize) -> Pose {
         self.poses[a].inverse() * self.poses[b]
     }

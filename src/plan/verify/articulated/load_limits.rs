@@ -5,7 +5,7 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Failure};
 use crate::units::{Dimension, quantity};
 
-/// A load over its limit.
+/// A load that is over its limit at some samples, with its greatest value.
 #[derive(Clone, Debug)]
 pub(super) struct Overload {
     /// The name of the overloaded load, as [`Load::name`] gives it.
@@ -23,7 +23,7 @@ pub(super) struct Overload {
 }
 
 impl LoadKind {
-    /// Returns the check that judges loads of this kind.
+    /// Returns the check that judges loads of this kind: torque for joints and motors, bond load for bonds.
     pub(super) fn check(self) -> CheckKind {
         match self {
             LoadKind::Joint { .. } => CheckKind::Torque,
@@ -31,7 +31,7 @@ impl LoadKind {
         }
     }
 
-    /// Returns the dimension of loads of this kind: a force or a torque.
+    /// Returns the physical dimension of loads of this kind: torque (N·m) or force (N).
     pub(super) fn dimension(self) -> Dimension {
         match self {
             LoadKind::Joint { turns: true, .. } | LoadKind::Moment => Dimension::TORQUE,
@@ -41,15 +41,15 @@ impl LoadKind {
 }
 
 impl Structure {
-    /// Returns true if there is a load that this check judges: one of a joint or motor, or one of a bond, that states a
-    /// limit.
+    /// Returns true if the robot has a load with a limit that this check judges, [`CheckKind::Torque`] or
+    /// [`CheckKind::BondLoad`].
     pub(super) fn has_limits(&self, check: CheckKind) -> bool {
         self.loads.iter().any(|load| load.kind.check() == check)
     }
 }
 
 impl Overload {
-    /// Returns the overload of a load that is `value` (N·m or N) at a time (s).
+    /// Returns the overload of a load that first exceeds its limit at a time (s), with the value `value` (N·m or N).
     pub(super) fn new(load: &Load, value: f64, time: f64) -> Overload {
         Overload {
             name: load.name.clone(),
@@ -61,12 +61,13 @@ impl Overload {
         }
     }
 
-    /// Returns true if it is the overload of this load.
+    /// Returns true if this is the overload of a load: if names and kinds agree.
     pub(super) fn is_of(&self, load: &Load) -> bool {
         self.name == load.name && self.kind == load.kind
     }
 
-    /// Takes in the load, N·m or N, at a later time (s). Returns true if it is greater there than at all times before.
+    /// Extends the overload to a later time (s) at which the load is `value` (N·m or N). Returns true if that is the
+    /// greatest so far.
     pub(super) fn grow(&mut self, value: f64, time: f64) -> bool {
         self.until = time;
         let greater = value > self.value;
@@ -76,7 +77,7 @@ impl Overload {
         greater
     }
 
-    /// Returns the failure of the overload.
+    /// Returns the failure of the check of torques or bond loads that this overload is, without blame.
     pub(super) fn failure(&self) -> Failure {
         let what = match self.kind {
             LoadKind::Joint { .. } => "would have to hold",
@@ -103,8 +104,8 @@ impl Overload {
     }
 }
 
-/// Keeps the margin of a load, whose ratio to its limit is `ratio` at a time (s), if it is the least of those of
-/// joints or bonds so far.
+/// Takes the margin of a load, 1 less its ratio to its limit, at a time (s) into the verdict, if it is the least so
+/// far of joints and motors, or of bonds.
 pub(super) fn keep_margin(load: &Load, ratio: f64, time: f64, ledger: &mut Ledger) {
     let least = match load.kind {
         LoadKind::Joint { .. } => &mut ledger.verdict.torque_margin,
@@ -113,8 +114,8 @@ pub(super) fn keep_margin(load: &Load, ratio: f64, time: f64, ledger: &mut Ledge
     keep_least(least, 1.0 - ratio, time, || vec![load.name.clone()]);
 }
 
-/// Returns true if an exemption excuses the overload of a load at a time (s), and marks it as needed. Loads of bonds are
-/// never excused.
+/// Returns true if an exemption of the plan excuses the overload of a load at a time (s), and marks that exemption as
+/// needed. Overloads of bonds are never excused.
 pub(super) fn is_excused(load: &Load, time: f64, ledger: &mut Ledger) -> bool {
     let LoadKind::Joint { joint, .. } = load.kind else { return false };
     let of = |kind: &ExemptionKind| match kind {
@@ -124,14 +125,15 @@ pub(super) fn is_excused(load: &Load, time: f64, ledger: &mut Ledger) -> bool {
     ledger.excuses(CheckKind::Torque, time, of)
 }
 
-/// Adds the note on motors whose efforts do not follow from those of their joints, if one of the structures has any.
+/// Adds a note to the verdict if one of the structures has motors whose efforts do not follow from those of their
+/// joints, and so are not checked.
 pub(super) fn note_open_motors<'s>(mut structures: impl Iterator<Item = &'s Structure>, ledger: &mut Ledger) {
     if structures.any(|structure| structure.motors_open) {
         ledger.note("torques of motors that are not as many as their joints were not checked".to_owned());
     }
 }
 
-/// The positive work of the motors of a robot along a plan; negative work is not regained.
+/// The positive mechanical work that the motors of a robot do along a plan; negative work is not regained.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MotorWork {
     /// The positions (rad or m) and efforts (N·m or N) of all joints when they were last taken in.
@@ -140,8 +142,8 @@ pub(super) struct MotorWork {
 }
 
 impl MotorWork {
-    /// Adds the work since the time before: `joints` are the positions (rad or m) of all joints now, `efforts` those
-    /// (N·m or N) of their motors.
+    /// Adds the work since the call before, as mean effort times displacement of each joint where that is positive.
+    /// `joints`: the positions (rad or m) of all joints now; `efforts`: the efforts (N·m or N) of their motors now.
     pub(super) fn add(&mut self, joints: Vec<f64>, efforts: Vec<f64>) {
         if let Some((joints_before, efforts_before)) = &self.before {
             for (joint, effort) in efforts.iter().enumerate() {
@@ -152,7 +154,7 @@ impl MotorWork {
         self.before = Some((joints, efforts));
     }
 
-    /// Returns the work so far, J.
+    /// Returns the work added so far, J.
     pub(super) fn energy(&self) -> f64 {
         self.energy
     }

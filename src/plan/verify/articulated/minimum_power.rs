@@ -25,8 +25,8 @@ pub struct PlanarPose {
 }
 
 impl PlanarPose {
-    /// Returns the pose moved along an arc by a displacement in its own frame: forward (m), left (m), turn (rad,
-    /// counter-clockwise from above).
+    /// Returns the pose after a motion along a circular arc. `shift`: the displacement in the pose's own frame,
+    /// (forward, m; left, m; turn, rad, counter-clockwise from above).
     pub fn moved(&self, shift: &Vec3) -> PlanarPose {
         let (s, c) = libm::sincos(shift.z);
         // sin(w)/w and (1 - cos w)/w, by their series where w is small.
@@ -76,10 +76,11 @@ impl SlidingPatch {
     }
 }
 
-/// Returns the pose that the robot moves to, and for each loaded patch, first those of the sample before, then those
-/// of this one, the number of its link, its slip (m) and its load as a fraction of the weight: half of the slip for
-/// either sample. `R` and `height`: the rotation of the robot and the height of the centre of mass (m) in this sample;
-/// `patches`: those of this sample.
+/// Returns the planar pose to which a change of posture moves a robot on the ground, by the minimum power principle;
+/// and, for each loaded patch of the stance before and then for each of this sample, (number of its link, half of its
+/// slip in m, its load as a fraction of the weight). `old`: the stance before; `posture`, `R`, `height`: the posture
+/// of this sample, the rotation of the base's frame to level axes, and the height of the centre of mass above the
+/// ground (m); `patches`: those of this sample.
 pub(super) fn displacement(
     model: &Model,
     old: &Stance,

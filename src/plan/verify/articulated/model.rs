@@ -135,8 +135,8 @@ impl<'a> Model<'a> {
         self.kinematics.link(self.robot.base, 0)
     }
 
-    /// Returns all ground features, in the order of [`Model::features`], with the robot turned by `R` (from the
-    /// base's frame, that of `posture`) and the centre of mass at the origin, m.
+    /// Returns all ground features, in the order of [`Model::features`], in axes that `R` turns the base's frame to,
+    /// with the centre of mass at the origin, m. `posture`: one of this model.
     pub fn placed(&self, posture: &Posture, R: &Mat3) -> Vec<Feature> {
         let mut placed = Vec::with_capacity(self.features.len());
         for &link in &self.attached {
@@ -148,7 +148,8 @@ impl<'a> Model<'a> {
         placed
     }
 
-    /// Returns the path name of the module of a link, given by its number. Panics if there is no such link.
+    /// Returns the path name of the module that a link belongs to; `link`: the link's number ([`Kinematics::link`]).
+    /// Panics if there is no such link.
     pub fn module_name(&self, link: usize) -> &str {
         &self.robot.modules[self.bodies[link].module].name
     }

@@ -14,7 +14,8 @@ use super::separation::Motion;
 use super::tolerances::NUMERICS;
 use crate::robot::Kinematics;
 
-/// The fraction of the sum of two modules' radii up to which a gap between their bounding spheres counts as near.
+/// The gap between the bounding spheres of two modules up to which they count as near each other, as a fraction of
+/// the sum of the spheres' radii.
 pub(super) const NEARLY: f64 = 1.0 / 16.0;
 
 /// A set of modules, whose indices are those in the assembly.
@@ -22,11 +23,11 @@ pub(super) const NEARLY: f64 = 1.0 / 16.0;
 pub(super) enum Cluster {
     /// A single module.
     Module(u32),
-    /// The part that the centroid decomposition gives this centroid, of two modules or more.
+    /// A part of the robot in the centroid decomposition, of two modules or more, named by its centroid.
     Part(u32),
 }
 
-/// All pairs of a module of one cluster and one of another.
+/// A pair of clusters, which stands for all pairs of a module of the one and a module of the other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ClusterPair {
     /// The first cluster of modules.
@@ -37,7 +38,8 @@ pub(super) struct ClusterPair {
     pub level: u32,
 }
 
-/// The state of all pairs of modules of a pair of clusters over an interval, as far as their bounding spheres tell.
+/// The proximity of all pairs of modules that a pair of clusters stands for, over an interval, as far as their
+/// bounding spheres decide it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Proximity {
     /// All are separated.
@@ -48,7 +50,7 @@ pub(super) enum Proximity {
     Undecided(bool),
 }
 
-/// The robot as seen over an interval.
+/// The part of the robot that is examined, as bounds on its clusters need it.
 pub(super) struct Scene<'a> {
     /// The bodies of the robot, for the radii of the modules.
     pub bodies: &'a Bodies,
@@ -58,7 +60,8 @@ pub(super) struct Scene<'a> {
     pub levels: &'a ReferenceLinks,
 }
 
-/// The bounding spheres of the parts of a decomposition over one interval, each computed when first asked for.
+/// The bounding spheres of the clusters of the centroid decomposition over one interval, each computed when it is
+/// first needed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClusterBounds {
     /// The spheres by level and centroid, each with the number of its interval ([`IntervalState::epoch`]).
@@ -87,7 +90,7 @@ impl Cluster {
 }
 
 impl ClusterPair {
-    /// Returns pairs of clusters that cover each pair of modules of the connected part once.
+    /// Returns the pairs of clusters that together stand for each pair of modules of the connected part exactly once.
     pub(super) fn all(levels: &ReferenceLinks, kinematics: &Kinematics) -> Vec<ClusterPair> {
         let mut pairs = Vec::new();
         for &(module, _) in &kinematics.tree.order {
@@ -103,8 +106,8 @@ impl ClusterPair {
         pairs
     }
 
-    /// Appends the pairs into which this one falls if its first cluster is split, or else its second, which must be a
-    /// part.
+    /// Appends to `out` the pairs into which this one falls if a cluster is split into its centroid and its pieces:
+    /// the first if `first` is true, else the second. Panics if that is a single module.
     pub(super) fn split(&self, first: bool, levels: &ReferenceLinks, out: &mut Vec<ClusterPair>) {
         let (split, other) = if first { (self.a, self.b) } else { (self.b, self.a) };
         let Cluster::Part(centroid) = split else { unreachable!("a module is not split") };
@@ -115,8 +118,9 @@ impl ClusterPair {
 }
 
 impl ClusterBounds {
-    /// Returns the state of the pairs of modules of a pair of clusters, of which one is a part. `needs`: the least and
-    /// the greatest distance (m) that any of them must be proved to have.
+    /// Returns the proximity of the modules of a pair of clusters, at least one of which is a part, over the interval
+    /// of `state`. `needs`: the least and the greatest of the distances (m) that pairs of modules must be proved to
+    /// have.
     pub(super) fn proximity(
         &mut self,
         state: &mut IntervalState,

@@ -5,9 +5,10 @@ use super::polyline::Polyline;
 use super::tolerances::Tolerances;
 use crate::plan::{Tracks, polynomial};
 
-/// The tracks of all joints, with bounds of their derivatives.
+/// The tracks of all joints, with bounds on their rates' change, from which bounds over any interval of time follow.
 #[derive(Clone, Debug)]
 pub(super) struct MotionBounds {
+    /// The position of each joint at the start of the plan, rad or m.
     start: Vec<f64>,
     /// The pieces of each joint, in order of time.
     pieces: Vec<Vec<Piece>>,
@@ -28,7 +29,7 @@ struct Piece {
     acceleration: f64,
 }
 
-/// An interval of time.
+/// An interval of time over which motion is bounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Interval {
     /// The beginning of the interval, s.
@@ -43,7 +44,7 @@ pub(super) struct Interval {
     pub smooth: bool,
 }
 
-/// A joint over an interval.
+/// The motion of a joint over an interval: exact in the middle, bounded elsewhere.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct JointMotion {
     /// The position of the joint in the middle of the interval, rad or m.
@@ -54,7 +55,7 @@ pub(super) struct JointMotion {
     pub deviation: f64,
 }
 
-/// The motion of the joints that a search for collisions goes along.
+/// The motion of all joints that a search for collisions follows.
 #[derive(Clone, Debug)]
 pub(super) enum JointMotions {
     /// The motion as planned.
@@ -64,7 +65,7 @@ pub(super) enum JointMotions {
 }
 
 impl JointMotions {
-    /// Returns the number of joints.
+    /// Returns the number of joints of the robot.
     pub(super) fn joint_count(&self) -> usize {
         match self {
             JointMotions::Planned(bounds) => bounds.joint_count(),
@@ -72,7 +73,8 @@ impl JointMotions {
         }
     }
 
-    /// Returns the interval `from..to` (s).
+    /// Returns the interval `from..to` (s), with a flag for rates that jump within it; a [`Polyline`] counts as if
+    /// they always did.
     pub(super) fn interval(&self, from: f64, to: f64) -> Interval {
         match self {
             JointMotions::Planned(bounds) => bounds.interval(from, to),
@@ -80,7 +82,8 @@ impl JointMotions {
         }
     }
 
-    /// Returns the motion of a joint, by the number in its [`JointId`](crate::robot::JointId), over an interval.
+    /// Returns position and rate of a joint in the middle of an interval, with a bound on the rate's deviation;
+    /// `joint`: the number in its [`JointId`](crate::robot::JointId).
     pub(super) fn over(&self, joint: usize, interval: &Interval) -> JointMotion {
         match self {
             JointMotions::Planned(bounds) => bounds.over(joint, interval),
@@ -90,7 +93,7 @@ impl JointMotions {
 }
 
 impl MotionBounds {
-    /// Computes the derivatives of all tracks and their bounds.
+    /// Computes the rates of all tracks of a plan, and bounds on their accelerations.
     pub(super) fn new(tracks: &Tracks) -> MotionBounds {
         let joints = tracks.start.joints.len();
         let mut bounds = MotionBounds {
@@ -111,19 +114,20 @@ impl MotionBounds {
         bounds
     }
 
-    /// Returns the number of joints.
+    /// Returns the number of joints of the robot.
     pub(super) fn joint_count(&self) -> usize {
         self.start.len()
     }
 
-    /// Returns the interval `from..to` (s).
+    /// Returns the interval `from..to` (s), with a flag for rates of joints that jump within it.
     pub(super) fn interval(&self, from: f64, to: f64) -> Interval {
         let first = self.jump_times.partition_point(|t| *t <= from);
         let smooth = self.jump_times.get(first).is_none_or(|t| *t >= to);
         Interval { from, to, middle: (from + to) / 2.0, half: (to - from) / 2.0, smooth }
     }
 
-    /// Returns the motion of a joint, by the number in its [`JointId`](crate::robot::JointId), over an interval.
+    /// Returns position and rate of a joint in the middle of an interval, with a bound on the rate's deviation;
+    /// `joint`: the number in its [`JointId`](crate::robot::JointId).
     pub(super) fn over(&self, joint: usize, interval: &Interval) -> JointMotion {
         let pieces = &self.pieces[joint];
         let (at, rate) = position_and_rate(pieces, self.start[joint], interval.middle);

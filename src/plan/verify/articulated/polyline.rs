@@ -2,8 +2,8 @@
 
 use super::motion_bounds::{Interval, JointMotion};
 
-/// The positions of all joints at instants in order of time, between which they move uniformly; before the first and
-/// after the last they are at rest.
+/// The positions of all joints at instants in order of time, linear in time between them; before the first instant
+/// and after the last the joints are at rest.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Polyline {
     times: Vec<f64>,
@@ -13,8 +13,8 @@ pub(super) struct Polyline {
 }
 
 impl Polyline {
-    /// Appends an instant at `time` (s) with the positions of all joints by [`crate::robot::JointId`], rad or m. At the time
-    /// of the last one, it takes its place.
+    /// Appends an instant at `time` (s) with the positions of all joints (rad or m), by the number in their
+    /// [`crate::robot::JointId`]. If the last instant is not before that time, it is replaced.
     pub(super) fn push(&mut self, time: f64, positions: &[f64]) {
         if self.times.last().is_some_and(|last| *last >= time) {
             self.times.pop();
@@ -25,22 +25,23 @@ impl Polyline {
         self.positions.extend_from_slice(positions);
     }
 
-    /// Returns the times of the instants, s.
+    /// Returns the times of the instants, s, ascending.
     pub(super) fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Returns the number of joints.
+    /// Returns the number of joints; 0 before the first instant.
     pub(super) fn joint_count(&self) -> usize {
         self.joints
     }
 
-    /// Returns the interval `from..to` (s): rates may jump in it.
+    /// Returns the interval `from..to` (s), which is never smooth: rates jump at instants.
     pub(super) fn interval(&self, from: f64, to: f64) -> Interval {
         Interval { from, to, middle: (from + to) / 2.0, half: (to - from) / 2.0, smooth: false }
     }
 
-    /// Returns the motion of a joint, by the number in its [`JointId`](crate::robot::JointId), over an interval.
+    /// Returns position and rate of a joint in the middle of an interval, with a bound on the rate's deviation;
+    /// `joint`: the number in its [`JointId`](crate::robot::JointId). Panics if there are no instants.
     pub(super) fn over(&self, joint: usize, interval: &Interval) -> JointMotion {
         let next = self.times.partition_point(|time| *time <= interval.middle);
         let rate = self.rate(joint, next);

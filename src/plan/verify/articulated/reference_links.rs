@@ -12,7 +12,7 @@ use crate::robot::{Assembly, Kinematics};
 /// The index of no module and no link.
 const NOWHERE: u32 = u32::MAX;
 
-/// The centroid decomposition of the tree of modules.
+/// The centroid decomposition of the tree of modules, which gives each pair of modules its reference link.
 #[derive(Clone, Debug)]
 pub(super) struct ReferenceLinks {
     /// The levels of the decomposition, coarsest first.
@@ -24,7 +24,8 @@ pub(super) struct ReferenceLinks {
     pub pieces: Vec<Vec<u32>>,
 }
 
-/// All modules that are not yet centroids themselves, each seen from the centroid of its part.
+/// A level of the decomposition: the tree falls into parts, and every link of a part is seen from the body link of
+/// the part's centroid. Modules that were centroids at coarser levels are left out.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ReferenceLevel {
     /// For each link, by its number in the kinematics, the step that leads to it from its reference link, by its index
@@ -36,7 +37,7 @@ pub(super) struct ReferenceLevel {
     pub origin_of: Vec<u32>,
 }
 
-/// A step to a link from a neighbour over a step of the kinematics.
+/// A step from a link to its neighbour in the tree of links, away from the reference link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkStep {
     /// The number of the neighbour from which the step leads, in the kinematics.
@@ -51,7 +52,7 @@ pub(super) struct LinkStep {
 }
 
 impl ReferenceLinks {
-    /// Decomposes the tree of the modules that `kinematics` reaches.
+    /// Decomposes the tree of the modules of `robot` that `kinematics` reaches.
     pub(super) fn new(robot: &Assembly, kinematics: &Kinematics) -> ReferenceLinks {
         let modules = robot.modules.len();
         let neighbours = neighbours(robot, kinematics);
@@ -80,20 +81,23 @@ impl ReferenceLinks {
         ReferenceLinks { levels, centroids, pieces }
     }
 
-    /// Returns the level (index in `levels`) at which a centroid lies between two modules, given by their indices in
-    /// the assembly, or is one of them. A module is its own reference.
+    /// Returns the finest level (index in `levels`) at which two modules belong to one part: its centroid lies on the
+    /// path between them, or is one of them. For one module given twice it is the level at which it is the centroid
+    /// itself. `a`, `b`: their indices in the assembly; both must be modules that the decomposition reaches.
     pub(super) fn between(&self, a: usize, b: usize) -> usize {
         let same = |level: &&Vec<u32>| level[a] == level[b] && level[a] != NOWHERE;
         self.centroids.iter().take_while(same).count() - 1
     }
 
-    /// Returns the reference link of a link at a level (index in `levels`), both by their numbers in the kinematics.
+    /// Returns the number of the reference link of a link at a level; `level`: an index in `levels`; `link`: the
+    /// number of the link ([`Kinematics::link`]), which must belong to the level.
     pub(super) fn origin(&self, level: usize, link: usize) -> usize {
         self.levels[level].origin_of[link] as usize
     }
 }
 
-/// Returns the index in the assembly of the centroid of all modules that `kinematics` reaches.
+/// Returns the index in the assembly of the centroid of the modules that `kinematics` reaches: the module whose
+/// removal leaves the smallest greatest piece.
 pub(super) fn middle(robot: &Assembly, kinematics: &Kinematics) -> usize {
     let taken = vec![false; robot.modules.len()];
     let neighbours = neighbours(robot, kinematics);
@@ -112,8 +116,8 @@ fn neighbours(robot: &Assembly, kinematics: &Kinematics) -> Vec<Vec<usize>> {
 }
 
 impl ReferenceLevel {
-    /// Returns the step to a link, by its number in the kinematics, on the way from its reference link; `None` for a
-    /// reference link itself.
+    /// Returns the last step on the way to a link from its reference link; `None` for a reference link itself.
+    /// `link`: its number ([`Kinematics::link`]), which must belong to the level.
     pub(super) fn hop_to(&self, link: usize) -> Option<&LinkStep> {
         (self.origin_of[link] as usize != link).then(|| &self.hops[self.hop_to[link] as usize])
     }

@@ -29,8 +29,8 @@ struct Jump {
     cause: CauseId,
 }
 
-/// Judges the rates of all joints at the start and at the end of the plan, where those without an acceleration limit
-/// leave the check undecided.
+/// Judges that all joints are at rest at the start and at the end of the plan. A joint that is not fails where an
+/// acceleration limit is stated for it or its motor; without one the status says that it was not checked.
 pub(super) fn judge(tracks: &Tracks, tolerances: &Tolerances, ledger: &mut Ledger) {
     let jumps = jumps(tracks, tolerances);
     for jump in jumps.iter().filter(|jump| jump.limited) {

@@ -128,8 +128,8 @@ pub enum RolloutEnd {
 /// and counts k times.
 const FEATURES_PER_SAMPLE: usize = 100;
 
-/// Returns the number of samples that a plan of a robot with so many features (see [`Model::features`]) may take:
-/// `samples_max` of its settings, or a part of it for a robot of many features.
+/// Returns the number of samples that the rollout of a robot may take: `samples_max` of the settings, divided by each
+/// full hundred of its ground `features` ([`Model::features`]).
 pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
     settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }
@@ -137,7 +137,7 @@ pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
 /// The greatest number of halvings of one step: times are then so close that nothing moves between them.
 const HALVINGS_MAX: usize = 50;
 
-/// The state of a rollout at a sample, from which it can continue.
+/// The state of a rollout at a sample, from which [`roll_out`] can continue.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     /// The time from the start of the plan, s.
@@ -515,7 +515,8 @@ pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
     exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.covers(t))
 }
 
-/// Writes the joint positions (rad or m) at a time (s), by the number in their `JointId`, with the blamed joint held.
+/// Overwrites `joints` with the positions (rad or m) of all joints at a time (s), by the number in their `JointId`;
+/// the joint that the rollout holds keeps the position at which it is held.
 pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
     joints.clear();
     joints.extend_from_slice(&rollout.tracks.start.joints);

@@ -5,8 +5,8 @@ use super::tolerances::Tolerances;
 use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
 use crate::robot::JointId;
 
-/// Returns every instant (s) that is a sample under any settings, ascending and each once: starts and ends of
-/// segments, docking, changes of the world, ends of exemptions, the start and the end of the plan.
+/// Returns the instants (s) of a plan that are samples whatever the settings are, ascending, each once: its start and
+/// end, the ends of segments, dockings, changes of the world, and the ends of exemptions.
 pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
     let mut all = tracks.instants();
     all.extend(worlds.iter().map(|w| w.from));
@@ -17,9 +17,9 @@ pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exem
     all
 }
 
-/// Returns the number of samples between two neighbouring instants (s): as many as keep samples no farther apart in
-/// time than `settings.sample`, and turns of joints between them no greater than `tolerances.turn_sample`; 0 where no
-/// joint moves.
+/// Returns the number of samples from `t0` (left out) to `t1` (s), two neighbouring instants: as many as keep samples
+/// no farther apart in time than `settings.sample`, and joints moving no farther between them than
+/// `tolerances.turn_sample` (rad or m). 0 where no joint moves.
 pub(super) fn divisions(
     tracks: &Tracks,
     t0: f64,
@@ -37,7 +37,7 @@ pub(super) fn divisions(
     by_time.max(by_turn).max(1.0) as usize
 }
 
-/// Returns the number of samples of a plan, refinements not included.
+/// Returns the number of samples of a plan, without those by which the rollout halves a step.
 pub(super) fn count(
     tracks: &Tracks,
     worlds: &[WorldFrom],

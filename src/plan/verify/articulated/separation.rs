@@ -8,7 +8,7 @@ use crate::geometry::Vec3;
 use crate::geometry::distance::signed_distance_within;
 use crate::robot::Kinematics;
 
-/// Two modules that are not proved to be separated yet.
+/// A pair of modules that are not proved to be separated over the present interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ModulePair {
     /// The index in the assembly of the first module.
@@ -19,7 +19,7 @@ pub(super) struct ModulePair {
     pub level: u32,
 }
 
-/// Two bodies that are not proved to be separated yet.
+/// A pair of bodies that are not proved to be separated over the present interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyPair {
     /// The index of the first body in [`Bodies::bodies`].
@@ -28,7 +28,7 @@ pub(super) struct BodyPair {
     pub b: u32,
     /// The level of the bodies' reference link, an index in [`ReferenceLinks::levels`].
     pub level: u32,
-    /// True if the pair counts for the clearance: two links that a joint joins do not.
+    /// True if the pair counts for the clearance: two links that a joint or a bond joins do not.
     pub counts: bool,
     /// The greatest penetration depth that is no collision, m.
     pub allowed: f64,
@@ -36,7 +36,7 @@ pub(super) struct BodyPair {
     pub normal: Vec3,
 }
 
-/// Lower bounds on the distance of a pair over an interval.
+/// Lower bounds on the signed distance of a pair over an interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
     /// A lower bound on the distance of the pair over the whole interval, m.
@@ -45,7 +45,7 @@ pub(super) struct Bound {
     pub middle: f64,
 }
 
-/// The state of an interval with what it refers to.
+/// The present interval, with the part of the robot and the reference links to which its state refers.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     /// The state of the robot in the middle of the interval.
@@ -56,7 +56,7 @@ pub(super) struct View<'a> {
     pub kinematics: &'a Kinematics,
 }
 
-/// A point that moves: its position in the middle of the interval, and its velocity as seen from a level's origin.
+/// A point in uniform motion over an interval, or the difference of two.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Motion {
     /// The position of the point in the middle of the interval, m, in the frame of the root link.
@@ -65,7 +65,8 @@ pub(super) struct Motion {
     pub v: Vec3,
 }
 
-/// Returns the bound from a bounding sphere of each module.
+/// Returns bounds on the distance of two modules from a bounding sphere of each about the origin of its body link.
+/// The deviations of both body links must have been required.
 pub(super) fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
     let state = view.state;
     let [a, b] = [pair.a, pair.b].map(|m| view.kinematics.link(m as usize, 0));
@@ -78,7 +79,8 @@ pub(super) fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> B
     between.bound(state.interval.half, state.drift(deviation), reach)
 }
 
-/// Returns the bound from a bounding sphere of each body.
+/// Returns bounds on the distance of two bodies from a bounding sphere of each about its centre. `level`: that of
+/// their reference link; the deviations of their carriers must have been required.
 pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
     let state = view.state;
     let (x, y) = (state.centre(a), state.centre(b));
@@ -96,24 +98,31 @@ pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound
     )
 }
 
-/// The slab between two bodies along a direction of the first one's carrier that is held still in the state of the
-/// level's origin. Points of each body move with its velocity and spin; a linear function's least value over a convex
-/// body and over the interval is at one of the interval's ends.
+/// The slab between two bodies along a unit direction, fixed in a frame that turns with the reference link. Its
+/// thickness is the gap between the bodies along it, negative where they overlap. Points of each body move with its
+/// velocity and spin; a linear function's least value over a convex body and over the interval is at one of the
+/// interval's ends.
 pub(super) struct Slab<'a> {
     bodies: (&'a Body, &'a Body),
     carriers: (&'a Moving, &'a Moving),
+    /// The unit direction from the first body to the second, in the frame of the root link.
     n: Vec3,
     /// The distance of the centres along `n`, m, and its rate, m/s.
     apart: f64,
     parting: f64,
+    /// The rate at which the direction turns as seen from the first body's carrier, 1/s.
     turn_a: Vec3,
+    /// The rate at which the direction turns as seen from the second body's carrier, 1/s.
     turn_b: Vec3,
+    /// Half the length of the interval, s.
     half: f64,
+    /// A bound on the distance by which both bodies together deviate from uniform motion, m.
     drift: f64,
 }
 
 impl<'a> Slab<'a> {
-    /// Returns the slab along the direction of a pair of bodies.
+    /// Returns the slab between the bodies `a` and `b` along the direction `pair.normal`; the deviations of their
+    /// carriers must have been required.
     pub(super) fn new(view: &View<'a>, a: &'a Body, b: &'a Body, pair: &BodyPair) -> Slab<'a> {
         let state = view.state;
         let level = pair.level as usize;
@@ -139,12 +148,13 @@ impl<'a> Slab<'a> {
         }
     }
 
-    /// Returns its thickness in the middle of the interval, m.
+    /// Returns the thickness of the slab in the middle of the interval, m.
     pub(super) fn middle(&self) -> f64 {
         self.gap(0.0)
     }
 
-    /// Returns a lower bound on its thickness over the whole interval, m.
+    /// Returns a lower bound on the thickness of the slab over the whole interval, m, and so on the distance of the
+    /// bodies.
     pub(super) fn least(&self) -> f64 {
         let still = self.turn_a == Vec3::zeros() && self.turn_b == Vec3::zeros() && self.parting == 0.0;
         let ends = if still { self.gap(0.0) } else { self.gap(self.half).min(self.gap(-self.half)) };
@@ -160,8 +170,9 @@ impl<'a> Slab<'a> {
     }
 }
 
-/// Returns the signed distance of two bodies in the middle of the interval (m), or, once it is known to be at least
-/// `enough` (m), a lower bound of at least that. Its direction is left in `pair.normal`.
+/// Returns the signed distance of two bodies in the middle of the interval, m; once it is known to be at least
+/// `enough` (m), a lower bound on it of at least that. Sets `pair.normal` to the direction of the distance, the first
+/// guess of the next call.
 pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
@@ -171,13 +182,13 @@ pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut Body
 }
 
 impl Motion {
-    /// Returns the motion of another point relative to this one.
+    /// Returns the motion of `other` relative to this point.
     pub(super) fn to(&self, other: &Motion) -> Motion {
         Motion { p: other.p - self.p, v: other.v - self.v }
     }
 
-    /// Returns the least distance from the origin in uniform motion, m, from `half` (s) before the middle until as long
-    /// after it.
+    /// Returns the least distance of the point from the origin, m, from `half` (s) before the middle of the interval
+    /// until as long after it.
     pub(super) fn nearest(&self, half: f64) -> f64 {
         let speed2 = self.v.norm_squared();
         let nearest = if speed2 > 0.0 { (-self.p.dot(&self.v) / speed2).clamp(-half, half) } else { 0.0 };
@@ -197,8 +208,9 @@ impl IntervalState {
         Motion { p: link.p + arm, v: link.v + link.spin.cross(&arm) }
     }
 
-    /// Returns the distance of a point from uniform motion at the ends of the interval (m) if its velocity deviates
-    /// by so much: if nothing jumps, it deviates in proportion to time.
+    /// Returns a bound on the distance of a point at the ends of the interval from where uniform motion would take
+    /// it, m. `deviation`: a bound on the deviation of its velocity, m/s. Where no rate jumps that deviation grows in
+    /// proportion to time, which halves the distance.
     pub(super) fn drift(&self, deviation: f64) -> f64 {
         deviation * self.interval.half * if self.interval.smooth { 0.5 } else { 1.0 }
     }

@@ -29,7 +29,7 @@ const BASES_MAX: usize = 500;
 /// The greatest number of shortenings of a step.
 const SHORTENINGS_MAX: usize = 60;
 
-/// The attitude at which the descent ended.
+/// The attitude at which settling ended.
 #[derive(Clone, Debug)]
 pub(super) struct SettledAttitude {
     /// The rotation from the attitude at which settling began to this one, in the world's axes.
@@ -38,14 +38,15 @@ pub(super) struct SettledAttitude {
     pub height: f64,
 }
 
-/// Returns the height of the centre of mass (the origin) over the lowest point, m, along the unit vector `up`; minus
-/// infinity without features.
+/// Returns the height of the centre of mass, the origin, above the lowest point of the features, m, along the unit
+/// vector `up`; minus infinity without features.
 pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
     -features.iter().map(|feature| feature.lowest(up)).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns the attitude at which a robot comes to rest from its present one, by the proximal bundle method, or
-/// the lowest found after [`ROUNDS_MAX`] rounds; `features` have the centre of mass at the origin and +z up.
+/// Returns the attitude near the present one at which a robot comes to rest, a local minimum of the height of its
+/// centre of mass, by the proximal bundle method; after [`ROUNDS_MAX`] rounds the lowest found. `features`: with the
+/// centre of mass at the origin and z upwards, m.
 pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();

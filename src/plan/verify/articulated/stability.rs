@@ -8,7 +8,7 @@ use crate::plan::verify::support_polygon::{self, Margin};
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Settings, Stability, Status};
 use crate::units::{Dimension, quantity};
 
-/// The monitor of a rollout for the loss of support.
+/// The monitor of static stability during a rollout: of losses of support, and of the least margin.
 pub(super) struct Monitor<'a> {
     settings: &'a Settings,
     tolerances: &'a Tolerances,
@@ -26,14 +26,14 @@ pub(super) struct Monitor<'a> {
     fixed_base: bool,
 }
 
-/// An interval of time without support.
+/// An interval of time in which the robot lacks support.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SupportLoss {
     /// The time at which the interval without support begins, s.
     pub since: f64,
     /// The time at which the interval without support ends, s.
     pub until: f64,
-    /// The fall of the centre of mass in a tip-over, m; `None` without one.
+    /// The fall of the centre of mass, m, if the robot tips over; `None` if it does not.
     pub drop: Option<f64>,
     /// The least stability margin, m; `None` if the contacts span no area, and for a tip-over.
     pub margin: Option<f64>,
@@ -58,7 +58,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Judges a sample. Returns a loss of support that lasted longer than is allowed when it ends; `None` otherwise.
+    /// Takes a sample, in order of time. Returns a loss of support that ends at it, if it lasted longer than the
+    /// settings allow (`unstable_for`); `None` otherwise. Keeps the least margin in the verdict.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
         self.fixed_base |= sample.world.ground == Ground::Held;
         if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
@@ -91,25 +92,27 @@ impl<'a> Monitor<'a> {
         self.ended(sample.time)
     }
 
-    /// Returns the margin of a sample as it is judged, m; `None` where there is nothing to stand on or no weight, and
-    /// while the base is held because support is missing.
+    /// Returns the stability margin of a sample by the rule of the settings, m: negative outside the support, 0 in a
+    /// support without area. `None` where there is nothing to stand on or no weight, and while the base is held
+    /// because support is missing.
     pub(super) fn margin(&self, sample: &Sample) -> Option<f64> {
         let off = matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0;
         if off { None } else { judged_margin(sample, self.support(sample).as_ref()) }
     }
 
-    /// Returns true if support was missing at the last sample.
+    /// Returns true if support was missing at the last sample observed.
     pub(super) fn lacking(&self) -> bool {
         self.loss.is_some()
     }
 
-    /// Returns the loss that lasts to the end of the plan, at `t` (s): support must be back by then; `None` if there
-    /// is none.
+    /// Returns the loss of support that lasts to the end of the plan, at `t` (s), however short it is; `None` if
+    /// there is none.
     pub(super) fn end(&mut self, t: f64) -> Option<SupportLoss> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
-    /// Records the status of the check of stability.
+    /// Records the status of the check of stability: proved, if no step could tip the robot over; sampled; or not
+    /// checked, without a ground to stand on.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
         let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
         let none = || Status::NotChecked(why.to_owned());
@@ -205,7 +208,7 @@ fn judged_margin(sample: &Sample, support: Option<&(Margin, [usize; 2])>) -> Opt
 }
 
 impl SupportLoss {
-    /// Returns the failure.
+    /// Returns the failure of the check of stability that this loss is, without blame.
     pub(super) fn failure(&self) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
         let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };

@@ -41,7 +41,7 @@ pub struct Stance {
     anchors: Vec<ContactPoint>,
 }
 
-/// The effect of a change of posture on a stance, before it is decided if the robot tips over.
+/// The motion that a change of posture would cause, before it is decided if the robot tips over.
 pub struct SettleAttempt {
     posture: Posture,
     /// The orientation of the base in level axes before the robot settles.
@@ -203,13 +203,13 @@ impl Stance {
         contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
     }
 
-    /// Returns `X_WB`, the world pose of the base module's body.
+    /// Returns `X_WB`, the world pose of the base module's body, m.
     pub fn base_pose(&self, model: &Model) -> Pose {
         let link = model.base_link();
         self.link_pose(link)
     }
 
-    /// Returns `X_WL`, the world pose of the link of a number. Panics if there is none.
+    /// Returns `X_WL`, the world pose of the link of this number, m. Panics if there is none.
     pub fn link_pose(&self, link: usize) -> Pose {
         let (s, c) = libm::sincos(self.planar_pose.yaw);
         let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;
@@ -257,7 +257,7 @@ impl Stance {
     }
 }
 
-/// The placement of a robot at a given pose of its base.
+/// The way in which a robot is placed in a world at a given pose of its base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Placement {
     /// The robot is lowered until it touches the ground, with its orientation, and settles.
@@ -269,9 +269,9 @@ pub enum Placement {
 }
 
 impl SettleAttempt {
-    /// Returns the outcome: steady, tipped over, or undecided. The height of the centre of mass over its attitude
-    /// changes by no more than the points move, so following the old minimum releases at most twice that; a fall of
-    /// more is a minimum that vanished.
+    /// Returns the outcome: steady, tipped over, or undecided, so that a shorter step must decide. If the points of
+    /// the robot move by `motion`, following a minimum of the height lets the centre of mass fall by at most twice
+    /// that: a greater fall shows that the minimum vanished.
     pub fn outcome(&self, tolerances: &Tolerances) -> StepOutcome {
         if self.fall <= tolerances.fall_floor {
             StepOutcome::Steady

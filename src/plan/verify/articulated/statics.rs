@@ -14,8 +14,8 @@ use super::stance::Stance;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{JointId, Motion, PortRef, Step, motor_efforts};
 
-/// The loads of a robot that have a limit, with the cuts of its tree of links that make them: compiled once for the
-/// bonds that hold, for all postures.
+/// The loads of a robot that have a limit, with the cuts of its tree of links from which they follow; compiled once
+/// for the bonds that hold, for all postures.
 pub(super) struct Structure {
     /// All loads that have a limit; lists of loads elsewhere are in this order.
     pub loads: Vec<Load>,
@@ -92,7 +92,7 @@ impl Section {
     }
 }
 
-/// A wrench on a link, in level axes.
+/// A wrench that acts on a link, in level axes from the robot's centre of mass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrench {
     /// The number of the link that it acts on.
@@ -106,7 +106,7 @@ pub(super) struct Wrench {
 }
 
 impl Structure {
-    /// Compiles the loads of a model with the bonds that hold.
+    /// Compiles the loads of a model: those of joints, motors and bonds that state a limit.
     pub(super) fn new(model: &Model) -> Structure {
         let mut structure = Structure {
             loads: vec![],
@@ -122,22 +122,22 @@ impl Structure {
         structure
     }
 
-    /// Returns true if the link `link` is the link `at` or lies beyond it in the tree; both are numbers of links.
+    /// Returns true if `link` is the link `at`, or lies beyond it as seen from the base; both are numbers of links.
     pub(super) fn beyond(&self, at: usize, link: usize) -> bool {
         let ((first, last), (number, _)) = (self.span[at], self.span[link]);
         first <= number && number <= last
     }
 
-    /// Returns the positions of some links in the order of the tree, ascending; a link that occurs twice is there
-    /// twice.
+    /// Returns the positions of some links, given by their numbers, in the depth-first order of the tree, ascending;
+    /// a link that occurs twice is there twice.
     pub(super) fn in_tree_order(&self, links: impl Iterator<Item = usize>) -> Vec<usize> {
         let mut numbers: Vec<usize> = links.map(|link| self.span[link].0).collect();
         numbers.sort_unstable();
         numbers
     }
 
-    /// Returns the number of those of some links that are the link `at` or lie beyond it; `numbers`: their positions as
-    /// [`in_tree_order`](Self::in_tree_order) returns them.
+    /// Returns how many of some links are the link `at` or lie beyond it as seen from the base; `numbers`: their
+    /// positions as [`in_tree_order`](Self::in_tree_order) returns them.
     pub(super) fn count_beyond(&self, at: usize, numbers: &[usize]) -> usize {
         let (first, last) = self.span[at];
         numbers
@@ -145,21 +145,24 @@ impl Structure {
             .saturating_sub(numbers.partition_point(|n| *n < first))
     }
 
-    /// Returns the number of the first link beyond the cut of an index.
+    /// Returns the number of the first link beyond a cut, as seen from the base; `cut`: its index as in
+    /// [`sections`](Self::sections).
     pub(super) fn cut_link(&self, cut: usize) -> usize {
         match self.cuts[cut] {
             Cut::Step { link, .. } | Cut::Bond { link, .. } => link,
         }
     }
 
-    /// Returns all cuts in a stance, in level axes from the centre of mass; the index of a cut is its index here.
+    /// Returns all cuts in a stance, in level axes from the centre of mass. The index of a cut is its index in this
+    /// list.
     pub(super) fn sections(&self, stance: &Stance) -> Vec<Section> {
         let R = |link: usize| stance.R * stance.posture.R[link];
         let p = |link: usize| stance.R * (stance.posture.p[link] - stance.posture.centre);
         self.sections_in(&R, &p)
     }
 
-    /// Returns all cuts with the links at these poses in level axes about the centre of mass.
+    /// Returns all cuts as [`sections`](Self::sections) does; `poses`: those of the links, by number, in level axes
+    /// from the centre of mass.
     pub(super) fn sections_at(&self, poses: &[Pose]) -> Vec<Section> {
         let R = |link: usize| *poses[link].rotation.to_rotation_matrix().matrix();
         let p = |link: usize| poses[link].translation.vector;
@@ -187,8 +190,8 @@ impl Structure {
             .collect()
     }
 
-    /// Returns the load at every cut, N or N·m, in the order of `sections`: the component that the sum of these
-    /// wrenches over the links beyond the cut has there, by one pass from the leaves to the base.
+    /// Returns the load at every cut, N or N·m, in the order of `sections`: the component there of the sum of
+    /// `wrenches` on the links beyond the cut, by one pass from the leaves to the base.
     pub(super) fn held(&self, model: &Model, sections: &[Section], wrenches: &[Wrench]) -> Vec<f64> {
         let mut force = vec![Vec3::zeros(); model.bodies.len()];
         let mut moment = vec![Vec3::zeros(); model.bodies.len()];
@@ -205,8 +208,8 @@ impl Structure {
         sections.iter().map(|s| s.of(&zero, &force[s.link], &moment[s.link])).collect()
     }
 
-    /// Returns the size of a load, N·m or N, from the loads that all cuts hold ([`Structure::held`]): a pull is
-    /// signed, positive where it separates the ports, the others are absolute values.
+    /// Returns the value of a load, N·m or N; `held`: the loads at all cuts ([`Structure::held`]). A pull is signed,
+    /// positive where it separates the ports; the others are magnitudes.
     pub(super) fn size(&self, load: &Load, held: &[f64]) -> f64 {
         let term = |&(cut, factor): &(usize, f64)| factor * held[cut];
         match load.kind {
@@ -216,8 +219,8 @@ impl Structure {
         }
     }
 
-    /// Returns the generalised force (N or N·m) that a motor supplies at a joint, given by the number in its
-    /// `JointId`, by virtual work. `held`: the loads of all cuts; `effects`: as [`effects`] returns them.
+    /// Returns the generalised force (N or N·m) that a motor must supply at a joint to hold it, by virtual work.
+    /// `joint`: the number in its `JointId`; `held`: the loads at all cuts; `effects`: as [`effects`] returns them.
     pub(super) fn joint_effort(&self, joint: usize, held: &[f64], effects: &[Vec<(usize, f64)>]) -> f64 {
         -effects[joint].iter().map(|&(cut, factor)| factor * held[cut]).sum::<f64>()
     }
@@ -315,8 +318,8 @@ impl Structure {
         }
     }
 
-    /// Returns the position of a bond that closes a loop, given by its index: that of its port `a`, from the centre of
-    /// mass in level axes, m.
+    /// Returns the position of a bond that closes a loop: that of its port `a`, from the centre of mass in level
+    /// axes, m. `bond`: its index in the assembly.
     pub(super) fn closing_place(&self, model: &Model, stance: &Stance, bond: usize) -> Vec3 {
         let a = model.robot.bonds[bond].a;
         let port = &model.robot.module_type(a.module).ports[a.port];
@@ -341,13 +344,13 @@ fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
     (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
 }
 
-/// Returns true if a joint drives a step.
+/// Returns true if a step of the kinematics is moved by at least one joint.
 pub(super) fn moves(step: &Step) -> bool {
     step.motion != Motion::Fixed && !step.terms().is_empty()
 }
 
-/// Returns for each joint, by the number in its `JointId`, the cuts at the steps that it drives, each as (index of the
-/// cut, factor of the step's motion).
+/// Returns for each joint, by the number in its `JointId`, the cuts at the steps that it moves, each as (index of the
+/// cut, motion of the step for a unit of the joint's motion).
 pub(super) fn effects(model: &Model) -> Vec<Vec<(usize, f64)>> {
     let count = model.robot.joints().count();
     let mut effects = vec![Vec::new(); count];

@@ -32,7 +32,7 @@ pub struct Instant {
     pub forces: Option<Vec<GroundForce>>,
 }
 
-/// The quantities of an instant that are to be computed.
+/// The extent of the quantities that are computed of an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detail {
     /// The pose of the robot and its stability margin.
@@ -54,9 +54,8 @@ pub struct GroundForce {
 
 /// Returns the judge's quantities at these times (s), one instant for each, in the order of `times`. `times` must
 /// ascend (equal ones may follow each other) and lie between 0 and the duration of the plan; a negative one panics.
-/// The list ends early if the judge took all samples that are allowed before it got there, or if `times` do not
-/// ascend. It is empty for plans of other families, and for plans that are not valid. `detail`: the quantities that
-/// are computed.
+/// The list ends early at a time beyond the duration or out of order, and if the judge took all samples that are
+/// allowed before. It is empty for plans of other families, and for plans that are not valid.
 pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     if validation::check(plan).is_err() {

@@ -15,8 +15,8 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// The least time between instants at which deflected joints are looked at, s. 5 ms: half of the spacing of the instants
-    /// of full dynamics.
+    /// The least length to which intervals are halved in a search for collisions along deflected joints, s. 5 ms:
+    /// half of the spacing of the instants of full dynamics.
     pub(super) const DEFLECTED_TIME_MIN: f64 = 5e-3;
 }
 

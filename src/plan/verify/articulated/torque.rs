@@ -17,7 +17,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Ground, Status};
 use crate::units::{Dimension, quantity};
 
-/// The monitor of loads, which judges them from sample to sample.
+/// The monitor of quasi-static loads during a rollout, which compares them with their limits at each sample.
 pub(super) struct Monitor<'a> {
     tolerances: &'a Tolerances,
     /// The cuts and loads for the bonds that hold; `None` before the first sample.
@@ -56,7 +56,7 @@ struct Decided {
     sure: bool,
 }
 
-/// The efforts of joints at one sample, and the forces of the ground with which they were judged.
+/// The efforts of the joints at one sample, and the forces of the ground with which they were judged.
 pub(super) struct JudgedLoads {
     /// The force or torque that a motor supplies at each joint, by the number in its `JointId`, N or N·m; `None` where
     /// it is not known.
@@ -128,8 +128,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Returns the loads of a sample as they are judged: with the ground's forces spread evenly and without
-    /// friction, or with the best ones if those would overload a joint. `None` without weight or ground.
+    /// Returns the loads of a sample as they are judged: with the ground's forces spread evenly and without friction,
+    /// or with the best ones if those would overload a joint. `None` without gravity, and where the robot floats.
     pub(super) fn read(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<JudgedLoads> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return None;
@@ -155,7 +155,8 @@ impl<'a> Monitor<'a> {
         Some(JudgedLoads { efforts, forces })
     }
 
-    /// Judges the loads of a sample against their limits; samples come in order of time.
+    /// Takes a sample, in order of time: compares its loads with their limits, and gathers overloads that no
+    /// exemption excuses. Does nothing without gravity, and where the robot floats.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             self.over.clear();
@@ -297,7 +298,8 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes in the result about the time between samples.
+    /// Takes in the result about the time between samples: it may prove the check, or add an overload if no sample
+    /// had one.
     pub(super) fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
         self.proved = *between == BetweenSamples::Proved;
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
@@ -307,12 +309,13 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Returns the overloads found, in order of time.
+    /// Returns the overloads found, one for each load, in order of their first time.
     pub(super) fn overloaded(&self) -> &[Overload] {
         &self.failures
     }
 
-    /// Records the energy that the joints spend, notes on uneven forces, and the status of each check of loads.
+    /// Records in the verdict the energy that the motors spend (J), notes on forces that must be uneven, and the
+    /// status of the checks of torque and bond loads.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
         ledger.verdict.energy = self.work.energy();
         if let Some(uneven) = &self.uneven {
@@ -353,15 +356,16 @@ impl<'a> Monitor<'a> {
     }
 }
 
-/// A gauge of loads, which reads them without judging them.
+/// Computes the loads of joints at samples without judging them, for curves and drawings.
 #[derive(Default)]
 pub(super) struct LoadGauge {
     compiled: Option<Compiled>,
 }
 
 impl LoadGauge {
-    /// Returns the ratio of load to limit of every joint that states one, with the ground's forces spread evenly and
-    /// without friction, as (number of the joint in its `JointId`, ratio). Empty without weight or ground.
+    /// Returns the ratio of load to limit of every joint or motor that states one, with the ground's forces spread
+    /// evenly and without friction, as (number of the joint in its `JointId`, ratio). Empty without gravity, and
+    /// where the robot floats.
     pub(super) fn read(&mut self, sample: &Sample, tolerances: &Tolerances) -> Vec<(usize, f64)> {
         if sample.world.gravity == 0.0 || sample.world.ground == Ground::Off {
             return vec![];
@@ -381,7 +385,7 @@ impl LoadGauge {
     }
 }
 
-/// Returns true if a load of this name is over its limit in a sample, to find the command to blame.
+/// Returns true if the load of this name is over its limit in a sample and no exemption excuses it.
 pub(super) fn overloaded(sample: &Sample, name: &str, tolerances: &Tolerances, ledger: &mut Ledger) -> bool {
     let mut observe = Monitor::new(tolerances);
     observe.observe(sample, ledger);

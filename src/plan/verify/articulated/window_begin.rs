@@ -8,7 +8,8 @@ use crate::geometry::Vec3;
 use crate::interrupt;
 
 impl Advancement<'_> {
-    /// Judges the pairs within a module whose distance no joint changes: it is computed once and for all.
+    /// Judges, at the time (s) at which a window begins, the pairs within a module whose distance no joint changes:
+    /// it is known from the module type.
     pub(super) fn fixed_pairs(&mut self, region: &Region, time: f64) {
         self.state.interval.middle = time;
         for &(module, _) in &region.kinematics.tree.order {
@@ -25,7 +26,8 @@ impl Advancement<'_> {
         }
     }
 
-    /// Judges the links that rigid bonds join: they stay at the nominal pose, at which their overlap is known.
+    /// Judges the links that rigid bonds join, which stay at the nominal pose: a collision is recorded if their
+    /// overlap there is deeper than allowed.
     pub(super) fn rigid_bonds(&mut self, region: &Region) {
         for ((x, y), bonded) in region.bonded.iter().filter(|(_, bonded)| bonded.rigid) {
             let bodies = self.bodies.first_of_link(x).zip(self.bodies.first_of_link(y));
@@ -41,8 +43,9 @@ impl Advancement<'_> {
         }
     }
 
-    /// Judges whether a link is inside another's mesh that is not convex, of which only the surface has bodies: at the
-    /// instant (s) at which a window begins and whose state is set, for later a link gets there through the surface.
+    /// Judges if a link is inside another's mesh that is not convex, of which only the surface has bodies. It is
+    /// judged at the instant `time` (s) at which the window begins, whose state must be set: later no link gets there
+    /// but through the surface.
     pub(super) fn enclosed(&mut self, region: &Region, time: f64) {
         let modules = || region.kinematics.tree.order.iter().map(|(module, _)| *module);
         let enclosing: Vec<usize> = modules().filter(|module| self.bodies.may_enclose(*module)).collect();
