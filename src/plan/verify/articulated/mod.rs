@@ -159,7 +159,7 @@ fn check_samples(
     ledger.verdict.samples = checkpoints.seen();
     let mut deflected = None;
     if full {
-        deflected = Some(dynamics::Course::new(rollout, recorder).judge(ledger));
+        deflected = Some(dynamics::RolloutLoads::new(rollout, recorder).judge(ledger));
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);
         torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));

@@ -4,7 +4,7 @@
 //! follows from the sample before.
 
 use super::contact;
-use super::dynamics::{GroundStep, Traction, Ways};
+use super::dynamics::{GroundStep, Traction, TravelSummary};
 use super::model::{Model, Posture};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
@@ -89,7 +89,7 @@ pub struct Sample<'a> {
     pub settling: Option<f64>,
     /// The travel over the ground since the start, with its sensitivity to friction and servo stiffness; all 0 under
     /// statics.
-    pub ways: Ways,
+    pub travel: TravelSummary,
 }
 
 /// A loss of support: the robot tips over an edge of its support polygon.
@@ -475,7 +475,10 @@ impl<'a> Stepper<'a> {
             tip: step.tip.as_ref(),
             slips: &step.slips,
             settling: step.settling,
-            ways: self.traction.as_ref().map_or_else(Ways::default, |(traction, _)| traction.ways()),
+            travel: self
+                .traction
+                .as_ref()
+                .map_or_else(TravelSummary::default, |(traction, _)| traction.travel()),
         };
         let checkpoint = || Checkpoint {
             time: self.now,

@@ -3,7 +3,7 @@
 //! The rollout is the judge's own. A time between two of its samples is reached by one more step from the sample
 //! before, so that the choice of times does not change the rollout.
 
-use super::dynamics::{Course, Recorder};
+use super::dynamics::{Recorder, RolloutLoads};
 use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
 use super::tolerances::Tolerances;
@@ -72,7 +72,7 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
         });
     }
     let mut gauge = Gauge {
-        course: full.then(|| Course::new(&rollout, recorder)),
+        loads: full.then(|| RolloutLoads::new(&rollout, recorder)),
         plan,
         detail,
         torque: torque::Monitor::new(&tolerances),
@@ -105,7 +105,7 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
 /// Reads the quantities of samples from the judge's monitors.
 struct Gauge<'a> {
     /// The loads in motion; `None` under statics, and where loads were not requested.
-    course: Option<Course<'a>>,
+    loads: Option<RolloutLoads<'a>>,
     plan: &'a Plan,
     detail: Detail,
     torque: torque::Monitor<'a>,
@@ -117,8 +117,8 @@ impl Gauge<'_> {
         // Of each sample by itself: no worst value of others decides how closely forces are sought.
         let mut ledger = Ledger::new(&self.plan.exemptions, self.plan.body.duration());
         let unknown = || JudgedLoads { efforts: vec![None; sample.joints.len()], forces: None };
-        let loads = match (&self.course, self.detail) {
-            (Some(course), _) => course.read(sample.time).map(|(efforts, forces)| JudgedLoads {
+        let loads = match (&self.loads, self.detail) {
+            (Some(loads), _) => loads.read(sample.time).map(|(efforts, forces)| JudgedLoads {
                 efforts: efforts.into_iter().map(Some).collect(),
                 forces: Some(forces),
             }),

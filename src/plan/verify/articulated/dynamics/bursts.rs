@@ -4,7 +4,8 @@
 use super::tolerances::PARAMETERS;
 use crate::plan::Tracks;
 
-/// Motions of single joints from rest to rest, or from jump to jump of the velocity, that are short beside the window.
+/// Motions of single joints from rest to rest, or from one jump of the velocity to the next, that last less than four
+/// windows (200 ms), and the jumps of velocity.
 pub(super) struct Bursts {
     /// The begin and the end of each, s, in order of begin, then of end.
     spans: Vec<(f64, f64)>,
@@ -12,7 +13,7 @@ pub(super) struct Bursts {
     steps: Vec<VelocityStep>,
 }
 
-/// A joint whose velocity changes from one instant to the next.
+/// A jump of a joint's velocity at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VelocityStep {
     /// The time of the step, s.
@@ -22,7 +23,7 @@ pub(super) struct VelocityStep {
 }
 
 impl Bursts {
-    /// Returns the short motions and the steps of velocity of all joints.
+    /// Returns the short motions and the jumps of velocity of all joints of a plan.
     pub(super) fn new(tracks: &Tracks) -> Bursts {
         let (mut spans, mut steps) = (Vec::new(), Vec::new());
         for track in &tracks.tracks {
@@ -60,19 +61,19 @@ impl Bursts {
         Bursts { spans, steps }
     }
 
-    /// Returns the steps of velocity, in order of time, then of joint.
+    /// Returns the jumps of velocity, in order of time, then of joint.
     pub(super) fn steps(&self) -> &[VelocityStep] {
         &self.steps
     }
 
-    /// Returns true if there is a step of velocity within the longest window, 50 ms, before or after a time (s).
+    /// Returns true if the velocity of a joint jumps within 50 ms, the longest window, before or after a time (s).
     pub(super) fn near_step(&self, time: f64) -> bool {
         let first = self.steps.partition_point(|step| step.time < time - PARAMETERS.window);
         self.steps.get(first).is_some_and(|step| step.time <= time + PARAMETERS.window)
     }
 
-    /// Returns the times within short motions, their ends left out, at which loads are determined besides those of
-    /// samples, s, ascending, each once.
+    /// Returns the times (s) within short motions at which loads are determined besides those of samples, ascending,
+    /// each once: seven for each motion, evenly spaced, without its ends.
     pub(super) fn instants(&self) -> Vec<f64> {
         let parts = PARAMETERS.burst_instants;
         let inside = |&(from, to): &(f64, f64)| {
@@ -84,8 +85,8 @@ impl Bursts {
         times
     }
 
-    /// Returns the length of the window of velocities and accelerations about a time (s), s: a quarter of the shortest
-    /// of the short motions within half a window of it, at least 1 ms; 50 ms if there is none.
+    /// Returns the length of the window centred on a time (s) over which velocities and accelerations are means, s: a
+    /// quarter of the shortest short motion that comes within 25 ms of it, at least 1 ms; 50 ms if there is none.
     pub(super) fn window(&self, time: f64) -> f64 {
         let half = PARAMETERS.window / 2.0;
         let begun = self.spans.partition_point(|span| span.0 <= time + half);

@@ -3,12 +3,12 @@
 use super::super::polyline::Polyline;
 use super::tolerances::PARAMETERS;
 
-/// The motion of the joints as soft servos yield under their loads.
+/// The motion of the joints as soft servos yield under their loads, at the instants of full dynamics.
 #[derive(Default)]
 pub(in super::super) struct DeflectedMotion {
     /// The positions of the joints at all instants; as planned, where no loads were found or a joint gives way.
     pub along: Polyline,
-    /// The number of the instants at which they are deflected.
+    /// The number of instants at which the positions are deflected, and not as planned.
     pub instants: usize,
 }
 

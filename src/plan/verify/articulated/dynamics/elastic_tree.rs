@@ -19,18 +19,19 @@ use nalgebra::{Cholesky, Const, DMatrix, DVector, Matrix3, Matrix6, Vector3, Vec
 /// The components in which the ground bears the base: height, roll and pitch.
 const BEARING: [usize; 3] = [2, 3, 4];
 
-/// The active set: the contacts and stops that push.
+/// The active set of the method: the contacts and stops that push, and the motors that are at their limits.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pushing {
     /// A flag for each candidate.
     pub contacts: Vec<bool>,
     /// A flag for each stop.
     pub stops: Vec<bool>,
-    /// Two flags for each motor with a limit ([`ElasticTree::limited`]): it is there upwards, and downwards.
+    /// Two flags for each motor with a limit ([`ElasticTree::limited`]): true if it is at its limit upwards, and
+    /// downwards.
     pub limits: Vec<bool>,
 }
 
-/// A motor that bears no more than its limit.
+/// A motor whose effort is no greater than its limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LimitedMotor {
     /// Its joint, by [`crate::robot::JointId`].
@@ -39,7 +40,7 @@ pub(super) struct LimitedMotor {
     pub deflection: f64,
 }
 
-/// The displacements of a robot.
+/// The small displacements of a robot's links and joints under loads.
 #[derive(Clone, Debug)]
 pub(super) struct Displaced {
     /// The displacement of each link, by its number; zero for loose ones.
@@ -82,7 +83,7 @@ struct Coupled {
     steps: Vec<(usize, f64)>,
 }
 
-/// A robot with elastic joints under loads on its links.
+/// A robot with elastic joints under loads on its links, whose displacements in equilibrium are sought.
 pub(super) struct ElasticTree<'a> {
     situation: &'a Situation<'a>,
     /// The displacement of what each step carries by a unit of its motion; zero where it is fixed.
@@ -122,8 +123,8 @@ struct Response {
 }
 
 impl<'a> ElasticTree<'a> {
-    /// Returns the robot in a situation under a load on each link, by its number: the gradient of the potential by the
-    /// link's displacement.
+    /// Returns the robot of a situation under `loads`: for each link, by its number, the gradient of the potential
+    /// with respect to its displacement, which is the force (N) and moment (N·m) that it needs of its supports.
     pub(super) fn new(situation: &'a Situation<'a>, loads: Vec<Vector6<f64>>) -> ElasticTree<'a> {
         let posed = situation.posed;
         let steps = &posed.model.kinematics.steps;
@@ -158,14 +159,15 @@ impl<'a> ElasticTree<'a> {
         }
     }
 
-    /// Returns it with motors that yield at their limits: beyond, their stiffness is but
-    /// [`yielding_share`](super::tolerances::Parameters::yielding_share) of what it is.
+    /// Returns the tree with motors that yield at their limits: beyond them they keep only the part
+    /// [`yielding_share`](super::tolerances::Parameters::yielding_share) of their stiffness.
     pub(super) fn limited(self, motors: Vec<LimitedMotor>) -> ElasticTree<'a> {
         ElasticTree { motors, ..self }
     }
 
-    /// Returns the displacements in equilibrium, found from the guess `pushing`, which becomes what does push; `None`
-    /// where the rounds do not suffice, or the springs hold no unique equilibrium.
+    /// Returns the displacements in equilibrium, by Newton's method with an exact line search. `pushing` is the guess
+    /// of the active set, and becomes that of the result. `None` if the rounds do not suffice, or a matrix is
+    /// singular.
     pub(super) fn settle(&self, pushing: &mut Pushing) -> Option<Displaced> {
         let bears = pushing.contacts.iter().any(|pushes| *pushes);
         pushing.contacts.resize(self.situation.candidates.len(), true);
@@ -197,8 +199,8 @@ impl<'a> ElasticTree<'a> {
         None
     }
 
-    /// Returns the force of each contact (N), and the effort of each stop (N·m or N), under displacements; not
-    /// negative.
+    /// Returns the normal force of each contact (N) and the effort of each stop (N·m or N) under displacements, in
+    /// the order of the situation's lists; none is negative.
     pub(super) fn forces(&self, displaced: &Displaced) -> (Vec<f64>, Vec<f64>) {
         let gaps = self.gaps(displaced);
         let (contacts, others) = gaps.split_at(self.situation.candidates.len());
@@ -207,8 +209,8 @@ impl<'a> ElasticTree<'a> {
         (pushes(contacts, PARAMETERS.contact_stiffness), pushes(stops, PARAMETERS.stop_stiffness))
     }
 
-    /// Returns the wrench of each bond that closes a loop on the link of its first port, about the bond, in level axes:
-    /// force (N) and moment (N·m).
+    /// Returns the wrench that each bond that closes a loop exerts on the link of its port `a`, about the bond, in
+    /// level axes: force (N), then moment (N·m).
     pub(super) fn bonds(&self, displaced: &Displaced) -> Vec<[f64; 6]> {
         let wrench = |relative: Vector6<f64>| relative.component_mul(&-bond_stiffness()).into();
         (0..self.situation.loops.len()).map(|index| wrench(self.relative(index, &displaced.links))).collect()
@@ -514,7 +516,7 @@ impl<'a> ElasticTree<'a> {
     }
 }
 
-/// Returns `[linear; angular]` as one vector.
+/// Returns the vector of six `[linear; angular]`.
 pub(super) fn joined(linear: &Vec3, angular: &Vec3) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }

@@ -10,7 +10,7 @@ use crate::robot::dynamics::Twist;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// The forces and the twist of an instant.
+/// The loads, the friction and the twist of the base at an instant, which belong together.
 #[derive(Clone, Debug)]
 pub(super) struct Equilibrium {
     /// The twist of the base at the centre of mass, m/s and rad/s, in level axes; zero unless friction moves the base.
@@ -26,7 +26,7 @@ pub(super) struct Equilibrium {
     pub slides: bool,
 }
 
-/// The warm start: the result of the last instant, as a guess of the next.
+/// The warm start of [`solve`]: the result at the instant before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Warm {
     /// The twist of the base at the centre of mass, m/s and rad/s, in level axes.
@@ -36,8 +36,9 @@ pub(super) struct Warm {
 }
 
 /// Returns the equilibrium of loads and friction, found by fixed-point iteration with relaxation; `None` where the
-/// loads can't be found. `momentum`: the planar momentum, with which friction decides the twist in time; without it the
-/// planar force that the situation needs is a load on friction. `warm` becomes the guess of the next instant.
+/// loads can't be found. With `momentum`, the planar momentum, the twist follows from friction over time; without it
+/// friction must carry the planar force that the situation needs. `warm` is the first guess, and becomes that of the
+/// next instant.
 pub(super) fn solve(
     situation: &Situation,
     momentum: Option<Momentum>,
@@ -89,8 +90,8 @@ pub(super) fn solve(
     found
 }
 
-/// Returns the twist that friction gives the base at the centre of mass, in level axes, under these normal forces at
-/// the candidates (N), found from the guess `before`.
+/// Returns the twist of the base at the centre of mass, in level axes, at which friction is in balance under the
+/// normal forces `loads` (N, one for each candidate), found from the guess `before`.
 pub(super) fn twist_under(
     situation: &Situation,
     loads: &[f64],

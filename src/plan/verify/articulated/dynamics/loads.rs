@@ -9,7 +9,7 @@ use crate::geometry::Vec3;
 use crate::robot::dynamics::Wrench;
 use crate::robot::jacobian::JointAxis;
 
-/// A bond that closes a loop.
+/// A bond that closes a loop, and so joins two links that the tree does not.
 pub(super) struct Loop {
     /// The links of the bond's ports `a` and `b`, by their numbers among all links.
     pub sides: [usize; 2],
@@ -17,7 +17,7 @@ pub(super) struct Loop {
     pub p: Vec3,
 }
 
-/// Returns the loops of a robot: one for each bond that closes one.
+/// Returns the bonds of a robot that close loops, in the order of the tree's `closing`.
 pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
     let kinematics = &posed.model.kinematics;
     let robot = posed.model.robot;
@@ -34,7 +34,7 @@ pub(super) fn loops(posed: &Posed) -> Vec<Loop> {
         .collect()
 }
 
-/// The stop at an end of a joint's range that the joint is at or near.
+/// A mechanical stop at an end of a joint's range, which the joint is at or near.
 pub(super) struct Stop {
     /// The joint, by [`crate::robot::JointId`].
     pub joint: usize,
@@ -51,8 +51,8 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Returns the wrench (N, N·m) that the stop exerts on the child, for an effort (N·m or N) that is not negative, in
-    /// level axes with its moment about the centre of mass.
+    /// Returns the wrench (N, N·m) that the stop exerts on the joint's child link, in level axes, its moment about
+    /// the centre of mass; `effort`: that of the stop, N·m or N, not negative.
     pub(super) fn wrench(&self, effort: f64) -> Wrench {
         let effort = self.sign * self.factor * effort;
         match &self.axis {
@@ -62,7 +62,7 @@ impl Stop {
     }
 }
 
-/// Returns the stops that joints are at, or so near that a servo's yielding may bring them there.
+/// Returns the stops of the joints that are within `stop_gap_max` of an end of their range, or beyond it.
 pub(super) fn stops(posed: &Posed) -> Vec<Stop> {
     let near = |ranged: &RangedJoint| {
         let position = posed.joints[ranged.joint];
@@ -77,7 +77,7 @@ pub(super) fn stops(posed: &Posed) -> Vec<Stop> {
     posed.model.ranged.iter().filter_map(near).collect()
 }
 
-/// The loads of contacts and joints at an instant.
+/// The loads of contacts, joints and links at an instant.
 #[derive(Clone, Debug)]
 pub(super) struct Loads {
     /// The normal force at each candidate, N; not negative.
@@ -115,15 +115,16 @@ fn tree<'a>(problem: &'a Situation<'a>, wrenches: &[Wrench]) -> ElasticTree<'a> 
     ElasticTree::new(problem, wrenches.iter().map(|w| joined(&w.force, &w.moment)).collect())
 }
 
-/// Returns the deflection of each joint (rad or m) under these forces of friction at the candidates (N, in level axes), of
-/// motors that bear no more than their limits; `None` where the method gives up.
+/// Returns the deflection of each joint (rad or m), by [`crate::robot::JointId`], if the motors bear no more than
+/// their limits; `None` where no equilibrium is found. `friction`: the force of friction at each candidate, N, in
+/// level axes.
 pub(super) fn sag(problem: &Situation, friction: &[Vec3], motors: Vec<LimitedMotor>) -> Option<Vec<f64>> {
     let tree = tree(problem, &under_friction(problem, friction)).limited(motors);
     Some(tree.settle(&mut Pushing::default())?.joints)
 }
 
-/// Returns the loads under these forces of friction at the candidates (N, in level axes); `None` where the method gives
-/// up. `pushing`: a guess which candidates and stops bear, which becomes those that do.
+/// Returns the loads of a situation; `None` where no equilibrium is found. `friction`: the force of friction at each
+/// candidate, N, in level axes; `pushing`: a guess which candidates and stops push, which becomes those that do.
 pub(super) fn solve(problem: &Situation, friction: &[Vec3], pushing: &mut Pushing) -> Option<Loads> {
     let mut wrenches = under_friction(problem, friction);
     let tree = tree(problem, &wrenches);

@@ -6,7 +6,7 @@
 //! with weight, inertia and friction ([`loads`], by way of [`elastic_tree`]); friction follows from the slip of the
 //! contacts under the twist that friction balances ([`twist`]); loads and friction that belong together are the fixed
 //! point of the two ([`equilibrium`]). [`traction`] follows the base with its planar momentum, and decides the travel;
-//! [`course`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than 200
+//! [`rollout_loads`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than 200
 //! ms.
 //!
 //! Level axes are those of the stance's heading: z up, and x and y turned from those of the world about the vertical by
@@ -14,7 +14,6 @@
 //! coincides with the robot's centre of mass, which itself may move against the link.
 
 mod bursts;
-mod course;
 mod deflection;
 mod elastic_tree;
 mod equilibrium;
@@ -22,11 +21,12 @@ mod loads;
 mod overload;
 mod posed;
 mod recorder;
+mod rollout_loads;
 mod tolerances;
 mod traction;
 mod twist;
 
-pub(super) use course::Course;
 pub(super) use deflection::DeflectedMotion;
 pub(super) use recorder::Recorder;
-pub(super) use traction::{GroundStep, Traction, Ways, soft_servos, travel_tolerance};
+pub(super) use rollout_loads::RolloutLoads;
+pub(super) use traction::{GroundStep, Traction, TravelSummary, soft_servos, travel_tolerance};

@@ -5,7 +5,7 @@ use super::super::statics::Load;
 use crate::plan::Failure;
 use crate::units::{number, quantity};
 
-/// A load whose mean over a window of time exceeds its limit less the reserve.
+/// A load whose mean over a window of time exceeds its limit less the reserve, from its first time to its last.
 pub(super) struct MeanOverload {
     /// The load, with its times and the greatest mean.
     pub overload: Overload,
@@ -16,13 +16,14 @@ pub(super) struct MeanOverload {
 }
 
 impl MeanOverload {
-    /// Returns an overload of `value` (N or N·m) that begins at `time` (s). `index`: that of the load in its structure;
-    /// `instant`: the index of the instant at that time.
+    /// Returns an overload that begins at `time` (s) with the mean `value` (N or N·m). `index`: that of the load in
+    /// its structure's `loads`; `instant`: the index of the instant at that time.
     pub(super) fn new(load: &Load, index: usize, value: f64, time: f64, instant: usize) -> MeanOverload {
         MeanOverload { overload: Overload::new(load, value, time), load: index, instant }
     }
 
-    /// Takes in the mean, N or N·m, about a later instant, given by its index and its `time` (s).
+    /// Extends the overload to a later time (s), at which the mean is `value` (N or N·m); `instant`: the index of the
+    /// instant at that time.
     pub(super) fn grow(&mut self, value: f64, time: f64, instant: usize) {
         if self.overload.grow(value, time) {
             self.instant = instant;

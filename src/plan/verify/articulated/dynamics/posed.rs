@@ -12,7 +12,7 @@ use crate::robot::JointOwner;
 use crate::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector6};
 
-/// A point of the robot that the ground may bear.
+/// A point of the robot so low that the ground may bear it: a candidate for contact.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     /// The link of the point, by its number among all links.
@@ -29,7 +29,7 @@ pub(super) struct Candidate {
     pub by_joints: Vec3,
 }
 
-/// The robot at an instant: its pose in level axes, and the motion of its joints.
+/// The robot at an instant: its poses in level axes about its centre of mass, and the motion of its joints.
 pub(super) struct Posed<'a> {
     /// The model of the robot with the bonds that hold.
     pub model: &'a Model<'a>,
@@ -46,8 +46,8 @@ pub(super) struct Posed<'a> {
 }
 
 impl<'a> Posed<'a> {
-    /// Returns the robot at a time (s) of a rollout, with the orientation `R` of the base in level axes. Velocities and
-    /// accelerations are means over `window` (s) centred on that time.
+    /// Returns the robot at a time of a rollout. `(time, window)`: the time and the length of the window centred on
+    /// it over which velocities and accelerations are means, s; `R`: the orientation of the base in level axes.
     pub(super) fn new(
         model: &'a Model<'a>,
         dynamics: &'a Dynamics,
@@ -96,9 +96,10 @@ impl<'a> Posed<'a> {
         twists
     }
 
-    /// Returns the points that the ground may bear: those at most [`gap_max`](super::tolerances::Parameters::gap_max)
-    /// above the lowest, the lowest first, no two of one link nearer to each other than
-    /// [`candidate_distance`](super::tolerances::Parameters::candidate_distance). `friction` is the world's factor.
+    /// Returns the points that the ground may bear, the lowest first: those at most
+    /// [`gap_max`](super::tolerances::Parameters::gap_max) above the lowest, no two of one link nearer to each other
+    /// than [`candidate_distance`](super::tolerances::Parameters::candidate_distance). `friction`: the world's factor
+    /// on the coefficients of friction.
     pub(super) fn candidates(&self, friction: f64) -> Vec<Candidate> {
         let up = Vec3::z();
         let (heights, lowest) = self.feature_heights();
@@ -164,8 +165,8 @@ impl<'a> Posed<'a> {
         (heights, lowest)
     }
 
-    /// Returns the height of each link, by its number, over the lowest point of the robot, m; infinite for links without
-    /// features.
+    /// Returns the height of each link's lowest point, by the link's number, above the lowest point of the robot, m;
+    /// infinite for links without features.
     pub(super) fn heights(&self) -> Vec<f64> {
         let (of_features, lowest) = self.feature_heights();
         let mut heights = vec![f64::INFINITY; self.poses.len()];
@@ -176,15 +177,15 @@ impl<'a> Posed<'a> {
         heights
     }
 
-    /// Returns the twist of the base's own frame from the base's twist at the centre of mass, both in level axes (m/s,
-    /// rad/s).
+    /// Returns the twist of the base's own frame, at its origin, for a twist of the base at the centre of mass, both
+    /// in level axes (m/s, rad/s).
     pub(super) fn of_base(&self, at_centre: &Twist) -> Twist {
         let p = self.poses[self.model.base_link()].translation.vector;
         Twist { linear: at_centre.linear + at_centre.angular.cross(&p), angular: at_centre.angular }
     }
 
-    /// Returns the momentum of the motion of the joints with the base still (N·s), and the angular momentum about the
-    /// centre of mass (N·m·s), in level axes.
+    /// Returns the linear momentum (N·s) and the angular momentum about the centre of mass (N·m·s) that the joints'
+    /// motion gives the robot if its base stands still, in level axes.
     pub(super) fn momentum(&self) -> Wrench {
         self.dynamics.momentum(
             &self.model.kinematics,
@@ -195,8 +196,8 @@ impl<'a> Posed<'a> {
         )
     }
 
-    /// Returns the twist of the base's frame at which the whole robot has no momentum: that of a robot that floats and
-    /// has started from rest. `None` for a robot without mass.
+    /// Returns the twist of the base's own frame (m/s, rad/s), in level axes, at which the whole robot has no
+    /// momentum: that of a robot that floats and has started from rest. `None` for a robot without mass.
     pub(super) fn drifting(&self) -> Option<Twist> {
         self.compensating(&self.momentum())
     }
@@ -269,7 +270,7 @@ fn tread(first: &Feature, second: &Feature) -> Option<Vec3> {
     (axis == other && radius == same).then(|| (first.point(0, &up) + second.point(0, &up)) / 2.0)
 }
 
-/// The support of the robot by its surroundings.
+/// The way in which the surroundings support the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Support {
     /// The robot rests on the ground, over which friction moves it.
@@ -283,7 +284,7 @@ pub(super) enum Support {
 }
 
 impl Support {
-    /// Returns the support in a world.
+    /// Returns the support in a world: on a fixed base ([`Ground::Fixed`]) without gravity it is that of a fixture.
     pub(super) fn of(world: &World) -> Support {
         match world.ground {
             Ground::Settle => Support::Settles,
@@ -293,13 +294,14 @@ impl Support {
         }
     }
 
-    /// Returns true if the robot rests on the ground.
+    /// Returns true if the robot rests on the ground, whether its base keeps its place or not.
     pub(super) fn rests(self) -> bool {
         matches!(self, Support::Settles | Support::Stays)
     }
 }
 
-/// The problem of the forces of an instant: the robot, the loads that its motion makes, and what may bear them.
+/// The robot at an instant with the wrenches that its motion needs, and all that may supply them: the input of the
+/// methods that find forces.
 pub(super) struct Situation<'a> {
     /// The robot.
     pub posed: &'a Posed<'a>,
@@ -326,7 +328,7 @@ pub(super) struct Situation<'a> {
 }
 
 impl<'a> Situation<'a> {
-    /// Returns the situation of a robot at rest.
+    /// Returns the situation of a robot at rest in a world: joints and base have no velocity and no acceleration.
     pub(super) fn at_rest(posed: &'a Posed<'a>, world: &World) -> Situation<'a> {
         Situation::new(posed, world, None)
     }

@@ -3,10 +3,10 @@
 use super::super::ground_features::Mat3;
 use super::super::rollout::Sample;
 use super::tolerances::PARAMETERS;
-use super::traction::Ways;
+use super::traction::TravelSummary;
 use crate::plan::World;
 
-/// The attitude of the robot at an instant, as settling found it.
+/// The attitude of the robot at an instant of a rollout, as settling found it.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Recorded {
     /// The time of the instant, s.
@@ -21,7 +21,7 @@ pub(in super::super) struct Recorded {
     pub world: World,
 }
 
-/// The attitudes of a rollout, gathered sample by sample: at most one for each 10 ms, and one where bonds or world
+/// The attitudes of a rollout, recorded sample by sample: no two nearer than 10 ms, but where bonds or the world
 /// change.
 #[derive(Default)]
 pub(in super::super) struct Recorder {
@@ -30,13 +30,14 @@ pub(in super::super) struct Recorder {
     /// The sets of bonds that held: a flag for each bond, true if it did.
     pub bonds: Vec<Vec<bool>>,
     /// The travel up to the last sample.
-    pub ways: Ways,
+    pub travel: TravelSummary,
 }
 
 impl Recorder {
-    /// Records the attitude and the travel of a sample.
+    /// Records the attitude of a sample, unless it is near the last one recorded, and its travel; samples come in
+    /// order of time.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
-        self.ways = sample.ways;
+        self.travel = sample.travel;
         let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
         let bonds = known.unwrap_or_else(|| {
             self.bonds.push(sample.bonds.to_vec());
@@ -59,8 +60,8 @@ impl Recorder {
     }
 }
 
-/// Returns the recorded attitudes with further ones at those of these times (s, ascending) that lie between them, each
-/// that of the last before it.
+/// Returns the recorded attitudes, in order of time, with further instants at those of `times` (s, ascending) that
+/// lie between two of them; such an instant has the attitude of the one before it.
 pub(super) fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recorded> {
     let mut all: Vec<Recorded> = Vec::with_capacity(recorded.len() + times.len());
     let mut times = times.iter().copied().peekable();

@@ -86,7 +86,7 @@ pub(super) struct Parameters {
     pub friction_less: f64,
     /// The least time between two instants at which the travel with other servos is determined, s. 30 ms: three times
     /// the spacing of instants, for they take two more equilibria.
-    pub fork_spacing: f64,
+    pub variation_spacing: f64,
     /// The factor on the stiffness of servos in the variation with softer ones. 0.4: 60 N·m/rad for the default of 150.
     pub servo_softer: f64,
     /// The factor on the stiffness of servos in the variation with stiffer ones. 3.3: about 500 N·m/rad for the default
@@ -106,14 +106,14 @@ pub(super) struct Parameters {
     pub deflection_max: f64,
     /// The part of the distance travelled by which its end may differ under a variation of friction or servos before it
     /// counts as not determined.
-    pub way_undetermined: f64,
+    pub travel_undetermined: f64,
     /// The difference of the ends up to which it counts as determined, m. 15 mm: as far as contacts that scrub take robots
     /// in simulations elsewhere.
-    pub way_undetermined_min: f64,
+    pub travel_undetermined_min: f64,
     /// The part of the distance travelled by which its end may differ under a variation before that is noted.
-    pub way_uncertain: f64,
+    pub travel_uncertain: f64,
     /// The difference of the ends up to which it is neither noted nor a failure, m: 1 cm.
-    pub way_uncertain_min: f64,
+    pub travel_uncertain_min: f64,
     /// The part of the distance travelled within which it is known: 0.1, as simulations of random gaits show.
     pub travel_share: f64,
     /// The part of the greatest slip of a link within which the distance travelled is known: 0.2, as those show.
@@ -160,7 +160,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     sliding_speed: 5e-3,
     friction_more: 1.25,
     friction_less: 0.8,
-    fork_spacing: 0.03 - 1e-6,
+    variation_spacing: 0.03 - 1e-6,
     servo_softer: 0.4,
     servo_stiffer: 3.3,
     load_error: 0.1,
@@ -168,10 +168,10 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     yielding_share: 1.0 / 750.0,
     sag_allowed: 0.0873,
     deflection_max: 0.35,
-    way_undetermined: 0.5,
-    way_undetermined_min: 0.015,
-    way_uncertain: 0.1,
-    way_uncertain_min: 0.01,
+    travel_undetermined: 0.5,
+    travel_undetermined_min: 0.015,
+    travel_uncertain: 0.1,
+    travel_uncertain_min: 0.01,
     travel_share: 0.1,
     slip_share: 0.2,
     travel_tolerance_min: 5e-3,

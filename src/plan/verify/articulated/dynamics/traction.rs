@@ -15,7 +15,7 @@ use crate::robot::dynamics::{Dynamics, Twist};
 use crate::units::{Dimension, number, quantity};
 use nalgebra::Vector3;
 
-/// The state of travel over the ground, which goes on from sample to sample.
+/// The travel over the ground by friction and momentum, followed from sample to sample of a rollout.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct Traction {
     /// The forces and twist found last, as the guess of the next.
@@ -23,16 +23,17 @@ pub(in super::super) struct Traction {
     /// The instant at which forces were determined last; `None` before the first.
     last: Option<Last>,
     /// The travel of the samples at which no exemption `allows traction` holds.
-    judged: Fork,
+    judged: TravelPoses,
     /// The travel of the samples at which one holds.
-    allowed: Fork,
+    allowed: TravelPoses,
     /// The time of the last sample at which one holds, s; `None` before the first.
     allowed_at: Option<f64>,
 }
 
-/// A variation of friction or servos, under which the travel is computed once more to find how much it depends on them.
+/// A variation of friction or servo stiffness under which the travel is computed once more, to find how much it
+/// depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Otherwise {
+pub enum Variation {
     /// Friction is 1.25 times as great where contacts slide, and 0.8 times elsewhere.
     #[default]
     Friction,
@@ -42,19 +43,19 @@ pub enum Otherwise {
     Stiffer,
 }
 
-impl Otherwise {
-    const ALL: [Otherwise; 3] = [Otherwise::Friction, Otherwise::Softer, Otherwise::Stiffer];
+impl Variation {
+    const ALL: [Variation; 3] = [Variation::Friction, Variation::Softer, Variation::Stiffer];
 
-    /// Returns the condition of a sentence: `if servos were 0.4 times as stiff`.
+    /// Returns the variation as a condition in a sentence, such as `if servos were 0.4 times as stiff`.
     pub(super) fn words(self) -> String {
         match self {
-            Otherwise::Friction => format!(
+            Variation::Friction => format!(
                 "if contacts that slide had {} times the friction and the others {} times",
                 number(PARAMETERS.friction_more),
                 number(PARAMETERS.friction_less)
             ),
-            Otherwise::Softer => format!("if servos were {} times as stiff", number(PARAMETERS.servo_softer)),
-            Otherwise::Stiffer => {
+            Variation::Softer => format!("if servos were {} times as stiff", number(PARAMETERS.servo_softer)),
+            Variation::Stiffer => {
                 format!("if servos were {} times as stiff", number(PARAMETERS.servo_stiffer))
             }
         }
@@ -62,16 +63,16 @@ impl Otherwise {
 }
 
 /// The pose that travel over the ground has reached, and those under each variation, in the order of
-/// [`Otherwise::ALL`]; all begin at 0.
+/// [`Variation::ALL`]; all begin at 0.
 #[derive(Clone, Copy, Debug, Default)]
-struct Fork {
+struct TravelPoses {
     own: PlanarPose,
-    others: [PlanarPose; Otherwise::ALL.len()],
+    others: [PlanarPose; Variation::ALL.len()],
 }
 
-impl Fork {
+impl TravelPoses {
     /// Moves the pose on by a step, and those of the variations by theirs: x, y (m) and turn (rad) in their own frames.
-    fn advance(&mut self, own: &Vec3, others: &[Vec3; Otherwise::ALL.len()]) {
+    fn advance(&mut self, own: &Vec3, others: &[Vec3; Variation::ALL.len()]) {
         self.own = self.own.moved(own);
         for (other, shift) in self.others.iter_mut().zip(others) {
             *other = other.moved(shift);
@@ -79,35 +80,36 @@ impl Fork {
     }
 
     /// Returns the travel so far, with the variation that ends farthest from it.
-    fn way(&self) -> Way {
+    fn travel(&self) -> GroundTravel {
         let away = self.others.map(|other| libm::hypot(self.own.x - other.x, self.own.y - other.y));
         let farthest = (1..away.len()).fold(0, |most, i| if away[i] > away[most] { i } else { most });
-        Way {
+        GroundTravel {
             length: libm::hypot(self.own.x, self.own.y),
             away: away[farthest],
-            otherwise: Otherwise::ALL[farthest],
+            variation: Variation::ALL[farthest],
         }
     }
 }
 
-/// The travel over the ground, with its sensitivity to friction and servo stiffness.
+/// The distance travelled over the ground, with its sensitivity to friction and servo stiffness.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Way {
+pub struct GroundTravel {
     /// The horizontal distance of the travel's end from its start, m.
     pub length: f64,
     /// The horizontal distance of the travel's end from the farthest end under a variation, m.
     pub away: f64,
     /// The variation with that farthest end.
-    pub otherwise: Otherwise,
+    pub variation: Variation,
 }
 
-/// The travel of a rollout up to a sample, apart for samples at which an exemption `allows traction` holds.
+/// The travel of a rollout up to a sample, in two parts: without and with an exemption `allows traction`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Ways {
-    /// The travel of the other samples, which is judged.
-    pub judged: Way,
-    /// The travel of the samples at which such an exemption holds, with the time of the last (s); `None` without any.
-    pub allowed: Option<(f64, Way)>,
+pub struct TravelSummary {
+    /// The travel during the samples at which no such exemption holds, which is judged.
+    pub judged: GroundTravel,
+    /// The travel during the samples at which one holds, with the time of the last of them (s); `None` if there are
+    /// none.
+    pub allowed: Option<(f64, GroundTravel)>,
 }
 
 /// The velocities at the last instant at which forces were determined, in level axes.
@@ -124,15 +126,15 @@ struct Last {
     twist: Twist,
     /// The velocity of the centre of mass (x and y, m/s) and the yaw rate of the base (rad/s).
     rate: Vector3<f64>,
-    /// The difference of `rate` under each variation from `rate`, in the order of [`Otherwise::ALL`].
-    others: [Vector3<f64>; Otherwise::ALL.len()],
+    /// The difference of `rate` under each variation from `rate`, in the order of [`Variation::ALL`].
+    others: [Vector3<f64>; Variation::ALL.len()],
     /// The time at which the rates with softer and stiffer servos were determined, s.
-    forked: f64,
+    varied_at: f64,
     /// The slip of each loaded link, as (number of the link, m/s, load as a part of the weight).
     slips: Vec<(usize, f64, f64)>,
 }
 
-/// A step of the rollout on the ground.
+/// A step of the rollout on the ground, from one sample to the next.
 pub(in super::super) struct GroundStep<'a> {
     /// The rollout that the step belongs to.
     pub rollout: &'a Rollout<'a>,
@@ -155,8 +157,9 @@ pub(in super::super) struct GroundStep<'a> {
 }
 
 impl Traction {
-    /// Returns the pose that a robot at `pose` moves to in a step, and for each loaded link its slip (m) and its load
-    /// as a part of the weight. The robot stays, without slips, as long as no loads have been found.
+    /// Advances the travel by a step of the rollout from the planar pose `pose`. Returns the pose after it, and for
+    /// each loaded link (number of the link, its slip in m, its load as a fraction of the weight). The robot stays in
+    /// place, without slips, as long as no loads have been found.
     pub(in super::super) fn advance(
         &mut self,
         step: &GroundStep,
@@ -174,18 +177,18 @@ impl Traction {
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
         let allows = |e: &Exemption| e.kind == ExemptionKind::Traction && e.covers(step.time);
         let allowed = step.rollout.exemptions.iter().any(allows);
-        let fork = if allowed { &mut self.allowed } else { &mut self.judged };
-        fork.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
+        let poses = if allowed { &mut self.allowed } else { &mut self.judged };
+        poses.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
         if allowed {
             self.allowed_at = Some(step.time);
         }
         (pose.moved(&shift(last.rate)), slips)
     }
 
-    /// Returns the travel so far.
-    pub(in super::super) fn ways(&self) -> Ways {
-        let allowed = self.allowed_at.map(|time| (time, self.allowed.way()));
-        Ways { judged: self.judged.way(), allowed }
+    /// Returns the travel from the start of the rollout to the last step.
+    pub(in super::super) fn travel(&self) -> TravelSummary {
+        let allowed = self.allowed_at.map(|time| (time, self.allowed.travel()));
+        TravelSummary { judged: self.judged.travel(), allowed }
     }
 
     /// Determines the velocities at the end of a step from the equilibrium of forces there, and those under the
@@ -236,12 +239,14 @@ impl Traction {
         let other: Vec<f64> = loads.normal.iter().zip(factors).map(|(load, factor)| load * factor).collect();
         let other = equilibrium::twist_under(&situation, &other, Some(momentum), &twist);
         let mut others = [rate(&other) - rate(&twist), Vector3::zeros(), Vector3::zeros()];
-        let mut forked = step.time;
+        let mut varied_at = step.time;
         match &self.last {
             // The effect of softer and stiffer servos changes slowly, and is kept for some instants.
-            Some(last) if step.time - last.forked < PARAMETERS.fork_spacing && last.bonds == step.bonds => {
+            Some(last)
+                if step.time - last.varied_at < PARAMETERS.variation_spacing && last.bonds == step.bonds =>
+            {
                 others[1..].copy_from_slice(&last.others[1..]);
-                forked = last.forked;
+                varied_at = last.varied_at;
             }
             _ => {
                 let stiffness = situation.stiffness.clone();
@@ -261,14 +266,15 @@ impl Traction {
             carried,
             rate: rate(&twist),
             others,
-            forked,
+            varied_at,
             twist,
             slips: twist::slips_by_link(&situation.candidates, &loads.normal, &friction, weight),
         });
     }
 }
 
-/// Returns a note on how closely the travel of a verdict is known: within what simulations of random gaits showed.
+/// Returns a note that says within what distance the travel of a verdict is known, as simulations of random gaits
+/// showed it.
 pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
     let [x, y, _] = verdict.travel;
     let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
@@ -280,7 +286,7 @@ pub(in super::super) fn travel_tolerance(verdict: &Verdict) -> String {
     )
 }
 
-/// Returns the words of servos that are softer than stated: `servos 0.4 times as stiff as stated`.
+/// Returns the name of the servos of the softer variation in a sentence: `servos 0.4 times as stiff as stated`.
 pub(in super::super) fn soft_servos() -> String {
     format!("servos {} times as stiff as stated", number(PARAMETERS.servo_softer))
 }

@@ -12,7 +12,7 @@ use crate::robot::dynamics::Twist;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use std::collections::BTreeMap;
 
-/// The planar momentum that the robot keeps where friction is low.
+/// The planar momentum of the robot at an instant, which it keeps as far as friction does not change it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Momentum {
     /// The composite inertia in x, y and yaw about the centre of mass: kg and kg·m².
@@ -23,7 +23,7 @@ pub(super) struct Momentum {
     pub step: f64,
 }
 
-/// The problem of the twist that friction balances at an instant.
+/// The problem of the planar twist at which friction is in balance at an instant.
 pub(super) struct TwistProblem<'a> {
     /// The points that the ground may bear.
     pub candidates: &'a [Candidate],
@@ -41,8 +41,9 @@ pub(super) struct TwistProblem<'a> {
 /// The rows of a twist that are planar: x, y and yaw.
 const PLANAR: [usize; 3] = [0, 1, 5];
 
-/// Returns the twist of the base at the centre of mass (m/s, rad/s), in level axes, found from the guess `before`; that
-/// of the last round if the rounds do not suffice.
+/// Returns the twist of the base at the centre of mass (m/s, rad/s), in level axes, at which the friction of the
+/// contacts balances the needed force and the change of momentum, by iteratively reweighted least squares from the
+/// guess `before`; the last iterate if the rounds do not suffice.
 pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     let start = joined(&before.linear, &before.angular);
     let mut twist = start;
@@ -162,8 +163,8 @@ fn moved(twist: &Vector6<f64>) -> Twist {
     Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() }
 }
 
-/// Returns the slip of each candidate under a twist (m/s), and the force of friction on it (N), both horizontal in
-/// level axes. Friction is Coulomb's, and viscous below `slip_speed`.
+/// Returns for each candidate its slip under a twist of the base (m/s) and the force of friction on it (N), both
+/// horizontal, in level axes. Friction is Coulomb's, and viscous below `slip_speed`.
 pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3)> {
     let one = |(i, candidate): (usize, &Candidate)| {
         let mut slip = twist.at(&candidate.p) + candidate.by_joints;
@@ -174,8 +175,9 @@ pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3
     problem.candidates.iter().enumerate().map(one).collect()
 }
 
-/// Returns for each loaded link, ascending, its number, the length of the mean slip of its contacts, weighted by their
-/// loads (m/s), and its load as a part of `weight` (N).
+/// Returns for each loaded link, ascending by number, (number, speed in m/s: the length of the mean slip of its
+/// contacts weighted by their loads, load as a fraction of `weight`). `loads`: the normal force at each candidate, N;
+/// `friction`: as [`friction`] returns it; `weight`: that of the robot, N.
 pub(super) fn slips_by_link(
     candidates: &[Candidate],
     loads: &[f64],

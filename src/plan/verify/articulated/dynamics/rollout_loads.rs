@@ -14,7 +14,7 @@ use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support};
 use super::recorder::{Recorded, Recorder, with_instants};
 use super::tolerances::PARAMETERS;
-use super::traction::{Way, Ways};
+use super::traction::{GroundTravel, TravelSummary};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World, Worst};
@@ -53,13 +53,14 @@ fn rotors(model: &Model) -> Vec<Rotor> {
     owners.filter_map(of).collect()
 }
 
-/// The loads of a robot's joints, bonds and contacts along a rollout, with inertia and friction.
-pub(in super::super) struct Course<'a> {
+/// The loads of a robot's joints, motors, bonds and contacts along a rollout under full dynamics, with inertia and
+/// friction.
+pub(in super::super) struct RolloutLoads<'a> {
     rollout: &'a Rollout<'a>,
     /// The instants at which loads are determined, in order of time.
     instants: Vec<Recorded>,
     /// The travel of the whole rollout.
-    ways: Ways,
+    travel: TravelSummary,
     bursts: Bursts,
     /// The length of the window of each instant, over which velocities, accelerations and loads are means, s.
     windows: Vec<f64>,
@@ -101,10 +102,10 @@ struct AtRest {
     sag: OnceCell<String>,
 }
 
-impl<'a> Course<'a> {
-    /// Returns the loads along a rollout whose attitudes were recorded, and for them determines the motion of the base
-    /// at all instants.
-    pub(in super::super) fn new(rollout: &'a Rollout<'a>, recorder: Recorder) -> Course<'a> {
+impl<'a> RolloutLoads<'a> {
+    /// Returns the loads along a rollout, whose attitudes `recorder` holds. It determines the motion of the base at
+    /// all instants; the loads themselves are found where they are needed.
+    pub(in super::super) fn new(rollout: &'a Rollout<'a>, recorder: Recorder) -> RolloutLoads<'a> {
         let robot = &rollout.tracks.robot;
         let compile = |bonds: &Vec<bool>| {
             let model = Model::new(robot, bonds);
@@ -114,11 +115,11 @@ impl<'a> Course<'a> {
         let bursts = Bursts::new(rollout.tracks);
         let instants = with_instants(recorder.recorded, &bursts.instants());
         let windows = instants.iter().map(|instant| bursts.window(instant.time)).collect();
-        let (dynamics, ways) = (Dynamics::new(robot), recorder.ways);
-        let mut course =
-            Course { rollout, instants, ways, bursts, windows, dynamics, compiled, motions: vec![] };
-        course.motions = course.base_motions();
-        course
+        let (dynamics, travel) = (Dynamics::new(robot), recorder.travel);
+        let mut loads =
+            RolloutLoads { rollout, instants, travel, bursts, windows, dynamics, compiled, motions: vec![] };
+        loads.motions = loads.base_motions();
+        loads
     }
 
     /// Returns the robot at the instant of an index, with the means over the window of the instant.
@@ -259,9 +260,9 @@ impl<'a> Course<'a> {
             && ledger.excuses(CheckKind::Torque, time, of)
     }
 
-    /// Returns the effort of each joint (N·m or N) at a time (s), interpolated between those of the instants about it,
-    /// and the forces of the ground (N) at the nearer one, from the centre of mass in level axes. `None` if they can't
-    /// be found, or if no attitude was recorded.
+    /// Returns the effort of each joint (N·m or N), by the number in its [`JointId`], at a time (s), interpolated
+    /// between the instants about it; and the forces of the ground (N) at the nearer of them, from the centre of mass
+    /// in level axes. `None` if they can't be found, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
@@ -275,8 +276,9 @@ impl<'a> Course<'a> {
         Some((efforts, if part < 0.5 { from.ground } else { to.ground }))
     }
 
-    /// Judges torque, loads of bonds, balance and traction, and records the work of the motors. Returns the motion of
-    /// the joints as soft servos yield under these loads.
+    /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
+    /// the motors. Returns the motion of the joints as servos yield under these loads that are softer than stated by
+    /// the factor `servo_softer`.
     pub(in super::super) fn judge(&self, ledger: &mut Ledger) -> DeflectedMotion {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
@@ -444,13 +446,16 @@ impl<'a> Course<'a> {
     }
 
     /// Judges if friction and servos determine the travel: its end must not move by more than the part
-    /// `way_undetermined` of it under a variation, and if by more than `way_uncertain`, that is noted.
+    /// `travel_undetermined` of it under a variation, and if by more than `travel_uncertain`, that is noted.
     fn travel(&self, ledger: &mut Ledger) {
-        let differs = |way: &Way, part: f64, least: f64| way.away > part * way.length && way.away > least;
-        let undetermined =
-            |way: &Way| differs(way, PARAMETERS.way_undetermined, PARAMETERS.way_undetermined_min);
-        let Ways { judged, allowed } = &self.ways;
-        if let Some((time, _)) = allowed.filter(|(_, way)| undetermined(way)) {
+        let differs = |travel: &GroundTravel, part: f64, least: f64| {
+            travel.away > part * travel.length && travel.away > least
+        };
+        let undetermined = |travel: &GroundTravel| {
+            differs(travel, PARAMETERS.travel_undetermined, PARAMETERS.travel_undetermined_min)
+        };
+        let TravelSummary { judged, allowed } = &self.travel;
+        if let Some((time, _)) = allowed.filter(|(_, travel)| undetermined(travel)) {
             ledger.excuses(CheckKind::Traction, time, |kind| *kind == ExemptionKind::Traction);
         }
         let length = |v| quantity(v, Dimension::LENGTH);
@@ -465,18 +470,18 @@ impl<'a> Course<'a> {
                     "the travel is not determined: {}, but {} elsewhere {}",
                     words[0],
                     words[1],
-                    judged.otherwise.words()
+                    judged.variation.words()
                 ),
                 value: judged.away,
-                limit: PARAMETERS.way_undetermined * judged.length,
+                limit: PARAMETERS.travel_undetermined * judged.length,
                 blame: vec![],
                 blames_start: false,
             });
-        } else if differs(judged, PARAMETERS.way_uncertain, PARAMETERS.way_uncertain_min) {
+        } else if differs(judged, PARAMETERS.travel_uncertain, PARAMETERS.travel_uncertain_min) {
             let [length, away] = words;
             ledger.note(format!(
                 "the travel of {length} would end {away} elsewhere {}",
-                judged.otherwise.words()
+                judged.variation.words()
             ));
         }
     }
