@@ -18,11 +18,14 @@ const ENDINGS: [CheckKind; 6] = [
     CheckKind::Stability,
 ];
 
-/// The record of failures, excuses, notes and worst values while a plan is judged, of which the verdict is made.
+/// The record of failures, excuses, notes and worst values to which all checks of a plan write, and of which the
+/// verdict is made.
 pub(super) struct Ledger<'a> {
+    /// The exemptions of the plan.
     exemptions: &'a [Exemption],
     /// The end of the plan, which is never excused, s.
     end: f64,
+    /// For each exemption, true if a check needed it.
     used: Vec<bool>,
     /// Kinds of which an excuse was needed.
     excused: Vec<CheckKind>,
@@ -46,8 +49,8 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// Returns true if an exemption for which `of` is true excuses a failure of a check `kind` at `t` (s), and marks
-    /// it as needed. The end of the plan is never excused.
+    /// Returns true if an exemption for whose kind `of` returns true covers the time `t` (s), and so excuses a
+    /// failure of the check `kind` there; marks all such exemptions as needed. The end of the plan is never excused.
     pub(super) fn excuses(&mut self, kind: CheckKind, t: f64, of: impl Fn(&ExemptionKind) -> bool) -> bool {
         let mut excused = false;
         for (i, exemption) in self.exemptions.iter().enumerate() {
@@ -61,8 +64,8 @@ impl<'a> Ledger<'a> {
         excused
     }
 
-    /// Marks the exemption of an index in the plan's list as needed by a check, as another part of the judge found.
-    /// Panics if there is none.
+    /// Marks an exemption, by its index in the plan's list, as needed by a check. Panics if there is none of that
+    /// index.
     pub(super) fn use_exemption(&mut self, index: usize, kind: CheckKind) {
         self.used[index] = true;
         self.note_excuse(kind);
@@ -74,7 +77,7 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// Records a failure; beyond [`FAILURES_MAX`] only counts it.
+    /// Records a failure; from the [`FAILURES_MAX`]-th on it is counted only.
     pub(super) fn fail(&mut self, failure: Failure) {
         if self.verdict.failures.len() < FAILURES_MAX {
             self.verdict.failures.push(failure);
@@ -83,14 +86,14 @@ impl<'a> Ledger<'a> {
         }
     }
 
-    /// Records a note; one that is recorded already is left out.
+    /// Records a note for the verdict, unless it is recorded already.
     pub(super) fn note(&mut self, note: String) {
         if !self.verdict.notes.contains(&note) {
             self.verdict.notes.push(note);
         }
     }
 
-    /// Returns the failures so far, to add blame to them.
+    /// Returns the failures recorded so far, in the order in which they were recorded, to add blame to them.
     pub(super) fn failures_mut(&mut self) -> &mut [Failure] {
         &mut self.verdict.failures
     }
@@ -107,8 +110,9 @@ impl<'a> Ledger<'a> {
         self.verdict.checks.push(Check { kind, status });
     }
 
-    /// Drops failures of loads and travel that follow from others: those of a robot that has collided, tipped, fallen apart
-    /// or torn a loop before. Their checks then are not made.
+    /// Drops failures of loads and travel that follow from others: those of a robot that before has collided, tipped
+    /// over, fallen apart, missed a docking, torn a loop open or gone into the ground. The statuses of their checks
+    /// then say from when on they were not checked.
     pub(super) fn drop_consequences(&mut self) {
         let failures = &mut self.verdict.failures;
         let first = |kinds: &[CheckKind], failures: &[Failure]| {
@@ -158,8 +162,8 @@ impl<'a> Ledger<'a> {
         verdict.travel.iter_mut().chain([&mut verdict.heading]).for_each(round);
     }
 
-    /// Returns the verdict: failures in order of time, exemptions that nothing needed listed, and a note that counts
-    /// the failures that are not listed.
+    /// Returns the verdict: failures, events and checks in order, the indices of the exemptions that no check needed,
+    /// and a note that counts the failures that are not listed.
     pub(super) fn finish(mut self) -> Verdict {
         self.verdict.failures.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.kind.cmp(&b.kind)));
         self.verdict.unneeded_exemptions = (0..self.used.len()).filter(|&i| !self.used[i]).collect();
@@ -173,7 +177,8 @@ impl<'a> Ledger<'a> {
     }
 }
 
-/// Keeps the lesser of a worst value so far and a new one, with its time (s) and names; of equal ones the first.
+/// Replaces the worst value so far by a new one if that is less, or if there is none yet. `time`: that of the new
+/// value, s; `at`: a function that returns the names of the parts that it is about.
 pub(super) fn keep_least(worst: &mut Option<Worst>, value: f64, time: f64, at: impl FnOnce() -> Vec<String>) {
     if worst.as_ref().is_none_or(|w| value < w.value) {
         *worst = Some(Worst { value, time, at: at() });

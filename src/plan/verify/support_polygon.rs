@@ -6,8 +6,8 @@ use crate::plan::tolerances::TOLERANCES;
 /// A point on the ground: x and y in the world, m.
 pub(super) type Point = [f64; 2];
 
-/// The position of a point, such as the projected centre of mass, relative to a support polygon: the static stability
-/// margin (McGhee and Frank 1968).
+/// The position of a point on the ground, such as the projected centre of mass, relative to a support polygon: the
+/// static stability margin (McGhee and Frank 1968).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Margin {
     /// The distance of the point to the nearest edge, m: positive inside, negative outside.
@@ -20,8 +20,8 @@ pub struct Margin {
 }
 
 /// Returns the corners of the support polygon, the convex hull of the points (Andrew's monotone chain),
-/// counter-clockwise seen from above, as indices in `points`; collinear points are left out. Of coinciding points the
-/// first is taken. One or two corners are left if the points do not span an area, none without points.
+/// counter-clockwise seen from above, as indices in `points`; points within an edge are left out, and of coinciding
+/// points all but the first. One or two corners are left if the points span no area, none without points.
 pub(super) fn hull(points: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| {
@@ -55,7 +55,7 @@ fn chain(points: &[Point], order: impl Iterator<Item = usize>) -> Vec<usize> {
 }
 
 /// Returns the static stability margin of the point `at`, the projected centre of mass, in the support polygon of
-/// `points`; `None` if they do not span an area, or one no wider than [`TOLERANCES`] allow for a line.
+/// `points`. `None` if they span no area, or a polygon no wider than the tolerance `polygon_width`.
 pub(super) fn margin(points: &[Point], at: Point) -> Option<Margin> {
     let corners = hull(points);
     if corners.len() < 3 {

@@ -10,8 +10,9 @@ use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Checks the smallest and the largest edge at the end of a stage (K1). `lines`: the grid lines to a cell; `time`:
-    /// s; `stage`: the stage to blame, `None` at the start. Returns false if one is beyond its limit.
+    /// Checks that no edge of a cell is shorter or longer than allowed at the end of a stage (K1), and records the
+    /// failure. Returns false if one is. `lines`: the number of grid lines to the edge of a full-sized cell; `time`:
+    /// that of the end of the stage, s; `stage`: the one to blame, `None` at the start of the plan.
     pub(super) fn sizes(
         &self,
         change: &Change,
@@ -38,7 +39,8 @@ impl Judgement<'_> {
         true
     }
 
-    /// Checks the greatest acceleration and the greatest rate of a size (K4 and K6).
+    /// Checks the greatest acceleration of a cell in a stage, along each axis or in the Euclidean norm (K4), and the
+    /// greatest rate of an edge's length (K6); records failures and the least speed margin.
     pub(super) fn laws(&self, step: &Step, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         let lines = 2 * i128::from(step.lines);
@@ -85,7 +87,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks the greatest relative speed over contacts that last the stage (K5).
+    /// Checks the greatest relative speed of two cells whose contact lasts the whole stage (K5); records a failure
+    /// and the least speed margin.
     pub(super) fn contact_speed(&self, step: &Step, forest: &ContactForest, ledger: &mut Ledger) {
         let (a, b) = forest.fastest;
         self.note_speed(step, forest.relative, 2 * step.lines, &[a, b], ledger);
@@ -95,8 +98,9 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records that two cells in contact, given by number, move too fast relative to each other; `relative`: their
-    /// relative displacement in the stage, on the grid of half lines.
+    /// Records that two cells in contact move too fast relative to each other (K5); `(a, b)`: their numbers;
+    /// `relative`: their relative displacement in the stage, in lines of the half-line grid, of which `2 *
+    /// step.lines` are a full-sized cell.
     pub(super) fn contact_too_fast(
         &self,
         step: &Step,
@@ -125,7 +129,8 @@ impl Judgement<'_> {
         keep_least(&mut ledger.verdict.speed_margin, margin, step.from, || names(cells));
     }
 
-    /// Checks linear and angular momentum (F1 and F3). Also records peak speed and energies.
+    /// Checks that the centre of mass stays (F1) and, for balanced plans, that angular momentum is zero (F3). Takes
+    /// the stage's energy (J), angular momentum and greatest speed (m/s) into `dynamics` and the verdict.
     pub(super) fn momentum(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
         if let Some(axis) = (0..3).find(|&axis| change.drift[axis] != 0) {
@@ -155,7 +160,9 @@ impl Judgement<'_> {
         dynamics.peak_speed = dynamics.peak_speed.max(libm::sqrt(change.square as f64) / lines * rate);
     }
 
-    /// Checks that contact forces explain the motion, and their limit (F2 and F4).
+    /// Checks that contact forces exist that explain the motion of the cells (F2), and that they stay within the
+    /// limit, if there is one (F4). Does nothing if the centre of mass moves, which has failed already. `forest`: the
+    /// contacts that carry the forces.
     pub(super) fn forces(
         &self,
         step: &Step,
@@ -194,7 +201,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records an overlap of two cells (K2) in a stage from `from` to `to` (s); `stage` is `None` at the start.
+    /// Records that two cells overlap (K2) in a stage that lasts from `from` to `to` (s); `stage` is `None` at the
+    /// start of the plan.
     pub(super) fn overlapping(
         &self,
         overlap: &Overlap,
@@ -210,7 +218,8 @@ impl Judgement<'_> {
         self.fail_at(CheckKind::Collision, time, stage, (message, 0.0, 0.0), &[a, b], ledger);
     }
 
-    /// Checks at `time` (s) that contacts connect all cells (K3); `stage` is `None` at the start.
+    /// Checks at `time` (s) that the contacts in `forest` connect all cells (K3), and records the failure otherwise;
+    /// `stage` is `None` at the start of the plan.
     pub(super) fn connected(
         &self,
         forest: &mut ContactForest,

@@ -6,7 +6,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Stage, Stages};
 use crate::robot::Cell;
 
-/// A plan under judgement.
+/// A lattice plan under judgement.
 pub(super) struct Judgement<'a> {
     /// The stages of the lattice plan, with its start.
     pub stages: &'a Stages,
@@ -14,7 +14,7 @@ pub(super) struct Judgement<'a> {
     pub cell: &'a Cell,
 }
 
-/// One stage with the configurations at its two ends.
+/// A stage of a lattice plan with the configurations at its two ends.
 pub(super) struct Step<'a> {
     /// The stage that is judged.
     pub stage: &'a Stage,
@@ -35,7 +35,8 @@ pub(super) struct Step<'a> {
 }
 
 impl Judgement<'_> {
-    /// Records a failure of a stage at `time` (s) that has no value and no limit; `stage` is `None` at the start.
+    /// Records a failure of a check at `time` (s) that has no value, no limit and no cells to name; `stage`: the one
+    /// to blame, `None` at the start of the plan.
     pub(super) fn fail(
         &self,
         kind: CheckKind,
@@ -47,8 +48,8 @@ impl Judgement<'_> {
         self.fail_at(kind, time, stage, (message, 0.0, 0.0), &[], ledger);
     }
 
-    /// Records a failure of a stage at `time` (s) with its message, value and limit, and the numbers of the cells
-    /// concerned; `stage` is `None` at the start.
+    /// Records a failure of a check at `time` (s) as (message, value, limit), the numbers in the unit of the check,
+    /// and the cells concerned by their numbers; `stage`: the one to blame, `None` at the start of the plan.
     pub(super) fn fail_at(
         &self,
         kind: CheckKind,
@@ -61,7 +62,8 @@ impl Judgement<'_> {
         ledger.fail(Failure { message, value, limit, at: names(cells), ..self.failure(kind, time, stage) });
     }
 
-    /// Returns an empty failure at a time (s), blamed on the command that the stage comes from.
+    /// Returns a failure of a check at a time (s) without message, value and limit, blamed on the command that the
+    /// stage comes from; on none if `stage` is `None`.
     pub(super) fn failure(&self, kind: CheckKind, time: f64, stage: Option<&Stage>) -> Failure {
         Failure {
             kind,
@@ -77,7 +79,7 @@ impl Judgement<'_> {
     }
 }
 
-/// Returns the names of cells in a report, such as `cell 3`, by their numbers from 0.
+/// Returns the names that reports give to cells, such as `cell 3`, by their numbers from 0.
 pub(super) fn names(cells: &[u32]) -> Vec<String> {
     cells.iter().map(|cell| format!("cell {cell}")).collect()
 }

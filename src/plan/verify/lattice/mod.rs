@@ -17,7 +17,8 @@ use super::ledger::Ledger;
 use crate::plan::{CheckKind, Failure, Plan, Stages, Status, Verdict};
 use judgement::Judgement;
 
-/// Returns the verdict on a lattice plan.
+/// Returns the verdict on a lattice plan, whose body is `stages`. A plan outside of what is judged, such as one with
+/// gravity, gets a failure of the check of form and no other checks.
 pub(super) fn judge(plan: &Plan, stages: &Stages) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, stages.duration());
     let judgement = Judgement { stages, cell: &plan.library.cells[stages.cell] };

@@ -14,7 +14,7 @@ use std::fmt;
 /// The greatest number of cells times stages that is judged: some minutes of work.
 const WORK_MAX: u64 = 1_000_000_000;
 
-/// A reason for which a lattice plan is not judged.
+/// The reason for which a lattice plan is not judged.
 pub(super) enum NotJudged {
     /// There are no exact integers for it.
     Lattice(LatticeFault),
@@ -55,8 +55,8 @@ impl fmt::Display for NotJudged {
 }
 
 impl Judgement<'_> {
-    /// Checks the assumptions of the model: no gravity, no ground, units that the cell is capable of, and not too much
-    /// work.
+    /// Checks the assumptions of the judge: no gravity, no ground, units of length, time and mass that ask no more of
+    /// the cell than its type states, and a limited number of cells times stages.
     ///
     /// # Errors
     /// [`NotJudged::World`], [`NotJudged::Units`] or [`NotJudged::Work`].
@@ -83,11 +83,11 @@ impl Judgement<'_> {
         Ok(())
     }
 
-    /// Judges the start and then stage after stage; failures of the plan go to `ledger`.
+    /// Judges the start of the plan and then stage after stage; failures and worst values go to `ledger`.
     ///
     /// # Errors
-    /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place, or too many pairs of cells come
-    /// near each other.
+    /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place at the start, or too many pairs
+    /// of cells come near each other.
     pub(super) fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let grid = Grid::of(self.stages)?;
         // A cell that no run names has no size.

@@ -10,8 +10,8 @@ use crate::plan::{CheckKind, Failure, Interpolation, Plan, Status, World, Worst}
 use crate::units::{Dimension, quantity};
 
 impl Judgement<'_> {
-    /// Judges the start of a plan of one keyframe, whose nodes are at `x` (m), as a step in which nothing moves; does
-    /// nothing for other plans.
+    /// Judges a plan of a single keyframe, whose nodes are at `x` in the world (m), as a step in which nothing moves;
+    /// does nothing for other plans.
     pub(super) fn at_rest(
         &self,
         x: &[Vec3],
@@ -40,7 +40,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks lengths of struts and their rates on a step; a rigid roll changes neither.
+    /// Checks the length of every strut and its rate on a step against the strut's range and speed, in closed form,
+    /// and keeps the least speed margin. A rigid roll changes neither.
     pub(super) fn lengths(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
@@ -76,7 +77,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks distances between struts on a step; a rigid roll does not change them.
+    /// Checks that struts without a common node keep their clearance from each other on a step, and keeps the least
+    /// distance found. A rigid roll does not change it.
     pub(super) fn distances(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
@@ -105,7 +107,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks that no node goes into the ground on a step.
+    /// Checks that no node goes into flat ground at height 0 on a step, or, where the ground is uneven, no node and
+    /// no strut ([`uneven`](Self::uneven)).
     pub(super) fn ground(&self, step: &Step, ledger: &mut Ledger) {
         if let Some(terrain) = &self.paths.surroundings.terrain {
             return self.uneven(step, terrain, ledger);
@@ -122,8 +125,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records displacement, events and the status of every check; `places`: for each keyframe the positions of the
-    /// nodes, m.
+    /// Records the displacement of the centre of mass (m), the rolls, the greatest slip of a node (m) and the status
+    /// of every check; `places`: for each keyframe the world positions of the nodes, m.
     pub(super) fn summary(
         &self,
         places: &[Vec<Vec3>],

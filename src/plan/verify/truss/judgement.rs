@@ -41,13 +41,14 @@ pub(super) struct Judgement<'a> {
 }
 
 impl Judgement<'_> {
-    /// Returns the name of a strut, given by its index in the plan, in a report: the names of its nodes, `a -- b`.
+    /// Returns the name that reports give to a strut, by its index in the plan: the names of its nodes, `a -- b`.
     pub(super) fn strut_name(&self, strut: usize) -> String {
         let (a, b) = self.paths.struts[strut];
         format!("{} -- {}", self.paths.node_names[a], self.paths.node_names[b])
     }
 
-    /// Returns a failure at a time (s), blamed on the command of the step that follows.
+    /// Returns a failure of a check at a time (s), without value and limit, blamed on the command that leads to the
+    /// first keyframe after that time. `at`: the names of the parts concerned.
     pub(super) fn failure(&self, kind: CheckKind, time: f64, at: Vec<String>, message: String) -> Failure {
         let cause =
             self.paths.keyframes.iter().find(|keyframe| keyframe.time > time).map(|keyframe| keyframe.cause);

@@ -4,7 +4,7 @@
 use super::judgement::Step;
 use crate::geometry::Vec3;
 
-/// Extremes of the length of one strut on a step.
+/// The extremes of the length of one strut on a step, and of its rate.
 pub(super) struct Lengths {
     /// The least length during the step, m, and its time, s.
     pub least: (f64, f64),
@@ -15,20 +15,22 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// Returns a length (m) outside the range `low` to `high` (m) by more than `tolerance` (m), with its time (s), the
-    /// least length first; `None` if there is none.
+    /// Returns the extreme length, m, that is outside the range `low` to `high` (m) by more than `tolerance` (m),
+    /// with its time (s): the least if that is too short, else the greatest; `None` if both are within.
     pub(super) fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
         let short = (self.least.0 < low - tolerance).then_some(self.least);
         short.or_else(|| (self.most.0 > high + tolerance).then_some(self.most))
     }
 
-    /// Returns true if the rate exceeds a limit (m/s) by more than a relative `tolerance`.
+    /// Returns true if the greatest rate of the length exceeds `limit` (m/s) by more than the fraction `tolerance` of
+    /// it.
     pub(super) fn too_fast(&self, limit: f64, tolerance: f64) -> bool {
         self.rate > limit * (1.0 + tolerance)
     }
 }
 
-/// Returns the extremes for the strut between the nodes of the indices `a` and `b`, which move on straight lines.
+/// Returns the extremes on a step for the strut between the nodes of the indices `a` and `b`, which move on straight
+/// lines.
 pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     let (from, to) = (step.from[a] - step.from[b], step.to[a] - step.to[b]);
     let change = to - from;
@@ -45,8 +47,8 @@ pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     Lengths { least: (least, time(u)), most, rate }
 }
 
-/// Returns the least length of a vector that goes straight from `from` to `to` (m), and the part of the way, from 0 to
-/// 1, at which it has it.
+/// Returns the least length of a vector that changes linearly from `from` to `to` (m), and the fraction of the
+/// change, 0 to 1, at which it has that length.
 pub(super) fn least(from: Vec3, to: Vec3) -> (f64, f64) {
     // |from + u change|² is least where its slope is zero.
     let change = to - from;

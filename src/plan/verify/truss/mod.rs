@@ -27,7 +27,7 @@ use sample_budget::SampleBudget;
 use support::StabilityMonitor;
 use tolerances::Tolerances;
 
-/// Returns the verdict on a truss plan.
+/// Returns the verdict on a truss plan, whose body is `paths`.
 pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
     let corners = if paths.limits.angle > 0.0 { shape::corners(paths) } else { Vec::new() };

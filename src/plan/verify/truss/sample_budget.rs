@@ -12,17 +12,18 @@ const STEP_SAMPLES_MIN: usize = 1_000;
 /// Greatest number of samples beyond [`STEP_SAMPLES_MIN`] that all checks of a plan take together: seconds.
 const PLAN_SAMPLES_MAX: usize = 4_000_000;
 
-/// The rest of [`PLAN_SAMPLES_MAX`].
+/// The samples that the checks of a plan may still take beyond those that each may take on every step, of
+/// [`PLAN_SAMPLES_MAX`].
 pub(super) struct SampleBudget(Cell<usize>);
 
 impl SampleBudget {
-    /// Returns the budget of a plan.
+    /// Returns the full budget, of which nothing is spent.
     pub(super) fn new() -> SampleBudget {
         SampleBudget(Cell::new(PLAN_SAMPLES_MAX))
     }
 
-    /// Calls `sample` until it returns a result, and returns that; `None` where the samples that it may take do not
-    /// suffice, so that nothing is proved.
+    /// Calls `sample` until it returns a result, and returns that. `None` if it has none after as many calls as the
+    /// budget allows, so that nothing is proved.
     pub(super) fn advance<T>(&self, mut sample: impl FnMut() -> Option<T>) -> Option<T> {
         let most = STEP_SAMPLES_MAX.min(STEP_SAMPLES_MIN + self.0.get());
         for taken in 1..=most {

@@ -17,7 +17,8 @@ use nalgebra::DMatrix;
 const RIGID_MOTIONS: usize = 6;
 
 impl Judgement<'_> {
-    /// Checks angles, sums of lengths and rigidity on a step; a rigid roll changes none of them.
+    /// Checks, against the limits of the plan, the angles between struts at their nodes and the sums of lengths on a
+    /// step, and the rigidity at its ends; a rigid roll changes none of them.
     pub(super) fn shape(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
@@ -161,9 +162,9 @@ impl Judgement<'_> {
     }
 }
 
-/// Returns the least singular value of the rigidity matrix at node positions `x` (m) that does not belong to a rigid
-/// motion of the whole truss. Rows are unit vectors along the struts, so it has no unit; 0 if the truss is not rigid,
-/// and for nodes on one line.
+/// Returns the seventh singular value of the rigidity matrix, in ascending order: the least that does not belong to
+/// one of the six rigid motions of the whole truss. `x`: the positions of the nodes, m. Rows are unit vectors along
+/// the struts, so it has no unit; 0 if the truss is not rigid, and for nodes on one line.
 pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     let struts = &paths.struts;
     let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
@@ -180,23 +181,25 @@ pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
     squares.get(RIGID_MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
 }
 
-/// Two struts that share a node.
+/// A pair of struts that share a node.
 pub(super) struct Corner {
+    /// The index of the shared node.
     node: usize,
     /// The other node of each of the two struts.
     ends: (usize, usize),
+    /// The indices of the two struts in the plan.
     struts: (usize, usize),
 }
 
 impl Corner {
-    /// Returns the angle between its struts at node positions `x` (m), rad, 0 to π.
+    /// Returns the angle between the two struts with the nodes at `x` (m), rad, 0 to π.
     pub(super) fn angle(&self, x: &[Vec3]) -> f64 {
         let (p, q) = self.ends;
         angle_between(x[p] - x[self.node], x[q] - x[self.node])
     }
 }
 
-/// Returns all pairs of struts that share a node, ascending by the node's index.
+/// Returns all pairs of struts that share a node, ascending by the index of the node.
 pub(super) fn corners(paths: &NodePaths) -> Vec<Corner> {
     let mut at_node: Vec<Vec<(usize, usize)>> = vec![Vec::new(); paths.node_names.len()];
     for (strut, &(a, b)) in paths.struts.iter().enumerate() {

@@ -9,8 +9,9 @@ use crate::plan::{CheckKind, Failure, Interpolation, Margins};
 use crate::units::number;
 
 impl Judgement<'_> {
-    /// Returns the failure of the first margin of a keyframe at `time` (s) that is not as stated; `x` are the node
-    /// positions at the keyframe, m. `None` if all are as stated, or none is.
+    /// Compares the margins that the plan states at a keyframe with those found there. Returns the failure of the
+    /// first that differs by more than the tolerance `stated_margin`; `None` if there is none. `x`: the positions of
+    /// the nodes at the keyframe, m; `time`: its time, s.
     pub(super) fn margins(
         &self,
         stated: &Margins,

@@ -8,7 +8,7 @@ use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::closest_points::segment_segment_distance;
 use crate::plan::NodePaths;
 
-/// Two struts near each other on a step.
+/// A pair of struts that come near each other on a step, with their least distance found.
 pub(super) struct NearPair {
     /// The indices of the two struts in the plan, the lesser first.
     pub struts: (usize, usize),
@@ -20,9 +20,9 @@ pub(super) struct NearPair {
     pub holds: bool,
 }
 
-/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the `clearance` (m),
-/// with their distances, ascending by their indices. Narrow phase: conservative advancement, with `tolerance` (m)
-/// below the clearance.
+/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the `clearance`
+/// (m), with the least distance found, ascending by their indices. By conservative advancement each is proved to keep
+/// the clearance less `tolerance` (m), or [`NearPair::holds`] is false.
 pub(super) fn nearest(
     paths: &NodePaths,
     step: &Step,

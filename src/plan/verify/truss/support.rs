@@ -8,9 +8,10 @@ use crate::plan::verify::support_polygon::{self, Point};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-/// The monitor of static stability, which judges it step after step, and records the slip.
+/// The monitor of the static stability of a truss from step to step, which also sums the slip of its nodes.
 pub(super) struct StabilityMonitor<'a> {
     judgement: &'a Judgement<'a>,
+    /// The height above the ground up to which a node counts as on it, m.
     contact: f64,
     /// Distance that each node slid over the ground, m.
     slid: Vec<f64>,
@@ -20,14 +21,15 @@ pub(super) struct StabilityMonitor<'a> {
     pub events: Vec<(f64, String)>,
 }
 
-/// Returns the centre of mass with the nodes at `x`, m: half of each strut's mass is at each of its ends.
+/// Returns the centre of mass with the nodes at `x` in the world, m: half of each strut's mass is at each of its
+/// ends.
 pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
     let sum: Vec3 = paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
     sum / paths.struts.len().max(1) as f64
 }
 
-/// Returns the least height of a node, given by its index, on a step over flat ground, m, and the fraction of the step
-/// (0 to 1) at which it is reached.
+/// Returns the least height of a node on a step, m, and the fraction of the step, 0 to 1, at which it has it: in
+/// closed form, over flat ground. `node`: its index.
 pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     let (from, to) = (step.from[node], step.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
@@ -50,7 +52,7 @@ pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
 }
 
 impl<'a> StabilityMonitor<'a> {
-    /// Returns the state before the first step.
+    /// Returns a monitor before the first step.
     pub(super) fn new(judgement: &'a Judgement<'a>) -> StabilityMonitor<'a> {
         let paths = judgement.paths;
         let first = &paths.keyframes[0].nodes;
@@ -65,7 +67,8 @@ impl<'a> StabilityMonitor<'a> {
         }
     }
 
-    /// Returns the greatest distance that a node slid, m, and the index of that node; the first node if none slid.
+    /// Returns the greatest distance that a node slid over the ground so far, m, and the index of that node; 0 and
+    /// the first node if none slid.
     pub(super) fn slid(&self) -> (f64, usize) {
         let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
             if *slid > best.0 { (*slid, node) } else { best }
@@ -73,7 +76,7 @@ impl<'a> StabilityMonitor<'a> {
         self.slid.iter().enumerate().fold((0.0, 0), most)
     }
 
-    /// Returns in words the part of sliding that is not judged.
+    /// Returns in words that sliding is not judged, and the friction that the steepest slope under a foot takes.
     pub(super) fn sliding(&self) -> String {
         let words = "nodes may slide on the ground";
         if self.steepest == 0.0 {
@@ -86,7 +89,7 @@ impl<'a> StabilityMonitor<'a> {
         )
     }
 
-    /// Returns true if a point (m) is on the ground, within the contact tolerance.
+    /// Returns true if a point in the world (m) is no higher above the ground than the contact tolerance.
     pub(super) fn touches(&self, p: Vec3) -> bool {
         self.judgement.paths.surroundings.above(p) <= self.contact
     }
@@ -103,7 +106,8 @@ impl<'a> StabilityMonitor<'a> {
         stays
     }
 
-    /// Judges static stability during a step.
+    /// Judges static stability during a step, and records failures and the least margin: for straight paths that the
+    /// centre of mass stays above the support polygon, for a rigid roll that its edge is one that it can roll over.
     pub(super) fn step(&mut self, step: &Step, ledger: &mut Ledger) {
         match step.interpolation {
             Interpolation::Linear => self.straight(step, ledger),

@@ -10,17 +10,18 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::units::{Dimension, quantity};
 
-/// An obstacle of the plan's surroundings.
+/// An obstacle of the plan's surroundings, fixed in the world.
 pub(super) struct Obstacle {
+    /// The shape of the obstacle, in the frame of the world.
     solid: Solid,
     /// The name of the obstacle in a report.
     name: String,
 }
 
-/// Returns the obstacles of a plan as solids in the world's frame, in their order.
+/// Returns the obstacles of a plan as solids in the frame of the world, in the order of the plan.
 ///
 /// # Errors
-/// The first shape that is no solid.
+/// The fault of the first obstacle whose shapes are no solid.
 pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
     let obstacles = paths.surroundings.obstacles.iter().enumerate();
     obstacles
@@ -28,7 +29,7 @@ pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
         .collect()
 }
 
-/// Returns the position of a node, given by its index, m, at a fraction of a step from 0 to 1.
+/// Returns the world position of a node, m, at the fraction `part` of a step, 0 to 1; `node`: its index.
 pub(super) fn position(step: &Step, node: usize, part: f64) -> Vec3 {
     match step.interpolation {
         Interpolation::Linear => step.from[node] + (step.to[node] - step.from[node]) * part,
@@ -52,7 +53,8 @@ fn path_length(step: &Step, node: usize) -> f64 {
 }
 
 impl Judgement<'_> {
-    /// Checks the distances of all struts to all obstacles on a step.
+    /// Checks that all struts keep their clearance from all obstacles on a step, by conservative advancement, and
+    /// keeps the least distance found.
     pub(super) fn obstacles(&self, step: &Step, ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             for strut in 0..self.paths.struts.len() {
@@ -123,7 +125,8 @@ impl Judgement<'_> {
         ledger.fail(Failure { value: least.0, limit: clearance, ..failure });
     }
 
-    /// Returns the least distance of any strut to any obstacle at node positions `x`, m; `None` without obstacles.
+    /// Returns the least signed distance of a strut to an obstacle with the nodes at `x` in the world (m), m;
+    /// negative where they overlap, `None` without obstacles.
     pub(super) fn nearest_obstacle(&self, x: &[Vec3]) -> Option<f64> {
         let parts = || self.obstacles.iter().flat_map(|obstacle| &obstacle.solid.parts);
         let mut least = None;
@@ -141,7 +144,8 @@ impl Judgement<'_> {
         least
     }
 
-    /// Checks that no node begins inside an obstacle: inside a hollow one it may be far from the walls.
+    /// Checks that no node at `x` (m), its place at the start, is inside an obstacle's mesh that is not convex, where
+    /// it may be far from the surface.
     pub(super) fn enclosed(&self, x: &[Vec3], ledger: &mut Ledger) {
         for obstacle in &self.obstacles {
             if let Some(node) = x.iter().position(|p| obstacle.solid.encloses(p)) {
@@ -153,7 +157,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks that nodes stay above uneven ground, and that struts go no deeper into it than half their clearance.
+    /// Checks that on a step no node goes below the uneven ground `terrain`, and no strut deeper than half its
+    /// clearance; the deepest is recorded.
     pub(super) fn uneven(&self, step: &Step, terrain: &HeightField, ledger: &mut Ledger) {
         let nodes = (0..step.from.len()).map(|node| (vec![node], 0.0));
         let struts = self.paths.struts.iter().map(|&(a, b)| (vec![a, b], self.strut.clearance / 2.0));
