@@ -16,7 +16,9 @@ use std::sync::Arc;
 type Begun = (Option<f64>, Option<(JointId, CauseId)>);
 
 impl Run<'_> {
-    /// Carries out an action's command: gives its motions to the joints; returns the way in which the action ends.
+    /// Carries out an action's command at the present time: gives its motions to the joints, or docks or undocks.
+    /// Returns the time at which the action ends by itself, s, `None` if a condition or timeout must end it; and the
+    /// joint to hold, with the cause, if it ends before.
     ///
     /// # Errors
     /// A [`Refusal`] that blames the action, if the command can't be carried out.
@@ -186,7 +188,8 @@ impl Run<'_> {
         self.give(action, joint, law::cubic_pieces(keyframes))
     }
 
-    /// Brings a joint to rest as fast as it can: at once where no acceleration limit is stated.
+    /// Brings a joint to rest from the present time on at its greatest deceleration: at once where no acceleration
+    /// limit is stated. `cause`: that of the segment.
     pub(super) fn stop(&mut self, joint: JointId, cause: CauseId) {
         let (at, speed) = self.take_over(joint);
         let facts = &self.facts[joint.0 as usize];

@@ -8,10 +8,10 @@ use crate::plan::time::tick_after;
 use crate::plan::{Compare, Condition, Signal, polynomial};
 use crate::robot::{Assembly, PortRef};
 
-/// The deepest nesting of a condition.
+/// The greatest depth to which conditions may be nested; an action with a deeper one is refused.
 pub(super) const DEPTH_MAX: usize = 64;
 
-/// The motion that a condition is judged on.
+/// The state of a run on which a condition is judged: the motion of the joints and the bonds.
 pub(super) struct View<'a> {
     /// The robot with the bonds so far.
     pub(super) robot: &'a Assembly,
@@ -23,8 +23,8 @@ pub(super) struct View<'a> {
     pub(super) began: f64,
 }
 
-/// Returns the first tick in `t0..=t1` (s, `t1` may be infinite) from which on the condition holds; `None` if there is
-/// none.
+/// Returns the first time in `t0..=t1` (s, `t1` may be infinite) from which on the condition holds: `t0`, `t1`, or
+/// the instant rounded up to a tick; `None` if there is none.
 pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
     if holds(condition, view, t0) {
         return Some(t0);
@@ -46,7 +46,8 @@ pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Opt
     (t1.is_finite() && holds(condition, view, t1)).then_some(t1)
 }
 
-/// Returns the depth of a condition's nesting, 1 for a plain one, up to one more than [`DEPTH_MAX`].
+/// Returns the depth to which a condition is nested, 1 for a plain comparison or test; where it is more than
+/// [`DEPTH_MAX`], one more than that.
 pub(super) fn depth(condition: &Condition) -> usize {
     let mut deepest = 0;
     let mut stack = vec![(condition, 1)];
@@ -69,7 +70,7 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     a.into_iter().chain(b)
 }
 
-/// Returns `true` where a part of a condition reads a sensor: anything but the time since the action began.
+/// Returns true if a part of a condition reads a sensor: all do but the time since the action began.
 pub(super) fn senses(condition: &Condition) -> bool {
     match condition {
         Condition::Compare { signal, .. } => *signal != Signal::Elapsed,

@@ -16,7 +16,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Run<'_> {
-    /// Begins a phase, an approach or a stretch; returns the time at which it ends, s. Panics for other nodes.
+    /// Begins a node that shifts or scales a cycle: [`Node::Phase`], [`Node::Approach`] or [`Node::Stretch`]. Returns
+    /// the time at which it ends, s. Panics for other nodes.
     ///
     /// # Errors
     /// A [`Refusal`] if the body is not cyclic, a number is out of range, or a limit is exceeded.

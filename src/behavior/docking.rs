@@ -13,12 +13,12 @@ pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option
     (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
 }
 
-/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to where they are, and the position of
-/// its hinge in rad, `None` if the connector has no hinge. `holds`: for every bond of the robot, true if it holds;
-/// `joints`: positions of all joints, by the number in their `JointId`, rad or m.
+/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to their present pose, and the position
+/// of its hinge in rad, `None` if the connector has no hinge. `holds`: for every bond of the robot, by index, true if
+/// it holds; `joints`: positions of all joints, by the number in their `JointId`, rad or m.
 ///
 /// # Errors
-/// Refuses ports that are taken, that do not mate, or whose parts of the robot nothing connects.
+/// A [`Reason`] for ports that are taken, that do not mate, or whose parts of the robot no bonds connect.
 pub(super) fn docked(
     robot: &Assembly,
     holds: &[bool],
@@ -40,7 +40,8 @@ pub(super) fn docked(
     Ok(nearest(robot, a, b, &X_PQ))
 }
 
-/// Returns true if two ports are of different modules and their connectors mate.
+/// Returns true if two ports belong to different modules and the connector of `a` states that of `b` among those that
+/// it mates with.
 pub(super) fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
     let connector = |p: PortRef| robot.module_type(p.module).ports[p.port].connector;
     a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))

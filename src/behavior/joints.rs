@@ -2,7 +2,8 @@
 
 use crate::robot::{Assembly, JointKind, JointOwner, Limits, ModuleType};
 
-/// A joint with the limits that hold for it, its motors' included. Radians or metres.
+/// The facts about a joint that commands need: its name, its limits, those of its motors included, and if it takes
+/// commands.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct JointFacts {
     /// The path name, such as `leg[2].m[0].tilt`.
@@ -34,7 +35,7 @@ pub enum Uncommandable {
     Fixed,
 }
 
-/// Returns every joint of a robot, by the number in its [`JointId`](crate::robot::JointId).
+/// Returns the facts about every joint of a robot, by the number in its [`JointId`](crate::robot::JointId).
 pub(super) fn facts(robot: &Assembly) -> Vec<JointFacts> {
     let of = |owner| match owner {
         JointOwner::Module { module, joint } => of_module(robot, module, joint),

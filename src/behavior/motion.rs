@@ -5,7 +5,7 @@ use super::law::Piece;
 use crate::plan::{CauseId, Command, Segment, polynomial};
 use std::collections::VecDeque;
 
-/// The past and the commanded future of a joint's position.
+/// The trajectory of a joint while a behaviour is scheduled: its past, and its future as commanded so far.
 #[derive(Clone, Debug)]
 pub(super) struct Motion {
     /// The past segments in order of time, which nothing can change.
@@ -20,7 +20,7 @@ pub(super) struct Motion {
     pub(super) command: Option<(Command, CauseId)>,
 }
 
-/// Steady motion from a time and position on.
+/// A motion of a joint at constant speed without end, from a time and position on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turning {
     /// The time from which on it turns, s.
@@ -39,7 +39,7 @@ impl Motion {
         Motion { past: vec![], ahead: VecDeque::new(), turning: None, rest: position, command: None }
     }
 
-    /// Moves the segments that have ended by `now` to the past.
+    /// Moves the segments that have ended by the time `now` (s) from the future to the past.
     pub(super) fn pass(&mut self, now: f64) {
         while self.ahead.front().is_some_and(|s| s.end <= now) {
             self.past.extend(self.ahead.pop_front());
@@ -57,8 +57,8 @@ impl Motion {
         }
     }
 
-    /// Drops all segments after `now` and the command in force. Returns the position (rad or m) and the speed just
-    /// before `now` (rad/s or m/s).
+    /// Ends the motion at the time `now` (s): drops all that comes after it, and the command in force. Returns the
+    /// position (rad or m) and the speed just before `now` (rad/s or m/s).
     pub(super) fn cut(&mut self, now: f64) -> (f64, f64) {
         let position = self.position(now);
         let speed = self.speed_before(now);
@@ -114,18 +114,18 @@ impl Motion {
         now
     }
 
-    /// Lets the joint turn without end at `speed` (rad/s or m/s) from the time `since` on, at which the appended
-    /// pieces are over.
+    /// Lets the joint turn or slide without end at `speed` (rad/s or m/s) from the time `since` (s) on, at which the
+    /// appended pieces are over. `cause`: that of the command.
     pub(super) fn turn(&mut self, since: f64, speed: f64, cause: CauseId) {
         self.turning = Some(Turning { since, from: self.rest, speed, cause });
     }
 
-    /// Returns the spin without end; `None` without one.
+    /// Returns the motion without end that follows the last segment; `None` if there is none.
     pub(super) fn turning(&self) -> Option<Turning> {
         self.turning
     }
 
-    /// Returns the time at which the last present or coming segment ends, s; `None` if there is none.
+    /// Returns the time at which the last segment of the future ends, s; `None` if there is none.
     pub(super) fn ends(&self) -> Option<f64> {
         self.ahead.back().map(|s| s.end)
     }
@@ -161,14 +161,14 @@ impl Motion {
         pieces
     }
 
-    /// Returns all segments, past and coming, in order of time.
+    /// Returns all segments, past and future, in order of time.
     pub(super) fn into_segments(mut self) -> Vec<Segment> {
         self.past.extend(self.ahead);
         self.past
     }
 }
 
-/// A piece of a signal; see [`Motion::pieces`].
+/// A piece of a signal, the position, rate or elapsed time that a condition measures, as a polynomial of time.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SignalPiece {
     /// The beginning of the piece, s.
@@ -186,7 +186,7 @@ impl SignalPiece {
         if self.end.is_finite() { self.end - self.start } else { 1.0 }
     }
 
-    /// Returns the rate of the signal, in its unit by s, over the same time.
+    /// Returns the time derivative of the signal over the same piece, in the unit of the signal per second.
     pub(super) fn rate(&self) -> SignalPiece {
         let span = self.span();
         let control = polynomial::derivative(&self.control).into_iter().map(|c| c / span).collect();

@@ -113,12 +113,12 @@ pub enum Reason {
 }
 
 impl Refusal {
-    /// Returns the refusal for which the action of this cause is to blame. `reason`: the reason of the refusal.
+    /// Returns a refusal with this reason that blames the action of this cause.
     pub fn at(cause: CauseId, reason: Reason) -> Refusal {
         Refusal { cause: Some(cause), reason }
     }
 
-    /// Returns the refusal for which no single action is to blame.
+    /// Returns a refusal with this reason that blames no single action.
     pub fn whole(reason: Reason) -> Refusal {
         Refusal { cause: None, reason }
     }

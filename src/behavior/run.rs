@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-/// A run in progress. Time begins at 0.
+/// A run of a behaviour in progress, by discrete-event simulation; its time begins at 0 s.
 pub(super) struct Run<'a> {
     /// The robot, with the bonds that docking has added so far.
     pub(super) robot: Arc<Assembly>,
@@ -58,7 +58,7 @@ pub(super) struct Run<'a> {
     done: bool,
 }
 
-/// The result of a run.
+/// The result of a run that has come to its end.
 pub(super) struct Played {
     /// The robot, with the bonds that docking added.
     pub(super) robot: Arc<Assembly>,
@@ -149,8 +149,8 @@ impl PartialEq for Event {
 impl Eq for Event {}
 
 impl<'a> Run<'a> {
-    /// Sets up the run of a robot, with a fact and a motion for every joint, by the number in its `JointId`, and for
-    /// every bond true if it holds.
+    /// Returns a run at time 0. `facts` and `motions`: those of every joint, by the number in its `JointId`; `holds`:
+    /// for every bond of the robot, by index, true if it holds.
     pub(super) fn new(
         robot: Arc<Assembly>,
         facts: Vec<JointFacts>,
@@ -482,7 +482,7 @@ impl<'a> Run<'a> {
         limit(self.steps, self.settings.steps_max, "steps")
     }
 
-    /// Counts `more` pieces of motion.
+    /// Adds `more` to the number of pieces of motion made so far.
     ///
     /// # Errors
     /// [`Reason::Limit`] if there are more than the settings allow.
@@ -492,7 +492,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Checks that a value is not above its limit; `what`: the things that are counted, in words.
+/// Checks that a count is not above its limit; `what`: the name of what is counted, in words, for the refusal.
 ///
 /// # Errors
 /// [`Reason::Limit`] if it is.

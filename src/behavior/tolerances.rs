@@ -16,6 +16,6 @@ pub(super) struct Tolerances {
     pub faithful: f64,
 }
 
-/// The tolerances with which every schedule is made.
+/// The tolerances with which every behaviour is scheduled and transformed.
 pub(super) const TOLERANCES: Tolerances =
     Tolerances { turn_tie: 1e-9, image_place: 2e-3, image_direction: 1e-3, faithful: 1e-9 };

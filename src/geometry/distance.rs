@@ -45,8 +45,8 @@ pub fn signed_distance_within(
     distance_apart(a, b, X_AB, normal, enough).unwrap_or_else(|| penetration(a, b, X_AB))
 }
 
-/// Returns the distance by the nearest points of the cores, or a lower bound of at least `enough` (m); `None` where
-/// the cores overlap or touch. Arguments as for [`signed_distance_within`].
+/// Returns the distance by the nearest points of the cores ([`Part::rounding`]), m, or a lower bound of at least
+/// `enough` (m); `None` where the cores overlap or touch. Arguments as for [`signed_distance_within`].
 pub(super) fn distance_apart(
     a: &Part,
     b: &Part,

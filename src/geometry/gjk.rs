@@ -20,10 +20,10 @@ const TOL_ORIGIN: f64 = 1e-12;
 /// The greatest number of iterations: polytopes take about ten, round parts about thirty.
 const ROUNDS_MAX: usize = 100;
 
-/// Returns the distance between the cores of two parts (m) and its direction in a's frame, by the method of Gilbert,
-/// Johnson and Keerthi; `None` where the cores overlap or touch. `X_AB` is the pose of b's frame in a's. Stops where
-/// the distance is known to be at least `enough` (m), and then returns that lower bound. `towards`: a first guess of
-/// the direction from a to b, in a's frame.
+/// Returns the distance between the cores ([`Part::rounding`]) of two parts (m) and its direction in a's frame, by
+/// the method of Gilbert, Johnson and Keerthi (1988); `None` where the cores overlap or touch. `X_AB` is the pose of
+/// b's frame in a's. Stops where the distance is known to be at least `enough` (m), and then returns that lower
+/// bound. `towards`: a first guess of the direction from a to b, in a's frame.
 pub(super) fn closest_cores(
     a: &Part,
     b: &Part,

@@ -6,7 +6,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-/// A pose as written in a plan file.
+/// A pose as written in a plan file: a translation in metres and a unit quaternion.
 #[derive(Serialize, Deserialize, JsonSchema)]
 #[serde(rename = "Pose", deny_unknown_fields)]
 pub(crate) struct PoseText {

@@ -132,8 +132,8 @@ impl Part {
         self.centre + from_centre
     }
 
-    /// Returns the corners of a polytope that holds the core of the part, m. It is the core itself, but for a
-    /// cylinder: that is in the prism around it.
+    /// Returns the corners of a polytope that holds the core of the part, in the part's frame, m. It is the core
+    /// itself, but for a cylinder: that is in the prism around it.
     pub(super) fn core_corners(&self) -> Vec<Vec3> {
         let signs = [-1.0, 1.0];
         let from_centre: Vec<Vec3> = match &self.form {

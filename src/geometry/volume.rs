@@ -51,8 +51,8 @@ impl Volume {
     }
 }
 
-/// Returns the volume, centroid and second moments of one shape in its own frame: in closed form, and of a hull or
-/// mesh as a sum of tetrahedra.
+/// Returns the volume (m³), centroid (m) and second moments (m⁵) of one shape in its own frame: in closed form, and
+/// of a hull or mesh as a sum of tetrahedra.
 ///
 /// # Errors
 /// The first fault of the shape ([`soundness::check`]).
@@ -81,8 +81,9 @@ pub fn of_shape(shape: &Shape) -> Result<Volume, Unsound> {
     })
 }
 
-/// Returns the volume, centroid and second moments of several placed shapes together, in the frame of their poses, by
-/// the parallel axis theorem; an overlap counts as often as shapes share it. Poses are not checked to be rigid.
+/// Returns the volume (m³), centroid (m) and second moments (m⁵) of several placed shapes together, in the frame of
+/// their poses, by the parallel axis theorem; an overlap counts as often as shapes share it. Poses are not checked to
+/// be rigid.
 ///
 /// # Errors
 /// The first fault of a shape ([`soundness::check`]), or [`Unsound::Empty`] if there is none.

@@ -49,7 +49,8 @@ impl Line {
     }
 }
 
-/// A quadratic program with its active set.
+/// A strictly convex quadratic program `min ½ xᵀ H x + c·x` under linear rows, with the active set of its solution
+/// (dual active-set method; Goldfarb and Idnani 1983).
 pub(super) struct ActiveSet {
     factor: SparseCholesky,
     /// The unconstrained optimum v₀.
@@ -66,8 +67,8 @@ pub(super) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// Returns the program without rows for `H = L Lᵀ`, given by its factor, and c, one entry for every variable; rows
-    /// may be off by `tolerance`, in the units of their right sides.
+    /// Returns the program without rows. `factor`: that of `H = L Lᵀ`; `linear`: c, one entry for every variable;
+    /// `tolerance`: the most by which a row may be violated, in the unit of its right side.
     pub(super) fn new(factor: SparseCholesky, linear: &[f64], tolerance: f64) -> ActiveSet {
         let mut free: Vec<f64> = linear.iter().map(|c| -c).collect();
         factor.solve_lower(&mut free);
@@ -93,7 +94,8 @@ impl ActiveSet {
         self.lines[line].right = right;
     }
 
-    /// Returns the optimal x. Equalities enter first, then the most violated inequality again and again.
+    /// Returns the optimal x for the rows as they are now, beginning with the active set of the last solution.
+    /// Equalities enter first, then the most violated inequality again and again.
     ///
     /// # Errors
     /// [`Unsolved::Infeasible`] where a violated row is a combination of active ones that can't give way,
@@ -115,7 +117,7 @@ impl ActiveSet {
         Err(Unsolved::Numerical)
     }
 
-    /// Empties the active set, so that the next solution begins anew.
+    /// Empties the active set, so that the next call of [`solve`](Self::solve) begins without one.
     pub(super) fn forget(&mut self) {
         self.active.clear();
         self.multipliers.clear();

@@ -9,11 +9,12 @@ use clarabel::solver::{
 /// The greatest number of iterations of the solver.
 const ITERATIONS_MAX: u32 = 200;
 
-/// Solves `min ½ xᵀ H x + c·x` subject to the rows. `hessian` holds the entries of H on and above the diagonal,
-/// `costs` c; the multipliers of the result are in the order of `equal` and `at_most`.
+/// Solves `min ½ xᵀ H x + c·x` subject to the rows by clarabel's primal-dual interior-point method. `hessian` holds
+/// the entries of H on and above the diagonal, `costs` c; `equal` are equalities, `at_most` inequalities, in whose
+/// order the multipliers of the result are.
 ///
 /// # Errors
-/// The status of the solver where it found no solution, also an approximate one.
+/// The status of the solver where it found no solution, also no approximate one.
 pub(super) fn solve(
     hessian: &CscMatrix,
     costs: &[f64],

@@ -7,7 +7,8 @@ use super::cuthill_mckee;
 /// 1e-16.
 const PIVOT_MIN: f64 = 1e-14;
 
-/// `L Lᵀ = P A Pᵀ`, where the permutation P keeps the envelope of L small.
+/// The Cholesky decomposition `L Lᵀ = P A Pᵀ` of a sparse matrix A, where the permutation P (reverse Cuthill-McKee)
+/// keeps the envelope of L small.
 pub(crate) struct SparseCholesky {
     /// The row of L for each row of A, and the row of A for each row of L.
     position: Vec<usize>,
@@ -16,9 +17,9 @@ pub(crate) struct SparseCholesky {
 }
 
 impl SparseCholesky {
-    /// Decomposes an n × n matrix given by its entries on and above the diagonal, or below; entries with
-    /// equal indices are summed. Returns `None` if it is not positive definite, or would take more
-    /// multiplications than `work_max`.
+    /// Returns the decomposition of an n × n matrix given by its entries (row, column, value) on and above the
+    /// diagonal, or below, with indices from 0; those with equal indices are summed. `None` if it is not positive
+    /// definite, or would take more multiplications than `work_max`.
     pub(crate) fn new(n: usize, entries: &[(usize, usize, f64)], work_max: usize) -> Option<SparseCholesky> {
         let order = cuthill_mckee::reverse_order(n, entries.iter().map(|&(i, j, _)| (i, j)));
         let mut position = vec![0; n];

@@ -18,7 +18,7 @@ const SUBSPACE: usize = 8;
 /// The number of iterations in a row whose change must be within the tolerance for convergence.
 const CONVERGED_TIMES: usize = 4;
 
-/// Rigidity of a truss that is clearly rigid.
+/// The rigidity of a truss whose least singular value is clearly above zero.
 pub(super) struct RigidityReport {
     /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
     pub(super) weakest: f64,
@@ -26,8 +26,9 @@ pub(super) struct RigidityReport {
     pub(super) redundant: Vec<usize>,
 }
 
-/// Examines a truss with nodes at these positions (m) and struts between them (pairs of indices) by a banded QR
-/// decomposition of its rigidity matrix; `None` where it is not rigid, or not clearly.
+/// Returns the rigidity of a truss with nodes at these positions (m) and struts between them (pairs of indices of
+/// nodes), by a banded QR decomposition (Givens rotations) of its rigidity matrix; `None` where it is not rigid, or
+/// so little that another method must decide.
 pub(super) fn examine(nodes: &[Vec3], struts: &[(usize, usize)]) -> Option<RigidityReport> {
     let order = cuthill_mckee_order(nodes.len(), struts);
     let mut position = vec![0; nodes.len()];

@@ -5,7 +5,7 @@ use super::step::driven;
 use super::{Assembly, JointOwner};
 use nalgebra::DMatrix;
 
-/// A joint, or a motor that drives several.
+/// A drive: a joint that is not fixed, or a motor that drives one or several joints, with its limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// The path name of the joint or motor.

@@ -155,12 +155,12 @@ impl ModulePart {
 }
 
 impl LibraryFault {
-    /// Returns the fault as one of a declaration.
+    /// Returns this fault as one of the declaration of a `kind`, such as `module`, with this name.
     pub(super) fn of(self, kind: &'static str, name: &str) -> LibraryFault {
         LibraryFault::Declaration { kind, name: name.to_owned(), fault: Box::new(self) }
     }
 
-    /// Returns the fault as one of a part of a module.
+    /// Returns this fault as one of a part of a module, with the name of the part.
     pub(super) fn inside(self, part: ModulePart, name: &str) -> LibraryFault {
         LibraryFault::Inside { part, name: name.to_owned(), fault: Box::new(self) }
     }

@@ -38,7 +38,7 @@ pub struct Row {
     pub goal: f64,
 }
 
-/// The state of a descent of inverse kinematics at some joint positions.
+/// The value of a problem of inverse kinematics at some joint positions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
     /// The squared norm of the residual of the task, in the squared unit of its rows: it sets the damping.
@@ -287,7 +287,7 @@ fn damped_least_squares(
 /// The least trace of `J Jᵀ` that damping is computed from, so that a task that no joint moves is damped, too.
 const TRACE_MIN: f64 = 1e-9;
 
-/// The part of a pose that is to be reached, by its number of rows in the task.
+/// The part of a pose that is to be reached: the pose, or the position of its origin alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TaskSpace {
     /// The whole pose, origin and orientation: six rows.

@@ -29,7 +29,8 @@ impl LinkFrame {
         LinkFrame { link: kinematics.port_link(robot, port), X_LF }
     }
 
-    /// Returns the world pose `X_WF` of the frame from the world poses of all links, by their numbers.
+    /// Returns the world pose `X_WF` of the frame; `poses`: the world poses of all links, by their numbers
+    /// ([`Kinematics::link`]). Panics if that of its link is missing.
     pub fn pose(&self, poses: &[Pose]) -> Pose {
         poses[self.link] * self.X_LF
     }

@@ -205,7 +205,7 @@ impl Servo {
     /// lever of 0.1 m.
     pub const SLIDE_YIELD_DEFAULT: f64 = 0.1 * Servo::TURN_YIELD_DEFAULT;
 
-    /// Returns true if nothing is stated.
+    /// Returns true if no fact of the servo is stated.
     pub fn is_unstated(&self) -> bool {
         *self == Servo::default()
     }

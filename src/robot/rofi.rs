@@ -163,7 +163,7 @@ fn name_of<T: PartialEq>(names: &[(&'static str, T)], value: T) -> &'static str 
     names.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| name)
 }
 
-/// The part of a configuration that was read so far, in any format.
+/// The modules and connections that a reader of any of RoFI's formats has read so far.
 #[derive(Default)]
 pub(super) struct Reader {
     begun: bool,
@@ -185,10 +185,10 @@ impl Reader {
         self.add_module(Module { id, joints, line: words.line }).map_err(|what| words.fault(1, what))
     }
 
-    /// Adds a module.
+    /// Adds a module, which gets the next index.
     ///
     /// # Errors
-    /// A message in words, for a second module of one id.
+    /// A message in words, if there is a module of its id already.
     pub(super) fn add_module(&mut self, module: Module) -> Result<(), String> {
         if self.indices.insert(module.id, self.modules.len()).is_some() {
             return Err(format!("a second module {}", module.id));

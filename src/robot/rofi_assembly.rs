@@ -26,11 +26,11 @@ const JOINT_TORQUE_MAX: f64 = 10.0;
 /// Docking tolerances: metres and radians.
 const CAPTURE: Capture = Capture { distance: 0.005, angle: 5.0 * PI / 180.0 };
 
-/// Returns the type of the RoFI universal module with the distance `pitch` (m) between the centres of its two
-/// bodies.
+/// Returns the type of the RoFI universal module with the distance `pitch` (m) between the centres of its two bodies,
+/// the shoes A and B.
 ///
-/// The pose of shoe B in shoe A, in units of the pitch:
-/// `Rx(alpha) · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-beta)`.
+/// With its joints at alpha, beta and gamma (rad), the pose of shoe B in shoe A is, in units of the pitch, `Rx(alpha)
+/// · Rz(gamma) · T(0, 0, 1) · Ry(180°) · Rx(-beta)`.
 pub fn module_type(pitch: f64) -> ModuleType {
     let tilt = Some((-FRAC_PI_2, FRAC_PI_2));
     let far = shifted(Vec3::new(0.0, 0.0, pitch));

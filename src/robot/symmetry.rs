@@ -36,7 +36,7 @@ impl Symmetry {
 
 /// Returns the symmetries of a module under which equal joint positions stay equal joint positions, the identity
 /// first. Left out are those that leave the first port in place, and all but the identity for modules with motors.
-/// Lengths and directions agree to 1e-9.
+/// Lengths (m) and directions agree to 1e-9.
 pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
     let mut all = vec![Symmetry::identity(kind)];
     if let Some(first) = kind.ports.first().filter(|_| kind.motors.is_empty()) {

@@ -14,8 +14,9 @@ pub struct Tree {
     pub loose: Vec<usize>,
 }
 
-/// Returns the tree from the module of index `root` over the bonds for which `holds`, by the index of the bond, is
-/// true. Neighbours are visited in order of bond, so that the tree depends on nothing but the assembly.
+/// Returns the breadth-first tree from the module of index `root` over the bonds for which `holds`, by the index of
+/// the bond, is true. Neighbours are visited in order of bond, so that the tree depends on nothing but the assembly.
+/// Panics if there is no such module or `holds` is too short.
 pub(super) fn grow(robot: &Assembly, holds: &[bool], root: usize) -> Tree {
     let mut bonds_of = vec![Vec::new(); robot.modules.len()];
     for (index, bond) in robot.bonds.iter().enumerate().filter(|(index, _)| holds[*index]) {

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 /// The number of nodes above which the banded decomposition is tried first: a dense one takes the cube of it.
 const NODES_DENSE: usize = 60;
 
-/// Tolerances of the examination of rigidity, all relative and without unit.
+/// The tolerances with which the rigidity of trusses is examined, all relative and without unit.
 pub(super) struct RigidityTolerances {
     /// The fraction of the largest singular value up to which a singular value counts as zero. 1e-9: far above
     /// rounding, far below the stiffness of any truss that is worth building.
@@ -31,7 +31,7 @@ pub(super) struct RigidityTolerances {
     pub on_line: f64,
 }
 
-/// The tolerances in use.
+/// The tolerances with which every truss is examined.
 pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
     singular: 1e-9,
     displacement: 1e-6,

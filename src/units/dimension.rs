@@ -81,7 +81,8 @@ impl Dimension {
     pub const ANGULAR_ACCELERATION: Dimension = dim(0, 0, -2, 1);
     /// The dimension of a force, N.
     pub const FORCE: Dimension = dim(1, 1, -2, 0);
-    /// The dimension of a torque, N·m, which an energy that nothing declares as one has too.
+    /// The dimension of a torque, N·m; an energy has the same exponents, and is shown in N·m unless it is declared as
+    /// one.
     pub const TORQUE: Dimension = dim(2, 1, -2, 0);
     /// The dimension of an energy, J: that of a torque, shown in joules.
     pub const ENERGY: Dimension = Dimension { energy: true, ..Dimension::TORQUE };
@@ -90,7 +91,7 @@ impl Dimension {
     /// The dimension of a frequency, Hz.
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
-    /// Returns the dimension with this name, such as `AngularSpeed`; `None` if none has it.
+    /// Returns the dimension of this name in [`Dimension::NAMED`], such as `AngularSpeed`; `None` if none has it.
     pub fn named(name: &str) -> Option<Dimension> {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
@@ -101,7 +102,8 @@ impl Dimension {
         NAMED.iter().find(|(_, d)| d.is_shown_as(self)).map(|(n, _)| *n)
     }
 
-    /// Returns true if both are the same dimension and shown in the same units.
+    /// Returns true if both are the same dimension and shown in the same units: an energy is shown in joules, a
+    /// torque in N·m.
     pub fn is_shown_as(self, other: Dimension) -> bool {
         self == other && self.energy == other.energy
     }

@@ -39,9 +39,9 @@ pub fn number(value: f64) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_string()
 }
 
-/// Returns a value in SI units as text, in a unit given as (name, factor to SI) and with a number of decimals.
-/// Without a unit it is one that suits the value, without decimals the digits are those of [`number`]. An infinite
-/// value is `infinite` or `-infinite`, without unit. `dimension`: the dimension of the value.
+/// Returns a value in SI units as text in a unit, given as (name, factor to SI), and with this many decimals. `None`
+/// for the unit: one that suits the value; `None` for the decimals: the digits of [`number`]. An infinite value is
+/// `infinite` or `-infinite`, without unit. `dimension`: that of the value.
 pub fn quantity_in(
     value: f64,
     dimension: Dimension,
@@ -127,7 +127,7 @@ pub fn base_units(dimension: Dimension) -> String {
     }
 }
 
-/// Returns a dimension as the type of its quantities is written in programs: `Length`, `Quantity<kg*m^2>`.
+/// Returns the name that programs give to the type of quantities of a dimension: `Length`, `Quantity<kg*m^2>`.
 pub fn dimension_name(dimension: Dimension) -> String {
     dimension.name().map_or_else(|| format!("Quantity<{}>", base_units(dimension)), str::to_string)
 }
