@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The motion itself, of one of three families of robots.
+/// The motion of a plan, in the form of the family of its robot: articulated, lattice or truss.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
     /// The motion of an articulated robot: piecewise polynomial joint positions, docking and undocking.
@@ -36,7 +36,7 @@ pub enum Snapshot {
     Nodes(Vec<[f64; 3]>),
 }
 
-/// One body followed by another.
+/// The motion of one body followed by that of another, as [`Body::joined`] returns it.
 pub(super) struct Appended {
     /// The motion of both.
     pub(super) body: Body,
@@ -120,7 +120,7 @@ impl Body {
         }
     }
 
-    /// Returns the motion from its end to its start.
+    /// Returns the motion in reverse, from its end to its start.
     pub(super) fn reversed(&self) -> Body {
         match self {
             Body::Tracks(tracks) => tracks.reversed().into(),
@@ -129,7 +129,8 @@ impl Body {
         }
     }
 
-    /// Returns the motion between two times in seconds, which lie within it.
+    /// Returns the motion between two times, s from the start of the plan, which must lie within it, the lesser
+    /// first.
     ///
     /// # Errors
     /// [`OperationError::InsideStage`] for a lattice whose cells move at one of the times.
@@ -172,7 +173,8 @@ impl Body {
         }
     }
 
-    /// Returns the program that does what the body says, by the clock.
+    /// Returns a program that makes the robot move as the body states, by the clock: its actions last as long as the
+    /// pieces of motion, and no condition ends them.
     ///
     /// # Errors
     /// [`OperationError::NoJoints`] for a robot without joints, [`OperationError::NoCommand`] for a motion that no
@@ -181,7 +183,8 @@ impl Body {
         self.tracks().map_or(Err(OperationError::NoJoints), tracks::timeline)
     }
 
-    /// Checks references and orders; `causes` is the number of causes of the plan.
+    /// Checks that every index of the body is within its list, and that its times are in order. `library`: that of
+    /// the plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -201,7 +204,8 @@ impl Body {
         self.tracks().map_or(Ok(()), Tracks::check_numbers)
     }
 
-    /// Checks that numbers are in their ranges, after the references are checked.
+    /// Checks that the numbers of the body are in their ranges; its references must have been checked, or it panics.
+    /// `library`: that of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -225,7 +229,8 @@ pub(super) enum BodyJson<'a> {
 }
 
 impl<'a> BodyJson<'a> {
-    /// Returns the form of a body in a file; it borrows what is large.
+    /// Returns a body as it stands in a plan file, with names out of `library` beside indices; long lists are
+    /// borrowed.
     pub(super) fn of(body: &'a Body, library: &Library) -> BodyJson<'a> {
         match body {
             Body::Tracks(tracks) => BodyJson::Tracks(tracks::TracksJson::of(tracks)),
@@ -234,7 +239,7 @@ impl<'a> BodyJson<'a> {
         }
     }
 
-    /// Lists the names that the file states beside indices.
+    /// Adds the names that the file states beside indices to `stated`, in the order of the file.
     pub(super) fn names(&self, stated: &mut Stated) {
         match self {
             BodyJson::Tracks(tracks) => tracks.names(stated),
@@ -243,7 +248,7 @@ impl<'a> BodyJson<'a> {
         }
     }
 
-    /// Returns the body that stands in a file, whose indices refer to `library`; nothing is checked.
+    /// Returns the body that stands in a file; `library`: the one that its indices refer to. Nothing is checked.
     pub(super) fn into_body(self, library: &Arc<Library>) -> Body {
         match self {
             BodyJson::Tracks(tracks) => tracks.into_tracks(library).into(),

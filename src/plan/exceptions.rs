@@ -10,15 +10,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The beginning of the name of a file of the standard library.
 const LIBRARY: &str = "std/";
 
-/// Returns the headline of a verdict on a plan: `not verified`, or `verified under full dynamics` or under those that it
-/// is judged by, with the excused checks and the lines of the source that excuse them: `verified under full dynamics,
-/// except torque (allowed at line 40)`. `verdict` must be one on this
-/// plan, whose exemptions it refers to.
+/// Returns the headline of a verdict on a plan: `not verified`, or `verified under` the dynamics by which it was
+/// judged, with the excused checks and the lines of the source that excuse them: `verified under full dynamics,
+/// except torque (allowed at line 40)`. `verdict`: one on this plan, to whose exemptions it refers.
 pub fn headline(plan: &Plan, verdict: &Verdict) -> String {
     headline_under(plan, &plan.worlds, verdict)
 }
 
-/// Returns the headline of a verdict on a plan that was judged in other worlds than its own.
+/// Returns the headline of a verdict as [`headline`] does, for a plan that was judged in `worlds` instead of its own.
 pub fn headline_under(plan: &Plan, worlds: &[WorldFrom], verdict: &Verdict) -> String {
     if !verdict.ok() {
         return "not verified".to_owned();

@@ -60,7 +60,7 @@ pub fn facts(library: &Library, declared: Declared) -> Facts {
     Facts { kind, name: name(library, declared).to_owned(), words, digest }
 }
 
-/// Returns the name of a declaration, with its arguments where they differ from the defaults. `declared`: the kind
+/// Returns the name of a declaration, which shows the arguments that differ from the defaults. `declared`: the kind
 /// and index of the declaration. Panics if the library has none of this index.
 pub fn name(library: &Library, declared: Declared) -> &str {
     match declared {

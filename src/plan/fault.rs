@@ -322,7 +322,8 @@ pub(super) fn need<F: Into<PlanFault>>(holds: bool, fault: impl FnOnce() -> F) -
     if holds { Ok(()) } else { Err(fault().into()) }
 }
 
-/// Returns `Ok` if an index, from 0, is below the count of things of a sort.
+/// Returns `Ok` if an index, from 0, is less than the number `count` of things of the sort `what`, a word for the
+/// message.
 ///
 /// # Errors
 /// [`PlanFault::Index`] otherwise.
@@ -330,15 +331,16 @@ pub(super) fn need_index(index: usize, count: usize, what: &'static str) -> Resu
     need(index < count, || PlanFault::Index { what, index, count })
 }
 
-/// Returns `Ok` if every time is later than the one before.
+/// Returns `Ok` if every time (s) is later than the one before; `what`: the name of the times, for the message.
 ///
 /// # Errors
-/// [`PlanFault::TimeOrder`] otherwise, and for a time that is NaN.
+/// [`PlanFault::TimeOrder`] otherwise, and if one of several times is NaN.
 pub(super) fn need_ascending(times: &[f64], what: &'static str) -> Result<(), PlanFault> {
     need(times.windows(2).all(|w| w[0] < w[1]), || PlanFault::TimeOrder { what })
 }
 
-/// Returns `Ok` if a number is no farther from 0 than its limit.
+/// Returns `Ok` if the absolute value of a number is at most `most`, both in one unit; `what`: the name of the
+/// number, for the message.
 ///
 /// # Errors
 /// [`PlanFault::Bound`] otherwise, and for NaN.
@@ -346,7 +348,8 @@ pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<
     need(value.abs() <= most, || PlanFault::Bound { what, value, most })
 }
 
-/// Returns `Ok` if every number of a part of a plan is finite.
+/// Returns `Ok` if all numbers of a part of a plan are finite, so that JSON can hold them; `part`: its name, for the
+/// message.
 ///
 /// # Errors
 /// [`PlanFault::Unwritable`] otherwise.

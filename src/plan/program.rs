@@ -72,13 +72,13 @@ pub enum Node {
     },
 }
 
-/// One command to one controller with its end: (J, X, ξ, T). Without `until` and `timeout` it ends when its motion
-/// does.
+/// One command to one controller with its end: (J, X, ξ, T) for controller, setpoint, condition and timeout. Without
+/// `until` and `timeout` it ends when its motion does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Action {
     /// The command: the controller J and the setpoint X.
     pub command: Command,
-    /// The condition ξ that ends the action when it begins to hold; `None`: no condition does.
+    /// The condition ξ that ends the action as soon as it holds; `None`: no condition does.
     pub until: Option<Condition>,
     /// The time T after which the action ends, s; `None`: no time is set.
     pub timeout: Option<f64>,
@@ -199,7 +199,7 @@ pub enum Compare {
     GreaterEqual,
 }
 
-/// The condition ξ, which ends an action when it begins to hold.
+/// A condition ξ on joints, time and bonds, which ends an action as soon as it holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Condition {
@@ -225,8 +225,8 @@ pub enum Condition {
 }
 
 impl Compare {
-    /// Returns the comparison that holds for the negated sides where this one does for the sides themselves: `<` for
-    /// `>`.
+    /// Returns the comparison that says the same after the signs of both sides are changed: `>` for `<`, `>=` for
+    /// `<=`, and the reverse.
     pub fn turned(self) -> Compare {
         match self {
             Compare::Less => Compare::Greater,

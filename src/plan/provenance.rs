@@ -38,7 +38,7 @@ pub enum ObjectiveValue {
 }
 
 impl ObjectiveValue {
-    /// Returns the value that was minimised, in the unit of the quantity.
+    /// Returns the value of the quantity, in its unit.
     pub fn value(self) -> f64 {
         let ObjectiveValue::FoldingEnergy(value) = self;
         value
@@ -46,7 +46,8 @@ impl ObjectiveValue {
 }
 
 impl Provenance {
-    /// Checks that the bound and the value that it is about are numbers from 0 on, and the bound is not above.
+    /// Checks that the bound and the value reached are finite and not negative, and that the bound is not above the
+    /// value.
     ///
     /// # Errors
     /// [`PlanFault::ObjectiveValue`] or [`PlanFault::BoundAbove`].

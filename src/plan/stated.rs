@@ -3,7 +3,8 @@
 use super::fault::PlanFault;
 use std::collections::BTreeMap;
 
-/// The names that a file states, in the order of the file, each with what it names.
+/// The names that stand beside the indices of a plan file, in the order of the file, each with the sort and the
+/// number of what it names.
 #[derive(Default)]
 pub(super) struct Stated {
     names: Vec<(&'static str, usize, String)>,
@@ -11,23 +12,23 @@ pub(super) struct Stated {
 }
 
 impl Stated {
-    /// Adds the name of the next thing of a sort; those of one sort are counted from 0.
+    /// Adds the name of the next thing of the sort `what`, such as `joint`; things of one sort are numbered from 0.
     pub(super) fn add(&mut self, what: &'static str, name: &str) {
         let count = self.counts.entry(what).or_default();
         self.names.push((what, *count, name.to_owned()));
         *count += 1;
     }
 
-    /// Adds the names of several things of a sort.
+    /// Adds the names of the next things of the sort `what`, in order.
     pub(super) fn add_all<'n>(&mut self, what: &'static str, names: impl IntoIterator<Item = &'n String>) {
         names.into_iter().for_each(|name| self.add(what, name));
     }
 
-    /// Checks that the same names are stated as by another list, which is that of the indices.
+    /// Checks that the names are the same, in the same order, as those of `of_indices`, which the indices stand for.
     ///
     /// # Errors
-    /// [`PlanFault::Name`] for the first name that is another, [`PlanFault::Names`] where there are too
-    /// few of them or too many.
+    /// [`PlanFault::Name`] for the first name that is another, [`PlanFault::Names`] where there are too few of them
+    /// or too many.
     pub(super) fn check(&self, of_indices: &Stated) -> Result<(), PlanFault> {
         for ((what, index, stated), (sort, number, name)) in self.names.iter().zip(&of_indices.names) {
             if (what, index) != (sort, number) {

@@ -4,13 +4,14 @@ use super::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The ground under the robot, and how it holds the base.
+/// The ground under the robot, and the way in which it holds the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
     /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels and tips.
     Settle,
-    /// Level ground, to which the robot is lowered at the start with its orientation; its base then keeps that pose.
+    /// Level ground at height 0, onto which the robot is lowered at the start with its orientation; its base then
+    /// keeps that pose. Contacts bear the weight; without gravity a fixture holds the base.
     Fixed,
     /// The base module's body is held fast, fixed in the world: its fixture takes any force and moment, and
     /// nothing else touches the robot.
@@ -79,7 +80,8 @@ impl World {
         matches!(self.ground, Ground::Settle | Ground::Fixed)
     }
 
-    /// Returns true if the ground under the robot carries its weight: if there are both.
+    /// Returns true if there is ground under the robot that carries its weight: [`Ground::Settle`] or
+    /// [`Ground::Fixed`], with gravity.
     pub fn floor_bears(&self) -> bool {
         self.gravity > 0.0 && self.has_floor()
     }

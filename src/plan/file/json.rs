@@ -97,7 +97,7 @@ struct ExemptionJson {
     cause: CauseId,
 }
 
-/// The part of a file that states its version.
+/// The part of a plan file by which its format and version are recognised before the rest is read.
 #[derive(Deserialize)]
 pub(super) struct Header {
     /// The text of the field `format`; `None` if there is none.
@@ -116,7 +116,7 @@ fn articulated(stated: DynamicsModel) -> DynamicsModel {
 }
 
 impl<'a> PlanJson<'a> {
-    /// Returns the form of a plan; it borrows what is large.
+    /// Returns a plan as it stands in a file; long lists are borrowed.
     pub(super) fn of(plan: &'a Plan) -> PlanJson<'a> {
         let names = plan.body.tracks().map(|tracks| RobotNames::of(&tracks.robot));
         let world = |w: &WorldFrom| WorldFromJson {
@@ -164,8 +164,8 @@ impl<'a> PlanJson<'a> {
         stated
     }
 
-    /// Returns the plan that stands in a file, its references and orders validated, its names compared with its
-    /// indices.
+    /// Returns the plan that stands in a file, after [`validate`](crate::plan::validation::validate) and a comparison
+    /// of the stated names with those that the indices stand for.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.

@@ -49,7 +49,8 @@ struct PortNames {
 }
 
 impl LibraryNamesJson {
-    /// Returns the names of a library; empty for an index that points nowhere.
+    /// Returns the names of what the indices inside a library stand for; that of an index that points nowhere is
+    /// empty.
     pub(super) fn of(library: &Library) -> LibraryNamesJson {
         let connector = |index: usize| {
             library.connectors.get(index).map_or_else(String::new, |connector| connector.name.clone())
@@ -64,7 +65,7 @@ impl LibraryNamesJson {
         }
     }
 
-    /// Lists the names in the order of the library.
+    /// Adds the names to `stated`, in the order of the library.
     pub(super) fn names(&self, stated: &mut Stated) {
         for connector in &self.connectors {
             stated.add("connector", &connector.name);

@@ -87,14 +87,14 @@ enum OtherwiseJson {
 }
 
 impl<'a> ProgramJson<'a> {
-    /// Returns the JSON of a program; `names` are those of the robot that it is for.
+    /// Returns a program as it stands in a plan file; `names`: those of its robot, `None` for one without joints.
     pub(super) fn of(program: &'a Program, names: Option<&RobotNames>) -> ProgramJson<'a> {
         let graph = Graph::of(&program.root);
         let nodes = graph.nodes.iter().map(|node| NodeJson::of(node, &graph, names)).collect::<Vec<_>>();
         ProgramJson { root: nodes.len() - 1, nodes }
     }
 
-    /// Lists the names that the file states beside indices.
+    /// Adds the names that the file states beside indices to `stated`, in the order of the file.
     pub(super) fn names(&self, stated: &mut Stated) {
         for node in &self.nodes {
             match node {
@@ -113,7 +113,7 @@ impl<'a> ProgramJson<'a> {
         }
     }
 
-    /// Returns the program that stands in a file; nothing else is checked than its table.
+    /// Returns the program that stands in a file; its table of nodes is checked, and nothing else.
     ///
     /// # Errors
     /// [`PlanFault::ProgramChild`] or [`PlanFault::ProgramRoot`] for a node that the table has not, or has later.
@@ -240,7 +240,8 @@ fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<S
     }
 }
 
-/// Returns the names of the modules or of the joint that an exemption is about.
+/// Returns the names of the two modules or of the joint that an exemption is about; none for one that is about the
+/// whole robot.
 pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<String> {
     match kind {
         ExemptionKind::Collision(Some((a, b))) => vec![names.module(*a), names.module(*b)],

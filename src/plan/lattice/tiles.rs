@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 /// A cross-section: lower and upper face along the two axes across the motion, in grid lines.
 pub(super) type Section = [(i64, i64); 2];
 
-/// Coordinates of a tile, along the second axis and the first.
+/// A tile of the plane across the motion, a square of a full-sized cell's edge: its coordinates in tiles, from 0,
+/// along the second axis and the first.
 pub(super) type Tile = (i64, i64);
 
 /// The greatest number of tiles in the dense table, for each cell.
@@ -17,7 +18,8 @@ const TABLE_MAX: usize = 4;
 /// The index of no lane.
 const NONE: u32 = u32::MAX;
 
-/// The lanes by the tile of their cross-section's lower corner.
+/// A spatial index of lanes, the rows of cells of one cross-section, by the tile in which the lower corner of that
+/// lies.
 pub(super) struct Tiles {
     lines: i64,
     origin: (i64, i64),
@@ -73,7 +75,7 @@ impl Tiles {
         Some(new)
     }
 
-    /// Returns the numbers of all lanes with their tiles, row after row.
+    /// Returns all lanes as (tile, number of the lane), ascending by tile.
     pub(super) fn order(&self) -> Vec<(Tile, u32)> {
         let mut order = Vec::with_capacity(self.sections.len());
         let mut add = |first: u32| {

@@ -56,7 +56,7 @@ fn contact([a, b]: [(&Cube, &Cube); 2], axis: usize) -> Option<Window> {
 }
 
 /// Returns the intervals of the path parameter between successive instants at which one of the contacts `passing`
-/// begins or ends, ascending from 0 to 1. `None` if there are too many for so many `cells`.
+/// begins or ends, ascending from 0 to 1. `None` if there are more than are examined for a lattice of `cells` cells.
 pub fn contact_intervals(passing: &[TransientContact], cells: usize) -> Option<Vec<Window>> {
     let ends = passing.iter().flat_map(|contact| [contact.window.from, contact.window.to]);
     let mut instants: Vec<_> = ends.chain([Window::WHOLE.from, Window::WHOLE.to]).collect();

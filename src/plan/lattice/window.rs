@@ -54,8 +54,9 @@ impl Window {
     }
 }
 
-/// Returns the part of `window` in which the projections of two moving cells onto an axis (0 to 2) overlap. Each cell
-/// is given by its state before and after the stage; faces move linearly. `None` if there is none.
+/// Returns the part of `window`, an interval of the path parameter, in which the projections of two moving cells onto
+/// an axis (0 to 2 for x, y, z) overlap; `None` if there is none. `[a, b]`: each cell as (before, after) the stage;
+/// its faces move linearly.
 pub(super) fn overlap([a, b]: [(&Cube, &Cube); 2], axis: usize, window: Window) -> Option<Window> {
     let above =
         |p: (&Cube, &Cube), q: (&Cube, &Cube)| (p.0.hi[axis] - q.0.lo[axis], p.1.hi[axis] - q.1.lo[axis]);

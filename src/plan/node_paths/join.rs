@@ -7,7 +7,7 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::time::tick_after;
 use crate::plan::tolerances::TOLERANCES;
 
-/// Returns the first paths and then the second, whose causes are numbered from `causes` on.
+/// Returns the paths of `a` followed by those of `b`, whose causes are numbered from `causes` on.
 ///
 /// # Errors
 /// [`OperationError`] for trusses that differ in their struts, in their surroundings, or in the positions of their

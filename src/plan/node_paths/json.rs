@@ -39,7 +39,7 @@ fn is_nothing_around(surroundings: &Surroundings) -> bool {
 }
 
 impl<'a> NodePathsJson<'a> {
-    /// Returns the form of node paths in a file, with the names of `library`; it borrows what is large.
+    /// Returns node paths as they stand in a plan file, with names out of `library`; long lists are borrowed.
     pub(in crate::plan) fn of(paths: &'a NodePaths, library: &Library) -> NodePathsJson<'a> {
         let strut = library.struts.get(paths.strut);
         let node = |index: usize| paths.node_names.get(index).cloned().unwrap_or_default();
@@ -55,7 +55,7 @@ impl<'a> NodePathsJson<'a> {
         }
     }
 
-    /// Lists the names that the file states beside indices.
+    /// Adds the names that the file states beside indices to `stated`, in the order of the file.
     pub(in crate::plan) fn names(&self, stated: &mut Stated) {
         stated.add("strut type", &self.strut_name);
         for (a, b) in &self.strut_ends {

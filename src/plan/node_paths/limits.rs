@@ -46,7 +46,8 @@ pub struct TrussLimits {
     pub sums: Vec<LengthSum>,
 }
 
-/// The struts whose lengths add up to a sum in a range, such as one that failed, or those of one tube.
+/// The range of a sum of strut lengths: of several struts of one tube, or of a single strut that has failed and keeps
+/// its length.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LengthSum {

@@ -4,7 +4,8 @@ use super::limits::Margins;
 use super::motion::{Interpolation, Keyframe, NodePaths};
 
 impl NodePaths {
-    /// Returns the paths between two times, s, with keyframes at both; the margins at a new keyframe are left out.
+    /// Returns the paths between two times, s from the start of the plan, with keyframes at both; a new keyframe
+    /// states no margins.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> NodePaths {
         let inside = self.keyframes.iter().filter(|k| from < k.time && k.time < to).map(|k| k.time);
         let mut times: Vec<f64> = std::iter::once(from).chain(inside).collect();

@@ -9,7 +9,7 @@ use crate::plan::cause::CauseId;
 use crate::plan::lattice::grid::{Cube, Grid};
 use crate::plan::operation_error::OperationError;
 
-/// Returns the stages of the first plan and then those of the second, whose causes are numbered from `causes` on.
+/// Returns the stages of `a` followed by those of `b`, whose causes are numbered from `causes` on.
 ///
 /// # Errors
 /// [`OperationError`] for lattices of other cells, of another number of cells or of another shape where they meet,

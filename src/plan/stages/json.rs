@@ -29,7 +29,7 @@ pub(in crate::plan) struct StagesJson<'a> {
 }
 
 impl<'a> StagesJson<'a> {
-    /// Returns the form of stages in a file, with the names of `library`; it borrows what is large.
+    /// Returns stages as they stand in a plan file, with the cell's name out of `library`; long lists are borrowed.
     pub(in crate::plan) fn of(stages: &'a Stages, library: &Library) -> StagesJson<'a> {
         let cell = library.cells.get(stages.cell);
         StagesJson {
@@ -44,7 +44,7 @@ impl<'a> StagesJson<'a> {
         }
     }
 
-    /// Lists the names that the file states beside indices.
+    /// Adds the names that the file states beside indices to `stated`, in the order of the file.
     pub(in crate::plan) fn names(&self, stated: &mut Stated) {
         stated.add("cell type", &self.cell_name);
     }

@@ -48,7 +48,7 @@ impl Default for CellLimits {
     }
 }
 
-/// The conditions on forces beside those that every plan of the family meets.
+/// The model of forces that a plan chooses: conditions on its forces besides those of every lattice plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
@@ -95,8 +95,8 @@ pub enum Law {
     SlowDown(Ratio),
 }
 
-/// Cells in the order of nested counters `k`: the number of the cell is `first + Σ stride·k`, its centre `center + Σ
-/// step·k`.
+/// A run of cells in a regular arrangement, by nested counters `k`: the number of a cell is `first + Σ stride·k`, its
+/// centre `center + Σ step·k`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Run {
@@ -110,7 +110,7 @@ pub struct Run {
     pub size: [Ratio; 3],
 }
 
-/// One of the nested counters of a run.
+/// One of the nested counters of a run, with the change of the cell's number and centre for each of its steps.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Counter {
@@ -246,8 +246,8 @@ impl Stages {
         named[first..].concat()
     }
 
-    /// Returns every cell, by its number, at the time `t` (s); before the start and after the end, as at the nearer
-    /// end.
+    /// Returns the box of every cell, by its number, at the time `t` (s); before the start and after the end, as at
+    /// the nearer end.
     pub fn state(&self, t: f64) -> Vec<CellBox> {
         let mut cells = vec![CellBox { center: [0.0; 3], size: [1.0; 3] }; self.count as usize];
         place(&mut cells, &self.start);

@@ -5,7 +5,7 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::tolerances::TOLERANCES;
 
 impl Stages {
-    /// Returns the stages between two times, s, at which stages begin or end.
+    /// Returns the stages between two times, s from the start of the plan, at which stages begin or end.
     ///
     /// # Errors
     /// [`OperationError::InsideStage`] for another time: within a stage the cells move.

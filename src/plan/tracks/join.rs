@@ -6,8 +6,8 @@ use crate::plan::operation_error::OperationError;
 use crate::plan::tolerances::TOLERANCES;
 use crate::robot::matching;
 
-/// Finds the robot that the second tracks start with in the one that the first end with. The causes of the second
-/// are numbered from `causes` on.
+/// Returns the map from the robot of `b`, in the state in which `b` starts, to the robot of `a`, in that in which `a`
+/// ends; the causes of `b` are numbered from `causes` on.
 ///
 /// # Errors
 /// [`OperationError::Robots`] if it is another robot, or the same in another pose.

@@ -123,7 +123,7 @@ struct EventJson {
 }
 
 impl<'a> TracksJson<'a> {
-    /// Returns the form of tracks in a file, with the names of the robot; it borrows what is large.
+    /// Returns tracks as they stand in a plan file, with the names of the robot; long lists are borrowed.
     pub(in crate::plan) fn of(tracks: &'a Tracks) -> TracksJson<'a> {
         let names = RobotNames::of(&tracks.robot);
         let event = |dock: &DockingEvent| EventJson {
@@ -154,7 +154,7 @@ impl<'a> TracksJson<'a> {
         }
     }
 
-    /// Lists the names that the file states beside indices.
+    /// Adds the names that the file states beside indices to `stated`, in the order of the file.
     pub(in crate::plan) fn names(&self, stated: &mut Stated) {
         let robot = &self.robot;
         robot.modules.iter().for_each(|module| stated.add("the type of module", &module.kind_name));

@@ -32,13 +32,13 @@ impl<'a> RobotNames<'a> {
         self.joints.get(joint.0 as usize).cloned().unwrap_or_default()
     }
 
-    /// Returns the path name of the module of an index; empty if there is none.
+    /// Returns the path name of a module, by its index in the assembly; empty if there is none.
     pub(in crate::plan) fn module(&self, module: usize) -> String {
         let module = self.robot.and_then(|robot| robot.modules.get(module));
         module.map_or_else(String::new, |module| module.name.clone())
     }
 
-    /// Returns the name of the type of the module of an index; empty if there is none.
+    /// Returns the name of the type of a module, by the module's index in the assembly; empty if there is none.
     pub(in crate::plan) fn module_type(&self, module: usize) -> String {
         let robot = self.robot.filter(|robot| module < robot.modules.len());
         robot.map_or_else(String::new, |robot| robot.module_type(module).name.clone())
@@ -58,7 +58,8 @@ impl<'a> RobotNames<'a> {
         bond.map_or_else(Default::default, |bond| [self.port(bond.a), self.port(bond.b)])
     }
 
-    /// Returns the name of the bond of an index, `a -- b` of its ports' names, as its hinge is named.
+    /// Returns the name of a bond, by its index: those of its two ports, `a -- b`, which also is the name of its
+    /// hinge; the names of an index that points nowhere are empty.
     pub(in crate::plan) fn bond(&self, bond: usize) -> String {
         self.ends(bond).join(" -- ")
     }

@@ -60,8 +60,8 @@ impl Remap {
         Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// Returns the names that differ, as (name in B, name in A), in the order of the modules of B: of modules, and of
-    /// joints of modules that lie turned. `b` is robot B.
+    /// Returns the names of B that are others in A, as (name in B, name in A), in the order of B's modules: of
+    /// modules, and of the joints of modules that are mapped onto themselves turned round. `b`: robot B.
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
         let mut pairs = Vec::new();
         for (module, instance) in b.modules.iter().enumerate() {
@@ -131,7 +131,7 @@ impl Remap {
         segments
     }
 
-    /// Returns an exemption of B mapped to A, `seam` seconds later.
+    /// Returns an exemption of motion B for robot A, its times later by `seam` (s), the time at which motion A ends.
     pub fn exemption(&self, exemption: &Exemption, seam: f64) -> Exemption {
         Exemption {
             kind: self.kind(&exemption.kind),
@@ -153,7 +153,7 @@ impl Remap {
         }
     }
 
-    /// Returns a program of B mapped to A; shared nodes stay shared.
+    /// Returns a program of robot B as one of robot A; shared nodes stay shared.
     pub fn program(&self, root: &Arc<Node>) -> Arc<Node> {
         let graph = Graph::of(root);
         let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());

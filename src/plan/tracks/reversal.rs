@@ -10,8 +10,8 @@ impl Segment {
 }
 
 impl Tracks {
-    /// Returns the motion in reverse, from end to start: what was docked is undocked, and undocked docked. The base
-    /// stays where it was at the start.
+    /// Returns the motion in reverse, from end to start; dockings become undockings, and the reverse. The base keeps
+    /// its pose at the start.
     pub fn reversed(&self) -> Tracks {
         let d = self.duration;
         let track = |t: &Track| Track {

@@ -3,8 +3,8 @@
 use super::motion::{Track, Tracks};
 
 impl Tracks {
-    /// Returns the trajectories between two times, s. Bonds that dock or undock at the first instant have done so,
-    /// those at the last do so.
+    /// Returns the trajectories between two times, s from the start of the plan. Bonds that change at the first
+    /// instant have changed at the start of the slice, those that change at the last instant change at its end.
     pub(in crate::plan) fn sliced(&self, from: f64, to: f64) -> Tracks {
         let track = |t: &Track| {
             let pieces = t.segments.iter().filter_map(|s| s.between(from, to)).map(|mut s| {

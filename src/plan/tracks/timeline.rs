@@ -8,8 +8,8 @@ use crate::plan::program::{Action, Command, Node, Otherwise, Profile, Target};
 use crate::robot::JointId;
 use std::sync::Arc;
 
-/// Returns the program that does what the tracks say: a series for every joint and one for docking, in parallel.
-/// Each action lasts exactly as long as its segment; gaps are waits.
+/// Returns the program that makes the joints move as the tracks state: a series for every joint and one for docking,
+/// in parallel. Each action lasts exactly as long as its segment; gaps are waits.
 ///
 /// # Errors
 /// [`OperationError::NoCommand`] for a segment of degree above 3 that is no smooth move.

@@ -122,7 +122,7 @@ fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
     need_index(id.0 as usize, causes, "cause")
 }
 
-/// Checks the references of an assembly, and that its modules have names of their own.
+/// Checks that the indices of an assembly are within their lists, and that no two of its modules have one name.
 ///
 /// # Errors
 /// The first [`PlanFault`] found.

@@ -18,8 +18,8 @@ use super::visit::Graph;
 use super::world::Ground;
 use crate::robot::validation::{QUANTITY_MAX, check_library};
 
-/// Validates the library, the references and the orders of a plan, as a reader of files does. The library is held to
-/// the rules of programs.
+/// Checks that the indices of a plan are within their lists, that its times are in order, and that its library is as
+/// sound as one that a program declares; a reader of plan files makes the same checks.
 ///
 /// # Errors
 /// The first [`PlanFault`] that was found.

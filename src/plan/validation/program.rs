@@ -7,7 +7,7 @@ use crate::plan::visit::Graph;
 use crate::plan::world::ExemptionKind;
 use crate::robot::{Assembly, JointId, PortRef};
 
-/// The things that a program may name: a robot's joints and ports, and the causes of a plan.
+/// The numbers of joints, ports and causes within which the indices of a program must lie.
 pub(super) struct Names<'a> {
     robot: &'a Assembly,
     joints: usize,
@@ -15,12 +15,12 @@ pub(super) struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// Returns the names that programs of this robot may use, in a plan of `causes` causes.
+    /// Returns the numbers for programs of this robot, in a plan of `causes` causes.
     pub(super) fn of(robot: &Assembly, causes: usize) -> Names<'_> {
         Names { robot, joints: robot.joints().count(), causes }
     }
 
-    /// Checks the modules or the joint of an exemption.
+    /// Checks that the modules or the joint that an exemption is about are those of the robot.
     ///
     /// # Errors
     /// [`PlanFault::Index`] for the first index that is none of the robot.
@@ -42,10 +42,10 @@ impl Names<'_> {
         }
     }
 
-    /// Checks every node of a program.
+    /// Checks that the indices in every node of a program are within their lists.
     ///
     /// # Errors
-    /// The first [`PlanFault`] found.
+    /// [`PlanFault::Index`] for the first index that is not.
     pub(super) fn nodes(&self, graph: &Graph) -> Result<(), PlanFault> {
         graph.nodes.iter().try_for_each(|node| match &***node {
             Node::Action(action) => self.action(action),
