@@ -55,9 +55,9 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes a sample, in order of time: follows the base, and sums the slip of links that carry weight. Where a
-    /// robot with a fixed base has penetrated the ground, the failure is recorded as the penetration ends; slip
-    /// beyond what is stated fails in [`finish`](Self::finish).
+    /// Takes a sample, in order of time: follows the base, and sums the slip of links that carry weight. A robot with
+    /// a fixed base that has penetrated the ground gets its failure as the penetration ends; slip beyond what is stated
+    /// fails in [`finish`](Self::finish).
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.samples += 1;
         if !self.grounds.contains(&sample.world.ground) {

@@ -164,7 +164,7 @@ impl Bodies {
     }
 
     /// Returns the depth to which one of two links is inside the meshes of the other that are not convex, m: a lower
-    /// bound ([`enclosed_depth`](crate::geometry::enclosed_depth)), 0 if neither is. The arguments are as for
+    /// bound ([`enclosed_depth`](crate::geometry::distance::enclosed_depth)), 0 if neither is. The arguments are as for
     /// [`overlap`](Self::overlap).
     pub(super) fn enclosed_depth(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         enclosed_depth(self.solid(a), self.solid(b), X_AB)

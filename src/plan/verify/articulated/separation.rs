@@ -208,8 +208,8 @@ impl IntervalState {
         Motion { p: link.p + arm, v: link.v + link.spin.cross(&arm) }
     }
 
-    /// Returns a bound on the distance of a point at the ends of the interval from where uniform motion would take
-    /// it, m. `deviation`: a bound on the deviation of its velocity, m/s. Where no rate jumps that deviation grows in
+    /// Returns a bound on the distance of a point at the ends of the interval from where uniform motion would take it,
+    /// m. `deviation`: a bound on the deviation of its velocity, m/s. Unless a rate jumps, that deviation grows in
     /// proportion to time, which halves the distance.
     pub(super) fn drift(&self, deviation: f64) -> f64 {
         deviation * self.interval.half * if self.interval.smooth { 0.5 } else { 1.0 }

@@ -20,9 +20,9 @@ pub(super) struct NearPair {
     pub holds: bool,
 }
 
-/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the `clearance`
-/// (m), with the least distance found, ascending by their indices. By conservative advancement each is proved to keep
-/// the clearance less `tolerance` (m), or [`NearPair::holds`] is false.
+/// Returns the pairs of struts without a common node whose swept bounding boxes come within twice the `clearance` (m),
+/// with the least distance found, ascending by their indices. [`NearPair::holds`] tells if conservative advancement
+/// proves that a pair keeps the clearance less `tolerance` (m).
 pub(super) fn nearest(
     paths: &NodePaths,
     step: &Step,
