@@ -96,8 +96,8 @@ impl Motion {
         self.ahead.iter().chain(self.past.last()).any(|s| s.end == now)
     }
 
-    /// Appends pieces that begin at `start` (s), where the motion so far has ended; pieces without motion only take
-    /// time. Returns the time at which the last piece ends, s.
+    /// Appends pieces of motion from the time `start` (s) on, where the motion so far has ended; pieces in which
+    /// nothing moves only take time. Returns the time at which the last piece ends, s. `cause`: that of the command.
     pub(super) fn append(&mut self, start: f64, pieces: Vec<Piece>, cause: CauseId) -> f64 {
         let mut now = start;
         for Piece { duration, mut control } in pieces.into_iter().filter(|p| p.duration > 0.0) {

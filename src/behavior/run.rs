@@ -186,7 +186,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Runs a program to its end and until every joint is at rest.
+    /// Runs a program to its end and until every joint is at rest, and returns the result.
     ///
     /// # Errors
     /// A [`Refusal`] if a command can't be carried out, a condition never holds, the behaviour aborts, a joint still

@@ -144,8 +144,8 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Returns the reserve unless another is stated: none, so that what is overloaded fails. Of 200 random gaits, what passes
-    /// so neither falls nor lags by 10° in MuJoCo (`docs/dynamics.md`).
+    /// Returns the reserve where none is stated: 0, so that a load fails only beyond its limit. Of 200 random gaits
+    /// those that pass so neither fell nor lagged by 10° in MuJoCo (`docs/dynamics.md`).
     pub fn reserve_default() -> f64 {
         0.0
     }

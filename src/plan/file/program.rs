@@ -240,8 +240,7 @@ fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<S
     }
 }
 
-/// Returns the names of the two modules or of the joint that an exemption is about; none for one that is about the
-/// whole robot.
+/// Returns the names of the two modules or of the joint that an exemption is about; empty for one that names none.
 pub(super) fn of_exemption(kind: &ExemptionKind, names: &RobotNames) -> Vec<String> {
     match kind {
         ExemptionKind::Collision(Some((a, b))) => vec![names.module(*a), names.module(*b)],

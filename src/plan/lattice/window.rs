@@ -24,8 +24,8 @@ impl Window {
     /// The interval of the whole stage, from 0 to 1.
     pub const WHOLE: Window = Window { from: (0, 1), to: (1, 1) };
 
-    /// Returns the part of the interval in which the linear function with the values `start` at 0 and `end` at 1 is
-    /// positive; `None` if there is none.
+    /// Returns the part of the interval in which the linear function of the path parameter with the values `start` at
+    /// 0 and `end` at 1 is positive; `None` if there is none.
     pub fn where_positive(self, start: i64, end: i64) -> Option<Window> {
         let (start, end) = (i128::from(start), i128::from(end));
         let mut window = self;

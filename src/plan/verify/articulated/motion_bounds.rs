@@ -5,7 +5,8 @@ use super::polyline::Polyline;
 use super::tolerances::Tolerances;
 use crate::plan::{Tracks, polynomial};
 
-/// The tracks of all joints, with bounds on their rates' change, from which bounds over any interval of time follow.
+/// The tracks of all joints with bounds on their accelerations and the jumps of their rates, from which motion bounds
+/// over any interval of time follow.
 #[derive(Clone, Debug)]
 pub(super) struct MotionBounds {
     /// The position of each joint at the start of the plan, rad or m.

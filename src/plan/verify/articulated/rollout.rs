@@ -128,8 +128,8 @@ pub enum RolloutEnd {
 /// and counts k times.
 const FEATURES_PER_SAMPLE: usize = 100;
 
-/// Returns the number of samples that the rollout of a robot may take: `samples_max` of the settings, divided by each
-/// full hundred of its ground `features` ([`Model::features`]).
+/// Returns the number of samples that the rollout of a robot may take: `samples_max` of the settings, divided by the
+/// number of full hundreds of its ground `features` ([`Model::features`]) if there are any.
 pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
     settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }

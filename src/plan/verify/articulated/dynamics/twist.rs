@@ -23,7 +23,7 @@ pub(super) struct Momentum {
     pub step: f64,
 }
 
-/// The problem of the planar twist at which friction is in balance at an instant.
+/// The problem of the twist of the base at which the friction of its contacts is in balance at an instant.
 pub(super) struct TwistProblem<'a> {
     /// The points that the ground may bear.
     pub candidates: &'a [Candidate],
