@@ -137,7 +137,7 @@ pub fn optimum_among(
     search(target, weights, settings, Some(accepts), &Observer::none())
 }
 
-/// Runs the search; without `accepts` the first layout that fits is accepted. An observer ends it as its budget does.
+/// Runs [`optimum_among`]; without `accepts` the first layout that fits is accepted. `observer` may end the search.
 ///
 /// # Errors
 /// As for [`optimum_among`].

@@ -11,8 +11,8 @@ use super::layout::Layout;
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// The position, speed and acceleration of the hinge between a face and its parent. An angle of 0 is level, positive
-/// angles are convex.
+/// The position (rad), speed (rad/s) and acceleration (rad/s²) of the hinge between a face and its parent. An angle of
+/// 0 is level, positive angles are convex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hinging {
     /// The angle of the hinge, rad.
@@ -23,7 +23,8 @@ pub struct Hinging {
     pub acceleration: f64,
 }
 
-/// The inverse dynamics of a layout: a tree of rigid bodies on hinges whose root is held fast.
+/// The inverse dynamics of a layout by the recursive Newton-Euler algorithm: a tree of rigid bodies on hinges whose
+/// root is held fast.
 pub struct Dynamics<'t> {
     target: &'t Target,
     layout: &'t Layout,

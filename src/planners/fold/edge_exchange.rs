@@ -12,10 +12,10 @@ const TRIED_MAX: usize = 256;
 /// The number of sums that take about as long as one exchange that is weighed.
 const SUMS: usize = 64;
 
-/// Returns a greedy tree grown from `root` (an index in [`Target::faces`]): in each step the face is added whose path
-/// from the root costs the least for it (N·m for steps of one second); of equal ones the first. `target`: the
-/// surface; `weights`: the costs of its hinges for the faces that they carry. Panics if the hinges do not connect all
-/// faces.
+/// Returns a greedy layout (a spanning tree of the faces) grown from `root` (an index in [`Target::faces`]): in each
+/// step the face is added whose path from the root costs the least for it (N·m for steps of one second); of equal ones
+/// the first. `target`: the surface; `weights`: the costs of its hinges for the faces that they carry. Panics if the
+/// hinges do not connect all faces.
 pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     let n = target.faces.len();
     // For each face: the hinges between it and the root, once it belongs to the tree.

@@ -30,7 +30,8 @@ const STRIP_LAYOUTS_MAX: usize = 8;
 /// States of pairs of panels that the search for layouts of strips samples.
 const STRIP_STATES_MAX: usize = 1_500_000_000;
 
-/// Layouts that were evaluated, one after the other.
+/// The state of an evaluation of layouts one after the other: those that the judge let through, the first refusal, and
+/// the numbers of layouts sampled and judged.
 #[derive(Default)]
 pub(super) struct Candidates {
     /// Those that the judge let through.
@@ -43,7 +44,7 @@ pub(super) struct Candidates {
     judged: usize,
 }
 
-/// An outcome with the bound for all layouts that it was chosen from.
+/// The best layout that the judge let through, with a lower bound for all layouts that it was chosen from.
 pub(super) struct Chosen {
     /// The layout with its steps, its plan and its verdict.
     pub outcome: Outcome,
@@ -55,11 +56,12 @@ pub(super) struct Chosen {
 }
 
 impl Task<'_> {
-    /// Returns the best layout that the judge lets through in the order asked for, with the bound for all layouts in
-    /// that order; `None` if it lets none through of those proposed and searched.
+    /// Returns the first layout, in order of the minimised quantity, that the judge lets through in the order of
+    /// folding that the settings ask for; `None` if it lets none through of those proposed in `found` and then searched
+    /// by branch and bound. `candidates` collects the layouts evaluated.
     ///
     /// # Errors
-    /// A reason that holds for every layout, as [`Task::judged`] says.
+    /// A [`Refusal`] that holds for every layout, as [`Task::judged`] says.
     pub(super) fn best_accepted(
         &self,
         candidates: &mut Candidates,
@@ -159,7 +161,7 @@ impl Task<'_> {
     /// judge lets through; `None` if the problem gives the layout, the observer has ended the call, or none was found.
     ///
     /// # Errors
-    /// A reason that holds for every layout, as [`Task::judged`] says.
+    /// A [`Refusal`] that holds for every layout, as [`Task::judged`] says.
     pub(super) fn of_strips(&self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
         if self.problem.hinges.is_some() || !self.observer.should_continue() {
             return Ok(None);

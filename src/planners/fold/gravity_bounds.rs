@@ -30,7 +30,8 @@ use crate::geometry::Vec3;
 /// below the tolerance, for the law is smooth and flat at both ends.
 const PLACES: usize = 256;
 
-/// The torque of gravity by arc and face, N·m.
+/// The torques of gravity about every hinge, for either face above and every face carried, N·m, from which lower bounds
+/// on energy and peak torque follow.
 pub(super) struct GravityBounds {
     faces: usize,
     arcs: Vec<Arc>,
@@ -49,8 +50,8 @@ struct Arc {
 }
 
 impl GravityBounds {
-    /// Computes the torques of gravity of a target; `masses`: by face, kg; `gravity`: its acceleration, m/s², at least
-    /// 0.
+    /// Computes the torques of gravity about the hinges of a target. `masses`: by face in the order of
+    /// [`Target::faces`], kg; `gravity`: the gravitational acceleration, m/s², at least 0.
     pub(super) fn new(target: &Target, masses: &[f64], gravity: f64) -> GravityBounds {
         let mut arcs = Vec::with_capacity(2 * target.hinges.len());
         for hinge in &target.hinges {
@@ -76,8 +77,9 @@ impl GravityBounds {
         GravityBounds { faces: masses.len(), arcs }
     }
 
-    /// Returns the lower bound on the sum of mean torques for each root, by face, N·m. It is the greater of two, in
-    /// which the torques of the hinges are counted in the direction in which they turn, or about their axes.
+    /// Returns for each root, in the order of [`Target::faces`], a lower bound on the sum over all hinges of the
+    /// absolute mean torque of gravity while they fold, N·m. It is the greater of two sums of cheapest walks
+    /// (Bellman-Ford): of torques signed in the direction of folding, and signed about the hinges' axes.
     pub(super) fn energies(&self) -> Vec<f64> {
         let both = [self.sums(|arc| arc.sense), self.sums(|_| 1.0)];
         let greater = |root: usize| both.iter().map(|sums| sums[root]).fold(0.0, f64::max);
@@ -107,9 +109,9 @@ impl GravityBounds {
         sums
     }
 
-    /// Returns the lower bound on the peak torque of layouts with the root `root` (an index in [`Target::faces`]),
-    /// N·m: the hinges of the root carry all other faces among them, so the greatest of their torques is at least the
-    /// mean.
+    /// Returns a lower bound on the peak torque of gravity and motion in layouts with the root `root` (an index in
+    /// [`Target::faces`]), N·m: the hinges of the root carry all other faces among them, so the greatest of their
+    /// torques is at least the mean over all hinges there.
     pub(super) fn peak(&self, root: usize) -> f64 {
         let around: Vec<&Arc> = self.arcs.iter().filter(|arc| arc.above == root).collect();
         let mut greatest: f64 = 0.0;

@@ -3,7 +3,7 @@
 
 use super::target::Target;
 
-/// A face that reaches below the plane of the root, which is the ground.
+/// The face that reaches the deepest below the plane of the root, which is the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Protrusion {
     /// The index of the face in [`Target::faces`].
@@ -12,8 +12,8 @@ pub struct Protrusion {
     pub depth: f64,
 }
 
-/// Returns the face that reaches the deepest below the plane of the face `root`, on the side of its outward normal;
-/// `None` if none reaches deeper than `depth`, m.
+/// Returns the face that reaches the deepest below the plane of the face `root` (an index in [`Target::faces`]), on the
+/// side of its outward normal; `None` if none reaches deeper than `depth`, m. Panics if there is no such root.
 pub(super) fn deepest_protrusion(target: &Target, root: usize, depth: f64) -> Option<Protrusion> {
     let (down, ground) = (target.normal(root), target.centroid(root));
     let of = |face: usize| {

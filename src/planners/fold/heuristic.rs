@@ -7,7 +7,7 @@ use super::layout::Layout;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 
-/// [Yao et al.](super)'s measure χ of a layout, by the constants of Theorem 1 (Table 5).
+/// The constants of [Yao et al.](super)'s heuristic measure χ of a layout (their Method II, Theorem 1, Table 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
     /// The constant λ1 of Theorem 1 of [Yao et al.](super), the norm of a panel's inertia tensor, kg·m². Their
@@ -26,7 +26,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Returns [Yao et al.](super)'s constants for equal panels of a mass (kg) and side (m).
+    /// Returns [Yao et al.](super)'s constants (Table 5) for equal triangular panels of a mass (kg) and side (m).
     pub fn of_panels(mass: f64, side: f64) -> Measure {
         Measure {
             inertia: 6.15e-11,
@@ -68,7 +68,7 @@ impl Measure {
     }
 }
 
-/// The result of [`preferred`]: the layout of least measure.
+/// The result of [`preferred`]: the layout of least measure χ, with the number of ties and the extent of the search.
 #[derive(Clone, Debug)]
 pub struct Preferred {
     /// The first layout found of the least measure.

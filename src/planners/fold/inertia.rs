@@ -35,9 +35,9 @@ impl Body {
         Body { mass, centre, inertia: Matrix3::identity() * second.trace() - second }
     }
 
-    /// Returns the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`];
-    /// `masses`: one for each face in that order, kg. `inertia`: how the mass of a panel is spread. Panics if there
-    /// are too few.
+    /// Returns the rigid bodies of all panels in the frame of the target, in the order of [`Target::faces`]; `masses`:
+    /// one for each face in that order, kg. `inertia`: how the mass of a panel is spread. Panics if there are more
+    /// masses than faces.
     pub fn of_target(target: &Target, masses: &[f64], inertia: Inertia) -> Vec<Body> {
         let body = |(face, &mass): (usize, &f64)| Body::of_panel(&target.corners(face), mass, inertia);
         masses.iter().enumerate().map(body).collect()

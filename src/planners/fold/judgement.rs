@@ -21,7 +21,7 @@ pub(crate) struct Motion {
     pub judge: plan::Settings,
 }
 
-/// A motion that the judge lets through.
+/// The figures of a motion that the judge lets through.
 pub(crate) struct Judged {
     /// The number of actions of the program.
     pub actions: u64,
@@ -29,7 +29,7 @@ pub(crate) struct Judged {
     pub verdict: Verdict,
 }
 
-/// The reason why a motion is refused.
+/// The reason why [`judged`] refuses a motion.
 pub(crate) enum Fault {
     /// It can't be scheduled.
     Schedule(behavior::Refusal),
@@ -39,11 +39,12 @@ pub(crate) enum Fault {
     Refused(Box<Failure>),
 }
 
-/// Schedules a motion and puts its plan before the judge; returns the plan's body and program with the verdict.
+/// Schedules a motion (turns its program into joint trajectories) and puts the plan before the judge; returns the
+/// plan's body and program, with the verdict in the report.
 ///
 /// # Errors
-/// [`Fault::Schedule`] if it can't be scheduled, [`Fault::TooFast`] if a stated duration is too short,
-/// [`Fault::Refused`] with the earliest failure of the verdict.
+/// [`Fault::Schedule`] if the program can't be scheduled, [`Fault::TooFast`] if a stated duration is shorter than the
+/// joints' limits allow, [`Fault::Refused`] with the earliest failure of the verdict.
 pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
     let Motion { robot, start, program, world, judge } = motion;
     let (name, bonds) = (robot.name.clone(), robot.bonds.len());

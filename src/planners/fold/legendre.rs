@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-/// The number of terms, and of points at which a function is sampled.
+/// The number of terms of a Legendre series, and of the points at which a function is sampled for it.
 pub(super) const TERMS: usize = 20;
 
 /// The number of points at which signs are compared: more changes between two of them are missed.
@@ -12,7 +12,8 @@ const SIGN_SAMPLES: usize = 48;
 /// Bisections and ternary sections of an interval: to the last digits.
 const SECTIONS: usize = 50;
 
-/// The points and weights of Gauss-Legendre quadrature, with the polynomials there.
+/// The rule of Gauss-Legendre quadrature on -1..1 with [`TERMS`] points: it turns samples of a function there into a
+/// Legendre series.
 pub(super) struct Rule {
     /// The points of the quadrature in -1..1, the roots of the Legendre polynomial of degree [`TERMS`].
     pub points: [f64; TERMS],
@@ -43,19 +44,20 @@ impl Default for Rule {
     }
 }
 
-/// A function on -1..1, by the coefficients of its Legendre polynomials.
+/// A function on -1..1 as a sum of Legendre polynomials; coefficient k is that of degree k, in the function's unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Series([f64; TERMS]);
 
 impl Rule {
-    /// Returns the Legendre series of the function with these values at [`Rule::points`], in their order.
+    /// Returns the Legendre series, to degree [`TERMS`] - 1, of the function with these values at [`Rule::points`], in
+    /// their order; in the unit of the values.
     pub(super) fn series(&self, values: &[f64; TERMS]) -> Series {
         Series(self.terms.map(|term| term.iter().zip(values).map(|(t, v)| t * v).sum()))
     }
 }
 
 impl Series {
-    /// Returns the value of the series at a point in -1..1.
+    /// Returns the value of the series at a point in -1..1, in the function's unit.
     pub(super) fn at(&self, x: f64) -> f64 {
         let p = polynomials::<TERMS>(x);
         self.0.iter().zip(&p).map(|(c, p)| c * p).sum()
@@ -69,8 +71,8 @@ impl Series {
         self.0[0] * (x + 1.0) + higher.sum::<f64>()
     }
 
-    /// Returns mean and peak of the absolute value over -1..1, by the integrals between the roots. A pair of roots
-    /// nearer than 2/`SIGN_SAMPLES` may be missed.
+    /// Returns the mean and the peak of the absolute value over -1..1; the mean is exact between the changes of sign
+    /// found. Two changes of sign nearer to each other than 2/`SIGN_SAMPLES` may be missed.
     pub(super) fn size(&self) -> Size {
         let place = |i: usize| 2.0 * i as f64 / SIGN_SAMPLES as f64 - 1.0;
         let values: [f64; SIGN_SAMPLES + 1] = std::array::from_fn(|i| self.at(place(i)));

@@ -12,8 +12,8 @@ use crate::geometry::{Pose, Vec3};
 /// The number of states of each step that are sampled.
 const SAMPLES: usize = 12;
 
-/// The weights of the faces and the limits of ground and hinges, for the statics of a folding. The root lies on the
-/// ground with its outside down.
+/// The weights of the faces, and the limits of hinge torque and ground penetration, for the statics of a folding. The
+/// root lies on the ground with its outside down.
 #[derive(Clone, Debug)]
 pub struct LoadLimits {
     /// The weight of each face, in the order of [`Target::faces`], N.

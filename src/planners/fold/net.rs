@@ -9,7 +9,7 @@ use super::pattern::{Pattern, Point};
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// A cut net of a layout in the plane: a topological disk of triangles, each a face.
+/// A cut net of a layout in the plane: a topological disk of triangles, each a face of the target.
 #[derive(Clone, Debug)]
 pub struct Net {
     /// The positions of the vertices in the plane, m; the root's first corner is the origin, its first side goes
@@ -40,7 +40,7 @@ pub struct Edge {
 }
 
 impl Net {
-    /// Returns the cut net of a layout of a target; faces of it may overlap in the plane.
+    /// Returns the cut net of a layout of a target; its faces may overlap in the plane.
     pub fn of(target: &Target, layout: &Layout) -> Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();

@@ -98,7 +98,8 @@ impl Effort {
     }
 }
 
-/// The objective function on the layouts and orders of a target, with its conventions.
+/// The objective function of a target: it measures energy and peak torque of layouts and orders of folding under fixed
+/// conventions.
 pub struct Objective<'t> {
     target: &'t Target,
     /// The mass of each face, kg.
@@ -114,7 +115,8 @@ pub struct Objective<'t> {
 
 impl<'t> Objective<'t> {
     /// Returns the objective of a target; `masses`: one for each face in the order of [`Target::faces`], kg.
-    /// `conventions`: the conventions under which torques and energy are computed; `minimise`: the quantity.
+    /// `conventions`: the conventions under which torques and energy are computed; `minimise`: the quantity to
+    /// minimise. Panics if there are more masses than faces.
     pub fn new(
         target: &'t Target,
         masses: Vec<f64>,
@@ -145,8 +147,8 @@ impl<'t> Objective<'t> {
         self.is_greatest_sum().then(|| BoundPrefilter { scale: self.peak_by_mean(), budget: most })
     }
 
-    /// Returns the energy and peak torque of a layout that folds in these steps: each a list of the faces (indices in
-    /// [`Target::faces`]) whose hinges fold at the same time, no two of them on one path from the root.
+    /// Returns the energy and peak torque (N·m) of a layout that folds in these steps: each a list of the faces
+    /// (indices in [`Target::faces`]) whose hinges fold at the same time, no two of them on one path from the root.
     pub fn effort(&self, layout: &Layout, steps: &[Vec<usize>]) -> Effort {
         let Conventions { inertia, count, gravity, step } = self.conventions;
         if self.conventions.is_separable() {
@@ -158,7 +160,7 @@ impl<'t> Objective<'t> {
         Effort { energy: torques.energy(count, steps), peak: torques.peak(count, steps) }
     }
 
-    /// Returns the energy and peak torque of a layout that folds with the leaves first
+    /// Returns the energy and peak torque (N·m) of a layout that folds with the leaves first
     /// ([`leaves_first`](super::steps::leaves_first)).
     pub fn leaves_first(&self, layout: &Layout) -> Effort {
         if self.conventions.is_separable() {
@@ -186,8 +188,8 @@ impl<'t> Objective<'t> {
         if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }
     }
 
-    /// Returns a lower bound for all layouts with these roots (indices in [`Target::faces`]) in the orders given: on
-    /// the peak torque where that is minimised, else on the energy; N·m; infinite without roots.
+    /// Returns a lower bound for all layouts with these roots (indices in [`Target::faces`]) that fold in one of the
+    /// orders `orders`: on the peak torque where that is minimised, else on the energy; N·m; infinite without roots.
     pub fn lower_bound(&self, roots: &[usize], orders: Orders) -> f64 {
         let bounds = match orders {
             Orders::LeavesFirst => self.leaves_first_bounds(roots),

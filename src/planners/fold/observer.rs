@@ -3,7 +3,7 @@
 use crate::planners::Progress;
 use std::cell::{Cell, RefCell};
 
-/// The observer of one planning call: it forwards the reports of all searches to one [`Progress`] and remembers if that
+/// The observer of one planning call: it forwards the reports of all searches to one [`Progress`] and remembers if it
 /// has ended the call.
 pub struct Observer<'p> {
     progress: RefCell<Option<&'p mut dyn Progress>>,
@@ -29,7 +29,8 @@ impl<'p> Observer<'p> {
         }
     }
 
-    /// Returns false once the search has to end with the best solution so far; it stays false.
+    /// Asks the [`Progress`], and returns false once the search has to end with the best solution so far; it stays
+    /// false.
     pub fn should_continue(&self) -> bool {
         let goes_on = match &mut *self.progress.borrow_mut() {
             Some(progress) => progress.should_continue(),

@@ -8,7 +8,7 @@ use std::rc::Rc;
 /// The size of a node by its faces, bytes: a path shared with its parent, a cost, uses, arcs.
 const FACE_BYTES: usize = 48;
 
-/// A node of the search: the layouts of one root with some arcs left out.
+/// A node of the branch and bound tree: all layouts of one root that use only the arcs still allowed.
 pub(super) struct Node {
     /// The root of its layouts, an index in [`Target::faces`](super::target::Target::faces).
     pub(super) root: usize,
@@ -20,7 +20,7 @@ pub(super) struct Node {
     pub(super) ways: Option<NodePaths>,
 }
 
-/// The relaxed solution of a node.
+/// The solution of the relaxed problem at a node: a shortest path to each face, with the multipliers.
 pub(super) struct NodePaths {
     /// The arcs that are not left out.
     pub(super) allowed: Allowed,
@@ -59,7 +59,7 @@ impl PartialEq for Node {
 impl Eq for Node {}
 
 impl Node {
-    /// Returns an estimate of its size, bytes; 0 while only its bound is known.
+    /// Returns an estimate of the memory that the node takes, bytes; 0 while only its bound is known.
     pub(super) fn size(&self) -> usize {
         let Some(ways) = &self.ways else { return 0 };
         FACE_BYTES * ways.paths.len() + size_of_val(&*ways.multipliers)

@@ -52,7 +52,7 @@ impl Orders {
 }
 
 /// Returns for each root, by face, the lower bound on the energy of all layouts in these orders, N·m for steps of one
-/// second; `masses`: by face, kg.
+/// second; `masses`: by face, kg; `inertia`: how the mass of a panel is spread.
 pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders: Orders) -> Vec<f64> {
     let faces = masses.len();
     let angles = least_angles(target);

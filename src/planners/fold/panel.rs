@@ -16,7 +16,7 @@ const STEP_GRAIN: f64 = 0.01;
 /// The time of a step whose hinges have no limits of speed and acceleration, s.
 const STEP_UNLIMITED: f64 = 1.0;
 
-/// A triangular panel in numbers: geometry, mass, and the limits of the hinges at its edges.
+/// A triangular panel module in numbers: geometry, mass, and the limits of the hinges at its edges.
 #[derive(Clone, Debug)]
 pub struct Panel {
     /// The mass of the panel, kg.

@@ -23,7 +23,7 @@ use crate::interrupt;
 /// Rounds of the multiplicative-weights ascent over shares.
 const ROUNDS: usize = 400;
 
-/// The result of [`least`] for one root.
+/// The result of [`least`] for one root: the layout found and a lower bound.
 pub(super) struct Least {
     /// The best layout found that lies flat, with its greatest mean torque, N·m for steps of one second; `None` if none
     /// better than the known one was found.
@@ -32,8 +32,9 @@ pub(super) struct Least {
     pub bound: f64,
 }
 
-/// Searches for the layout with the root `root` (an index in [`Target::faces`]) of least greatest mean torque below
-/// `known`, N·m for steps of one second; `steps` counts down the faces that are assigned, and at 0 the search ends.
+/// Searches for the layout with the root `root` (an index in [`Target::faces`]) whose greatest mean hinge torque is
+/// least, among those below `known`, N·m for steps of one second. `steps` counts down the faces assigned to parents,
+/// and at 0 the search ends.
 pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64, steps: &mut u64) -> Least {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);
@@ -66,8 +67,8 @@ pub(super) fn least(target: &Target, weights: &Weights, root: usize, known: f64,
     Least { layout: deal.best, bound }
 }
 
-/// Returns the lower bound on the greatest mean torque of layouts with the root `root` (an index in [`Target::faces`])
-/// that the Lagrangian relaxation gives without a search, N·m for steps of one second.
+/// Returns the lower bound on the greatest mean torque of a hinge of layouts with the root `root` (an index in
+/// [`Target::faces`]) that the Lagrangian relaxation gives without a search, N·m for steps of one second.
 pub(super) fn relaxed(target: &Target, weights: &Weights, root: usize) -> f64 {
     let around: Vec<(usize, usize)> = target.around(root).collect();
     let faces = by_distance(target, root);

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// whose radius is the thickness.
 const FOLD_MAX: f64 = 2.0 * PI / 3.0;
 
-/// A uniform plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
+/// A uniform triangular plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate {

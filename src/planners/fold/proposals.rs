@@ -20,7 +20,7 @@ const KEPT: usize = 4096;
 /// methods where none of the first layouts is let through.
 const NEXT_BEST: u64 = 4;
 
-/// Layouts that may be the answer, with their values and bounds.
+/// The layouts proposed to the judge, best first, with their values and lower bounds.
 pub(super) struct Proposals {
     /// The layouts proposed, the best first; none that was passed over is better than those that follow.
     pub layouts: Vec<Layout>,
@@ -42,20 +42,21 @@ pub(super) struct Proposals {
 }
 
 impl Proposals {
-    /// Returns the settings of the search for the next best layout, with its part of the budget; `None` if there is no
-    /// such search.
+    /// Returns the settings of a branch and bound for the next best layout, with a quarter of the budget; `None` if
+    /// there is no such search.
     pub(super) fn next_best(&self) -> Option<branch_and_bound::Settings> {
         self.next.map(|next| branch_and_bound::Settings { budget: next.budget / NEXT_BEST, ..next })
     }
 
-    /// Returns the lower bound for all layouts that lie flat but those before `index` (from 0) in the list: the least
-    /// value from there on, if the list is complete, else [`Proposals::bound`]; N·m.
+    /// Returns a lower bound on the energy (or on the peak torque, if `minimise` says so) of all layouts that lie flat
+    /// except those before `index` (from 0) in the list, N·m: the least value from there on if the list is complete,
+    /// else [`Proposals::bound`]. Panics if a complete list is shorter than `index`.
     pub(super) fn bound_from(&self, index: usize, minimise: Minimise) -> f64 {
         self.values.as_ref().map_or(self.bound, |values| least_from(values, index, minimise))
     }
 
-    /// Returns true if no layout that lies flat is left out between those proposed: if the steps are minimised,
-    /// none with fewer steps comes after one with more.
+    /// Returns true if the layouts are known to come in order of their value: none that lies flat is passed over before
+    /// the last one proposed.
     pub(super) fn is_gapless(&self) -> bool {
         self.next.is_some() || self.values.is_some()
     }
@@ -79,10 +80,11 @@ fn least_from(values: &[[f64; 2]], index: usize, minimise: Minimise) -> f64 {
 }
 
 impl Task<'_> {
-    /// Searches layouts by the method of the settings; a layout that the problem gives is the only one.
+    /// Searches layouts by the method that the settings name; a layout that the problem prescribes is the only one.
     ///
     /// # Errors
-    /// There is no layout that lies flat, or none was found within the budget, or the method does not reach.
+    /// A [`Refusal`] if no layout lies flat, none was found within the budget, or the target has too many faces for
+    /// enumeration.
     pub(super) fn proposals(&self) -> Result<Proposals, Refusal> {
         if let Some(pairs) = &self.problem.hinges {
             return self.given(pairs);
@@ -95,7 +97,8 @@ impl Task<'_> {
         }
     }
 
-    /// Returns a torque or an energy (N·m) for steps of the call's time from one for steps of one second.
+    /// Converts a torque or an energy (N·m) for steps of one second to one for the step time of the call: divides it by
+    /// the square of that time in seconds.
     pub(super) fn scaled(&self, energy: f64) -> f64 {
         energy / (self.conventions.step * self.conventions.step)
     }

@@ -23,9 +23,9 @@ pub struct Sample {
     pub greatest: f64,
 }
 
-/// Compares the costs of `orders` random orders of a layout's faces with a reference cost. `takes` returns the cost
-/// of an order that was laid into steps by [`steps::of_order`], in the unit of `reference`. The same `seed` gives the
-/// same orders. `observer` receives reports and may end the sampling.
+/// Compares the costs of `orders` random orders of a layout's faces with a reference cost. `takes` returns the cost of
+/// an order, given as the steps that it was laid into by [`steps::of_order`], in the unit of `reference`. The same
+/// `seed` gives the same orders. `observer` receives reports and may end the sampling.
 pub fn sample(
     layout: &Layout,
     orders: u64,

@@ -33,7 +33,7 @@ const PAIRS_MAX: usize = 10_000_000;
 /// The least increase of the torque limit that is tried next, as a fraction of it.
 const LIMIT_STEP: f64 = 0.02;
 
-/// The search for a layout that folds in any order.
+/// The search for a layout that folds in some order of its hinges, whatever order the settings ask for.
 pub(super) struct Reordering<'t> {
     task: &'t Task<'t>,
     limits: Option<LoadLimits>,
@@ -57,7 +57,8 @@ enum Evaluated {
 type Ended = Option<Option<Outcome>>;
 
 impl<'t> Reordering<'t> {
-    /// Sets up the search with its whole budget of samples; ground and hinges limit it if the call has gravity.
+    /// Sets up the search with its whole budget of collision samples; with gravity, ground and hinge torques limit the
+    /// orders.
     pub(super) fn new(task: &'t Task<'t>) -> Reordering<'t> {
         let panel = &task.panels.weakest;
         let limits = (task.conventions.gravity != 0.0).then(|| LoadLimits {
@@ -70,11 +71,12 @@ impl<'t> Reordering<'t> {
         Reordering { task, limits, judged: 0, samples_left: PAIRS_MAX / (faces * faces) }
     }
 
-    /// Returns the best layout among those that are known or can be searched that folds in some order and that the
-    /// judge lets through; `None` if none does within the budget.
+    /// Returns the first layout, in order of the minimised quantity, for which the judge lets some order of folding
+    /// through; `None` if there is none within the budget. Iterative deepening: what one pass leaves open is tried
+    /// again with more samples. `found`: the layouts known so far, and the search for more.
     ///
     /// # Errors
-    /// A reason that holds for every layout, as [`Task::judged`] says.
+    /// A [`Refusal`] that holds for every layout, as [`Task::judged`] says.
     pub(super) fn first(&mut self, found: &Proposals) -> Result<Option<Outcome>, Refusal> {
         let mut open = Vec::new();
         let mut ended = match found.next_best() {
@@ -182,8 +184,8 @@ impl<'t> Reordering<'t> {
         Ok(evaluated)
     }
 
-    /// Returns the least torque that hinges would have to hold under gravity for one of the layouts to fold; `None`
-    /// without gravity, and if no order was found for stronger hinges either.
+    /// Returns the least hinge torque limit (N·m) with which samples show an order under gravity for one of the layouts
+    /// in `found`; `None` without gravity, and if no order was found for stronger hinges either.
     ///
     /// # Errors
     /// [`Refusal::SequenceTooHigh`], as [`Task::steps`] says.

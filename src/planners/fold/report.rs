@@ -74,8 +74,8 @@ impl Report {
     }
 
     /// Compares the energy of the folding with the energies (N·m) of `orders` random orders of the same layout, under
-    /// the same conventions (Sec. 5.3.2 of [Yao et al.](super)). The same `seed` gives the same orders; `progress` is
-    /// told, but can't end it.
+    /// the same conventions (Sec. 5.3.2 of [Yao et al.](super)). The same `seed` gives the same orders; `progress`
+    /// receives reports, but can't end it.
     pub fn random_orders(&self, orders: u64, seed: u64, progress: &mut dyn Progress) -> Sample {
         let objective = Objective::new(&self.target, self.masses.clone(), self.conventions, self.minimise);
         let energy = |steps: &[Vec<usize>]| objective.effort(&self.layout, steps).energy;

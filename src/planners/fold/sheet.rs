@@ -8,7 +8,7 @@ use crate::plan::{Action, CauseId, Command, Node, Otherwise, Profile, Target as 
 use crate::robot::{Assembly, Bond, JointId, Kinematics, ModuleInstance, PortRef, State};
 use std::sync::Arc;
 
-/// A layout as an assembly of panels that are joined by hinges.
+/// A layout as a robot: an assembly of panel modules that are joined by hinges, flat at first.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// The assembly: module k is the panel of face k of the target; bond i joins face `layout.order[i + 1]` to its
@@ -25,7 +25,7 @@ pub struct Sheet {
 pub struct NoHinge;
 
 impl Sheet {
-    /// Returns the panels of a target joined by the hinges of a layout.
+    /// Returns the assembly of the panels of a target, bonded along the hinges of a layout and lying flat.
     ///
     /// # Errors
     /// [`NoHinge`] if the connector of a bond of the layout has no hinge.
@@ -55,8 +55,8 @@ impl Sheet {
         Ok(Sheet { assembly, joints, flat })
     }
 
-    /// Returns the state in which every hinge is at its fold angle in the target, all bonds are closed, and the
-    /// root's panel is at the origin. `target` and `layout`: the surface and the layout that the sheet was made from.
+    /// Returns the state in which every hinge is at its fold angle in the target, all bonds are closed, and the root's
+    /// panel is at the world's origin. `target` and `layout`: the surface and the layout that the sheet was made from.
     pub fn folded(&self, target: &Target, layout: &Layout) -> State {
         let mut state = self.flat.clone();
         for (joint, face) in self.joints.iter().zip(&layout.order[1..]) {
@@ -66,7 +66,7 @@ impl Sheet {
     }
 
     /// Returns the joint of the hinge between a face (an index in [`Target::faces`]) and its parent. `layout`: the
-    /// layout that the sheet was made from. Panics for the root, which has none.
+    /// layout that the sheet was made from. Panics for the root, which has none, and for an index that is no face.
     pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
         let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
         self.joints[place - 1]
@@ -75,7 +75,7 @@ impl Sheet {
     /// Returns the program that folds the sheet in steps of `time` seconds; `order`: for each step the faces (indices
     /// in [`Target::faces`]) whose hinges fold at the same time. Hinges that stay level get no action, steps without
     /// motion are left out, and all actions have cause 0. `target` and `layout`: the surface and the layout that the
-    /// sheet was made from. Panics if `order` names the root.
+    /// sheet was made from. The root, if named, gets no action either.
     pub fn program(&self, target: &Target, layout: &Layout, order: &[Vec<usize>], time: f64) -> Arc<Node> {
         let moving = |faces: &Vec<usize>| -> Vec<Arc<Node>> {
             let angles = faces.iter().map(|face| (*face, layout.angle(target, *face)));
@@ -93,7 +93,7 @@ pub(crate) fn turn(joint: JointId, to: f64, time: f64) -> Node {
     action(Command::Move { joint, target, duration: Some(time), profile: Profile::Smooth })
 }
 
-/// Returns a command as an action of cause 0 that waits for nothing.
+/// Returns a command as a plan node: an action of cause 0 without a condition to wait for and without a timeout.
 pub(crate) fn action(command: Command) -> Node {
     let otherwise = Otherwise::Proceed;
     Node::Action(Action { command, until: None, timeout: None, otherwise, cause: CauseId(0) })

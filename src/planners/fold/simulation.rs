@@ -8,7 +8,7 @@ use super::legendre::{Rule, Series, Size, TERMS};
 use super::target::Target;
 use crate::geometry::Vec3;
 
-/// The time of steps and the gravity of a simulation.
+/// The duration of a step and the gravity of a simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Circumstances {
     /// The duration of a step, s.
@@ -41,9 +41,9 @@ pub enum Count {
 const HALVES: [f64; 2] = [0.25, 0.75];
 
 /// Simulates a folding in steps by inverse dynamics (Alg. 1 of [Yao et al.](super)): in each step the hinges of its
-/// faces go from level to folded by the quintic law, and all others are locked. `bodies`: one for each face, in the
-/// order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold. `target` and `layout`:
-/// the surface and how it is unfolded; `circumstances`: the duration of a step, and gravity.
+/// faces go from level to folded by the quintic law, and all others are locked. Torques are in N·m. `bodies`: one for
+/// each face, in the order of [`Target::faces`]; `steps`: for each step the faces (indices) whose hinges fold. `target`
+/// and `layout`: the surface and how it is unfolded; `circumstances`: the duration of a step, and gravity.
 pub fn simulate(
     target: &Target,
     layout: &Layout,

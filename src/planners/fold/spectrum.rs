@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// The greatest number of bins; further energies are counted together.
 const DIFFERENT_MAX: usize = 4_000_000;
 
-/// A histogram of energies in narrow bins.
+/// A histogram of layout energies in narrow bins, from which levels with their multiplicities are read.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     unit: f64,
@@ -16,8 +16,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Returns an empty spectrum; `unit`: a positive energy of the order of magnitude of those that will be counted,
-    /// in their unit; a bin is `TOLERANCES.energy_grain` of it wide.
+    /// Returns an empty histogram. `unit`: a positive energy of the order of magnitude of those that will be counted; a
+    /// bin is the fraction `TOLERANCES.energy_grain` of it wide.
     pub fn new(unit: f64) -> Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }

@@ -31,13 +31,13 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
     steps
 }
 
-/// Lays an order of faces into the fewest steps in which each face folds after every face that precedes it in the
-/// order and is above or below it in the tree: one step after the last of these. `order`: indices of faces in the
-/// target, each at most once, without the root. The result has one list of faces for each step, each ascending.
-/// `layout`: the tree.
+/// Lays an order of faces into the fewest steps in which each face folds after every face that precedes it in the order
+/// and is above or below it in the tree: one step after the last of these. `order`: indices of faces in the target,
+/// each at most once, without the root. The result has one list of faces for each step, each ascending. `layout`: the
+/// tree. Panics if `order` names a face that the tree has not.
 ///
-/// This is the purpose of Alg. 3 of [Yao et al.](super), which as printed puts all faces into one step, loses the
-/// last, and may let a face overtake another on its path.
+/// This is the purpose of Alg. 3 of [Yao et al.](super), which as printed puts all faces into one step, loses the last,
+/// and may let a face overtake another on its path.
 pub fn of_order(layout: &Layout, order: &[usize]) -> Vec<Vec<usize>> {
     let mut step = vec![0; layout.parent.len()];
     let mut steps: Vec<Vec<usize>> = Vec::new();

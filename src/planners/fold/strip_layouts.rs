@@ -69,7 +69,8 @@ const IMPROVED_MAX: usize = 3;
 /// The remaining budget divided by this is that of each improvement of such a layout, and is kept for them.
 const IMPROVEMENT_SHARE: usize = 4;
 
-/// A search for layouts made of strips of faces, which lie flat and fold with the leaves first without collision.
+/// A randomised search for layouts made of strips of faces, which lie flat and fold with the leaves first without
+/// collision. Nothing is proved.
 pub struct StripSearch<'t> {
     /// The surface that is folded, with its faces and hinges.
     pub target: &'t Target,
@@ -108,7 +109,7 @@ impl Conflicts {
 
 impl StripSearch<'_> {
     /// Returns layouts that lie flat and in which no sample shows a collision while they fold with the leaves first,
-    /// that of least energy first; empty if none was found. Panics without roots.
+    /// that of least energy first; empty if none was found. Uses up [`StripSearch::states_left`]. Panics without roots.
     pub fn layouts(&mut self) -> Vec<Layout> {
         let mut starts: Vec<(Conflicts, Layout)> = Vec::new();
         for layout in self.trees().into_iter().chain(self.cheap.iter().take(CHEAP_MAX).cloned()) {

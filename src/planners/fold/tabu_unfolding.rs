@@ -25,8 +25,9 @@ const PAIRS: usize = 64;
 /// Exchanges per face after which the search ends.
 const MOVES: usize = 24;
 
-/// Searches a layout that lies flat, from one that need not, by exchanges of hinges, and lowers its energy; `steps`
-/// counts down the steps of the search. `None` if they are used up, or none was found in a number of rounds
+/// Searches a layout that lies flat from one whose pattern may overlap, by random exchanges of hinges with a tabu list
+/// ("Tabu Unfolder", Zawallich and Pajarola), and then lowers its energy. `steps` counts down as the search works;
+/// `seed` fixes its random numbers. `None` if the steps are used up, or none was found in a number of rounds
 /// proportional to the faces.
 pub(super) fn without_overlaps(
     target: &Target,
@@ -72,19 +73,19 @@ pub(super) struct TabuExchange<'t> {
 }
 
 impl<'t> TabuExchange<'t> {
-    /// Makes an empty tabu list.
+    /// Returns exchanges for a target with an empty tabu list; `seed` fixes their random numbers.
     pub(super) fn new(target: &'t Target, seed: u64) -> TabuExchange<'t> {
         TabuExchange { target, rng: SplitMix64(seed), out_until: vec![0; target.hinges.len()] }
     }
 
-    /// Returns one of the pairs at random; `None` if there are none.
+    /// Returns one of the pairs of faces, drawn uniformly at random; `None` if there are none.
     pub(super) fn one_of(&mut self, pairs: &[[usize; 2]]) -> Option<[usize; 2]> {
         pairs.get(self.rng.below(pairs.len().max(1))).copied()
     }
 
-    /// Returns a layout without one of the hinges `between` (indices in [`Target::hinges`], at least one), chosen at
-    /// random, and that hinge: another one that is not tabu in this round joins the two parts. `None` if no such hinge
-    /// does.
+    /// Drops one of the hinges `between` (indices in [`Target::hinges`], at least one), chosen at random, and joins the
+    /// two parts of the layout across another hinge that is not tabu in `round`. Returns the new layout and the index
+    /// of the dropped hinge; `None` if no such hinge joins them. Panics if `between` is empty.
     pub(super) fn exchange(
         &mut self,
         now: &Layout,

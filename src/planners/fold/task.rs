@@ -25,7 +25,7 @@ use crate::planners::Solution;
 /// Standard gravity, in which the weights of panels are stated also where the problem has no gravity, m/s².
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// A planning call at work.
+/// A call of the planner: the problem and the settings, with all that follows from them before any layout is searched.
 pub(super) struct Task<'p> {
     /// The problem that the call states.
     pub problem: &'p Problem,
@@ -45,7 +45,7 @@ pub(super) struct Task<'p> {
     pub objective: Objective<'p>,
 }
 
-/// A layout with an order that the judge lets through.
+/// A layout with an order of folding that the judge lets through, and the plan.
 pub(super) struct Outcome {
     /// The plan of the folding with its verdict.
     pub solution: Solution<Judged>,
@@ -56,10 +56,11 @@ pub(super) struct Outcome {
 }
 
 impl<'p> Task<'p> {
-    /// Checks a problem and its settings.
+    /// Checks a problem and its settings, and determines conventions, possible roots and the objective.
     ///
     /// # Errors
-    /// Settings that do not go together, and shapes that no layout folds.
+    /// A [`Refusal`]: a root that is no face or does not lie on the ground, settings that do not go together, or panels
+    /// that penetrate each other in the target.
     pub(super) fn new(
         problem: &'p Problem,
         settings: &'p Settings,
@@ -74,16 +75,17 @@ impl<'p> Task<'p> {
         Ok(Task { problem, settings, observer, target, panels, conventions, roots, objective })
     }
 
-    /// Returns the weight of each face under standard gravity, by face, N.
+    /// Returns the weight of each face under standard gravity (9.80665 m/s²), N, in the order of [`Target::faces`].
     pub(super) fn loads(&self) -> Vec<f64> {
         self.panels.masses.iter().map(|mass| mass * STANDARD_GRAVITY).collect()
     }
 
-    /// Returns the order of a layout that the settings ask for: for each step the faces (indices in [`Target::faces`])
-    /// whose hinges fold in it.
+    /// Returns the order in which the settings let a layout fold: for each step the faces (indices in
+    /// [`Target::faces`]) whose hinges fold in it.
     ///
     /// # Errors
-    /// [`Refusal::SequenceTooHigh`] for the order of least energy in a high tree.
+    /// [`Refusal::SequenceTooHigh`] if the settings ask for the order of least energy and the tree is higher than
+    /// [`energy_order::HEIGHT_MAX`].
     pub(super) fn steps(&self, layout: &Layout) -> Result<Vec<Vec<usize>>, Refusal> {
         Ok(match self.settings.sequence {
             Sequence::LeavesFirst => steps::leaves_first(layout),
@@ -112,7 +114,8 @@ impl<'p> Task<'p> {
         }
     }
 
-    /// Returns the world of the plan: weightless, or with the root held on the ground.
+    /// Returns the world that the plan assumes: without gravity and ground, or with the problem's gravity and the root
+    /// held on the ground.
     pub(super) fn world(&self) -> World {
         if self.problem.gravity == 0.0 {
             return World::FREE;
@@ -129,10 +132,12 @@ impl<'p> Task<'p> {
         shifted(Vec3::new(0.0, 0.0, thickness / 2.0)) * turned(Vec3::x(), std::f64::consts::PI)
     }
 
-    /// Puts a layout that folds in these steps before the judge; the inner error is its first failure.
+    /// Puts a layout that folds in these steps (faces as indices in [`Target::faces`]) before the judge; the inner
+    /// error is its first failure.
     ///
     /// # Errors
-    /// A reason that holds for every layout: no hinges, steps that are too short, a program that can't be scheduled.
+    /// A [`Refusal`] that holds for every layout: a connector without a hinge, steps that are too short, or a program
+    /// that can't be scheduled.
     pub(super) fn judged(
         &self,
         layout: &Layout,

@@ -10,8 +10,9 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use std::f64::consts::PI;
 
-/// Returns the least angle (rad) to which two panels of a thickness (m) can close on a hinge of a radius (m); π, level,
-/// if the radius is at most half the thickness.
+/// Returns the least dihedral angle (rad) to which two panels of a thickness (m) can close on a hinge of a radius (m),
+/// where `sin(angle / 2) = thickness / 2 / radius` (Eq. 1 of [Yao et al.](super)); π, level, if the radius is at most
+/// half the thickness.
 pub fn least_opening(thickness: f64, radius: f64) -> f64 {
     2.0 * libm::asin((thickness / 2.0 / radius).clamp(0.0, 1.0))
 }

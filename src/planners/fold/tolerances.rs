@@ -74,7 +74,7 @@ impl Tolerances {
     }
 }
 
-/// The tolerances with which every search of this planner computes.
+/// The values of the tolerances that every search of this planner uses.
 pub const TOLERANCES: Tolerances = Tolerances {
     side: 1e-6,
     same_panel: 1e-9,

@@ -10,7 +10,8 @@
 use super::inertia::{Inertia, moment_about};
 use super::target::Target;
 
-/// `∫ |s''|` of the quintic `10x³ - 15x⁴ + 6x⁵` over 0..1: twice its greatest slope.
+/// The integral of `|s''|` over 0..1, without unit, for the quintic time law `s = 10x³ - 15x⁴ + 6x⁵`: twice its
+/// greatest slope.
 pub(super) const QUINTIC: f64 = 3.75;
 
 /// The cost of every hinge for carrying every face: the mean absolute torque that the face adds while the hinge folds,
@@ -25,7 +26,7 @@ pub struct Weights {
 
 impl Weights {
     /// Returns the weights of a target; `masses`: one for each face in the order of [`Target::faces`], kg. `inertia`:
-    /// how the mass of a panel is spread. Panics if there are too few.
+    /// how the mass of a panel is spread. Panics if there are more masses than faces.
     pub fn new(target: &Target, masses: &[f64], inertia: Inertia) -> Weights {
         let faces = target.faces.len();
         let mut table = Vec::with_capacity(faces * target.hinges.len());
@@ -39,7 +40,8 @@ impl Weights {
         Weights { faces, table }
     }
 
-    /// Returns the weights of a target whose panels have one mass each (kg), spread evenly without thickness.
+    /// Returns the weights of a target whose panels have one mass each (kg), spread evenly over the triangle without
+    /// thickness.
     pub fn uniform(target: &Target, mass: f64) -> Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)
     }
@@ -58,13 +60,13 @@ impl Weights {
         &self.table[hinge * self.faces..][..self.faces]
     }
 
-    /// Returns the greatest weight, the scale for tolerances, N·m for steps of one second.
+    /// Returns the greatest weight of any hinge for any face, N·m for steps of one second: the scale for tolerances.
     pub fn greatest(&self) -> f64 {
         self.table.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Returns the weights with `extra[hinge]`, N·m for steps of one second, added to those of each hinge for every
-    /// face.
+    /// Returns a copy of the weights in which the cost of each hinge for every face is greater by `extra[hinge]`, N·m
+    /// for steps of one second. Panics if `extra` has fewer entries than there are hinges.
     pub(crate) fn perturbed(&self, extra: &[f64]) -> Weights {
         let table = self.table.iter().enumerate().map(|(i, w)| w + extra[i / self.faces]).collect();
         Weights { faces: self.faces, table }

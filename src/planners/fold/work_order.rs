@@ -30,10 +30,10 @@ pub struct WorkOrder {
     pub optimal: bool,
 }
 
-/// Returns the order of least work against gravity of a layout whose root lies on the ground with its outside down,
-/// by dynamic programming over subsets of hinges, branch by branch of the root; `weights`: by face, N. Of a branch
-/// too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and root first. `target`: the surface
-/// that the layout is of.
+/// Returns the order of least work against gravity (Eq. 17 of [Yao et al.](super)) of a layout whose root lies on the
+/// ground with its outside down, by dynamic programming over subsets of hinges, branch by branch of the root;
+/// `weights`: by face, N. Of a branch too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and
+/// root first. `target`: the surface that the layout is of.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
     let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {
