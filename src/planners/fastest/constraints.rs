@@ -12,7 +12,8 @@ use crate::robot::Drive;
 /// The points of an interval at which its limits are imposed, as parts of it.
 const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The inequality `a x + b y <= c`, with `a² + b² = 1`.
+/// The inequality `a x + b y <= c`, with `a² + b² = 1`, on the squared velocities x and y (unit of the path's parameter
+/// squared, per s²) at the beginning and the end of an interval of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HalfPlane {
     /// The factor of the squared velocity at the beginning.
@@ -24,14 +25,14 @@ pub(super) struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// Returns the inequality, normalised; `None` if it says nothing about x and y.
+    /// Returns the inequality `a x + b y <= c`, scaled so that `a² + b² = 1`; `None` if a and b are both 0.
     pub(super) fn new(a: f64, b: f64, c: f64) -> Option<HalfPlane> {
         let size = libm::hypot(a, b);
         (size > 0.0).then(|| HalfPlane { a: a / size, b: b / size, c: c / size })
     }
 }
 
-/// The limits in one interval.
+/// The limits of speed, acceleration and torque in one interval of the grid, as inequalities.
 pub(super) struct Interval {
     /// The inequalities.
     pub(super) planes: Vec<HalfPlane>,
@@ -40,8 +41,9 @@ pub(super) struct Interval {
     pub(super) at_rest: Option<AtRest>,
 }
 
-/// Returns the path at a point of an interval of its grid: the part `part`, from 0 to 1, of the way from the parameter
-/// `from` to `to`. No piece of the path ends inside.
+/// Returns positions and derivatives of all joints at a point of an interval of the grid: the fraction `part`, 0 to 1,
+/// of the way from the parameter `from` to `to` (rad, m or s, as [`Stretch::path`] says). No piece of the path may end
+/// inside the interval.
 pub(super) fn point(stretch: &Stretch, from: f64, to: f64, part: f64) -> PathPoint {
     let joints = stretch.start.len();
     let mut point = PathPoint { q: stretch.start.clone(), d: vec![0.0; joints], dd: vec![0.0; joints] };
@@ -60,8 +62,9 @@ pub(super) fn point(stretch: &Stretch, from: f64, to: f64, part: f64) -> PathPoi
     point
 }
 
-/// Returns the limits in the interval of a grid between two parameters. `usable`: the part of each limit of
-/// acceleration and of squared speed that may be used; of torques the reserve is left.
+/// Returns the limits in the interval of a grid between two parameters (rad, m or s, as [`Stretch::path`] says),
+/// imposed at its beginning, middle and end. `usable`: the fraction, 0 to 1, of each limit of acceleration and of
+/// squared speed that may be used; `torques` has its own reserve, and is `None` where torques do not count.
 pub(super) fn interval(
     stretch: &Stretch,
     drives: &[Drive],

@@ -4,7 +4,7 @@ use super::Refusal;
 use super::path::Stretch;
 use crate::robot::{Assembly, Drive, drives};
 
-/// Returns the joints and motors of a robot that state a limit of speed or acceleration.
+/// Returns the drives (joints and motors) of a robot that state a limit of speed or acceleration.
 pub(super) fn limited(robot: &Assembly) -> Vec<Drive> {
     let mut found = drives(robot);
     found.retain(|drive| drive.limits.speed.is_some() || drive.limits.acceleration.is_some());
@@ -14,7 +14,7 @@ pub(super) fn limited(robot: &Assembly) -> Vec<Drive> {
 /// Checks that every joint that moves in a stretch states an acceleration limit, or is driven by a motor that does.
 ///
 /// # Errors
-/// [`Refusal::NoAcceleration`] for the first that does not.
+/// [`Refusal::NoAcceleration`] for the first joint for which neither holds.
 pub(super) fn check(stretch: &Stretch, robot: &Assembly, drives: &[Drive]) -> Result<(), Refusal> {
     for track in &stretch.path {
         let id = track.joint.0 as usize;

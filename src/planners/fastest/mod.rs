@@ -102,14 +102,14 @@ use tolerances::TOLERANCES;
 /// rounding of durations and control points is left.
 const SCALINGS_MAX: u32 = 12;
 
-/// A plan to be retimed: to take its path in less time.
+/// A problem of retiming: a plan whose path is to be taken in less time.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// The plan, of an articulated robot.
     pub plan: &'a Plan,
 }
 
-/// The settings of a call.
+/// The settings of [`plan`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The part of the limits of torque and of the loads of bonds that is left unused, without unit, from 0 to below 1.
@@ -234,9 +234,9 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Returns the motion of a plan along the same path in the least time that its limits allow, up to the grid: tracks
-/// with the causes of the old ones, docking at the same places. Worlds and exemptions are moved by the clock of the
-/// report ([`crate::plan::retimed`]).
+/// Returns the motion of a plan along the same path in the least time that its limits allow, up to the resolution of
+/// the grid (TOPP-RA, Pham and Pham 2018): tracks with the causes of the old ones, and docking at the same points of
+/// the path. Worlds and exemptions are moved by the clock of the report ([`crate::plan::retimed`]).
 ///
 /// Torque and loads of bonds count under full dynamics only. The torques of a robot whose base a fixture holds limit
 /// the time law itself; for all other loads stretches are slowed down as a whole until the judge passes them.

@@ -8,7 +8,7 @@ use crate::plan::time::{tick_after, tick_near};
 use crate::plan::{DockingEvent, Segment, Track, Tracks};
 use crate::robot::Drive;
 
-/// A part of a plan with its time law.
+/// A part of a plan, a pause or a stretch in motion, with its time law.
 pub(super) enum Timed {
     /// A pause with its begin and end in the plan, s.
     Pause(f64, f64),
@@ -53,8 +53,8 @@ struct ClockLaw {
 }
 
 impl Clock {
-    /// Returns the time in the retimed plan (s) for a time of the plan (s), never decreasing, on a whole tick; times
-    /// before the begin and after the end count as these.
+    /// Returns the time in the retimed plan (s) for a time of the plan (s), never decreasing, on a whole tick; a time
+    /// before the beginning counts as the beginning, one after the end as the end.
     pub fn at(&self, time: f64) -> f64 {
         let last = self.parts.partition_point(|part| part.from <= time);
         let Some(part) = last.checked_sub(1).map(|i| &self.parts[i]) else { return 0.0 };
@@ -74,19 +74,19 @@ impl Clock {
         tick_near(times[next - 1] + w * (times[next] - times[next - 1])).clamp(part.start, part.end)
     }
 
-    /// Returns the new duration, s.
+    /// Returns the duration of the retimed plan, s.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Returns the new begin and end of each part, s, in order.
+    /// Returns the beginning and the end of each part of the plan in the retimed plan, s, in order of time.
     pub(super) fn spans(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.parts.iter().map(|part| (part.start, part.end))
     }
 }
 
 impl Timed {
-    /// Returns a part with a law that is given for it, not slowed down. Panics if a stretch has none.
+    /// Returns a part with its time law, not slowed down; a pause ignores `law`. Panics if a stretch has none.
     pub(super) fn new(part: Part, law: Option<TimeLaw>) -> Timed {
         match part {
             Part::Pause { from, to } => Timed::Pause(from, to),
@@ -127,8 +127,9 @@ fn piece(track: &Track, nodes: &[f64], speeds: &[f64]) -> Option<Segment> {
     Some(piece)
 }
 
-/// Returns for each interval of a law the greatest of the ratios of speeds to their limits, and of the roots of those
-/// of accelerations: the factor on its duration with which all limits hold.
+/// Returns for each interval of a time law the factor on its duration with which all limits of speed and acceleration
+/// hold: the greatest of all ratios of speed to its limit and of the square roots of those of acceleration, without
+/// unit; above 1 where a limit is exceeded.
 pub(super) fn ratios(stretch: &Stretch, law: &TimeLaw, drives: &[Drive]) -> Vec<f64> {
     let times = durations(law, 1.0);
     let of = |k: usize| {
@@ -173,7 +174,8 @@ fn ratio(drive: &Drive, pieces: &[(usize, Vec<f64>)], time: f64) -> f64 {
     speed.max(libm::sqrt(acceleration))
 }
 
-/// Returns the tracks of a plan, with its docking, in its new time, and the clock.
+/// Returns the tracks of a plan composed with the time laws of its parts, docking included, and the map from old times
+/// to new ones. `old`: the tracks of the plan; `parts`: its parts in order of time.
 pub(super) fn tracks(old: &Tracks, parts: &[Timed]) -> (Tracks, Clock) {
     let mut new: Vec<Track> =
         old.tracks.iter().map(|t| Track { joint: t.joint, segments: Vec::new() }).collect();

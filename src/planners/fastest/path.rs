@@ -19,7 +19,7 @@ pub(super) enum Part {
     Stretch(Stretch),
 }
 
-/// A part of the path from rest to rest.
+/// A part of a plan in which joints move, from rest to rest: its path over a parameter that takes the place of time.
 #[derive(Clone)]
 pub(super) struct Stretch {
     /// The beginning in the plan, s.
@@ -50,7 +50,7 @@ enum Places {
     Time,
     /// The parameter is the distance that leaders have gone: for each of the straight stretches that are joined, the
     /// distance before it (rad or m), and the segments of its leader in the plan.
-    Ways(Vec<(f64, Vec<Segment>)>),
+    Distances(Vec<(f64, Vec<Segment>)>),
 }
 
 /// An instant of the plan at which the velocities of joints change, or bonds do.
@@ -63,7 +63,8 @@ struct Instant {
     rest: [bool; 2],
 }
 
-/// Returns the parts of a plan in order of time; together they take all of it.
+/// Cuts a plan into pauses and stretches at the instants of rest, in order of time; together they take all of its
+/// duration.
 ///
 /// # Errors
 /// [`Refusal::Degree`] for a curve whose polynomials are of a degree too high to be composed with a time law.
@@ -164,7 +165,7 @@ fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stret
         }
         path.push(lines(track, leader, start));
     }
-    let ways = Places::Ways(vec![(0.0, leader.segments.clone())]);
+    let ways = Places::Distances(vec![(0.0, leader.segments.clone())]);
     Some(Stretch {
         from,
         to,
@@ -254,12 +255,13 @@ fn curve(
 }
 
 impl Stretch {
-    /// Returns the parameter at a time of the plan (s), which is clamped to the stretch.
+    /// Returns the parameter of the path (rad, m or s, as [`Stretch::path`] says) at a time of the plan (s), which is
+    /// clamped to the stretch.
     pub(super) fn place(&self, time: f64) -> f64 {
         let time = time.clamp(self.from, self.to);
         match &self.places {
             Places::Time => time - self.from,
-            Places::Ways(ways) => {
+            Places::Distances(ways) => {
                 let begun = ways.iter().rev().find(|(_, segments)| segments[0].start <= time);
                 let Some((before, segments)) = begun else { return 0.0 };
                 let origin = segments[0].control[0];
@@ -282,7 +284,8 @@ impl Stretch {
                 .all(|(a, b)| a.joint == b.joint && (self.slope(a) - next.slope(b)).abs() <= tol)
     }
 
-    /// Returns the derivative of a joint's position by the parameter on a straight path: the mean over the stretch.
+    /// Returns the derivative of a joint's position by the parameter on a straight path, the mean over the stretch: rad
+    /// or m of the joint per rad or m of the leader.
     pub(super) fn slope(&self, track: &Track) -> f64 {
         let way = |s: &Segment| s.last() - s.control[0];
         track.segments.iter().map(way).sum::<f64>() / self.length
@@ -297,13 +300,14 @@ impl Stretch {
                 ..s
             }));
         }
-        if let (Places::Ways(ways), Places::Ways(more)) = (&mut self.places, next.places) {
+        if let (Places::Distances(ways), Places::Distances(more)) = (&mut self.places, next.places) {
             ways.extend(more.into_iter().map(|(before, segments)| (before + self.length, segments)));
         }
         (self.length, self.to) = (self.length + next.length, next.to);
     }
 
-    /// Returns the parameters at which a piece of a path begins or ends, ascending, with 0 and `length`.
+    /// Returns the parameters (rad, m or s) at which a piece of the path of any joint begins or ends, ascending and
+    /// each once, with 0 and `length`.
     pub(super) fn breaks(&self) -> Vec<f64> {
         let ends = self.path.iter().flat_map(|t| t.segments.iter().flat_map(|s| [s.start, s.end]));
         let mut all: Vec<f64> = ends.chain([0.0, self.length]).collect();

@@ -4,8 +4,8 @@
 use super::constraints::{HalfPlane, Interval};
 use super::tolerances::TOLERANCES;
 
-/// The greatest squared velocity of the parameter that is considered, in its unit squared per s². A stretch that could
-/// go at half of it counts as one without a limit.
+/// The greatest squared velocity of the path's parameter that is considered, in the parameter's unit squared per s². A
+/// stretch that could go at half of it counts as one without a limit.
 pub(super) const SQUARE_MAX: f64 = 1e12;
 
 /// The reason why reachability analysis gives no velocities.
@@ -17,12 +17,14 @@ pub(super) enum Failing {
     Unlimited,
 }
 
-/// Returns the greatest squared velocity of the parameter at each point of a grid, from begin to end. `free`: true at
-/// begin and end if any velocity is allowed there; then the acceleration of the parameter is zero in the interval
-/// beside it, as its velocity has no greatest value at an instant of rest. Otherwise the velocity is zero there.
+/// Returns the greatest squared velocity of the path's parameter (its unit squared per s²) at each point of the grid,
+/// from beginning to end (Pham and Pham 2018, Algorithm 1). `intervals`: the limits, by interval. `free`: for beginning
+/// and end, true if any velocity is allowed there; then the acceleration of the parameter is zero in the interval
+/// beside it. Otherwise the velocity is zero there.
 ///
 /// # Errors
-/// [`Failing`] if no velocity is possible at a point, or any.
+/// [`Failing::Empty`] if no velocity at some point leads to the end within the limits, [`Failing::Unlimited`] if
+/// nothing limits it.
 pub(super) fn squares(intervals: &[Interval], free: [bool; 2]) -> Result<Vec<f64>, Failing> {
     let count = intervals.len();
     // Backward: the controllable set of each point, an interval.

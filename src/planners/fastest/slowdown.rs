@@ -15,7 +15,7 @@ const SLOWINGS_MAX: u32 = 15;
 /// The number of bisections of the factors of slowed stretches.
 const HALVINGS: usize = 3;
 
-/// The result of slowing down.
+/// The result of [`slowed`]: the motion with the map of times, and the figures of the slowing down.
 pub(super) struct Slowed {
     /// The tracks of the slowed motion.
     pub(super) tracks: Tracks,
@@ -42,7 +42,7 @@ struct Bracket {
 /// judged under full dynamics; otherwise the motion by the time laws as they are.
 ///
 /// # Errors
-/// [`Refusal::Unholdable`] where a load is too great at any speed, [`Refusal::Stopped`].
+/// [`Refusal::Unholdable`] where a load is too great at any speed; [`Refusal::Stopped`] if `progress` ends the search.
 pub(super) fn slowed(
     plan: &Plan,
     old: &Tracks,

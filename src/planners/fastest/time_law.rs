@@ -17,7 +17,7 @@ const DIVISIONS_MAX: f64 = 16.0;
 /// The ratio of an interval to the one before it in the grid beside an instant of rest.
 const GRADING: f64 = 1.08;
 
-/// The points of a path between which its acceleration is constant.
+/// The points of a path, as values of its parameter, between which the parameter's acceleration is constant.
 #[derive(Clone)]
 pub(super) struct Grid {
     /// The parameters, ascending, with 0 and the length of the path.
@@ -27,13 +27,15 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// Returns a grid in which limits may be used up but for the part `TOLERANCES.limit`.
+    /// Returns a grid with these parameters, ascending, in whose intervals all of each limit may be used but the
+    /// fraction `TOLERANCES.limit`. Panics if there are none.
     pub(super) fn new(nodes: Vec<f64>) -> Grid {
         Grid { usable: vec![1.0 - TOLERANCES.limit; nodes.len() - 1], nodes }
     }
 }
 
-/// The velocity of the parameter of a path at the points of a grid; its square is linear between them.
+/// The velocity of a path's parameter at the points of a grid; between them its acceleration is constant, so its square
+/// is linear in the parameter.
 #[derive(Clone)]
 pub(super) struct TimeLaw {
     /// The grid.
@@ -49,9 +51,9 @@ impl TimeLaw {
         2.0 * length / (self.speeds[index] + self.speeds[index + 1])
     }
 
-    /// Returns a grid for a better law: an interval in which a limit is exceeded is halved, or uses less of its limits
-    /// if it lasts less than twice `TOLERANCES.interval`. `ratios`: for each interval, the greatest of the ratios of
-    /// speeds to their limits, and of the roots of those of accelerations.
+    /// Returns a finer grid for the next time law: an interval in which a limit is exceeded is halved, or, if it lasts
+    /// less than twice `TOLERANCES.interval`, may use less of its limits. `ratios`: for each interval the excess, as
+    /// [`ratios`](super::motion::ratios) returns it.
     pub(super) fn refined(&self, ratios: &[f64]) -> Grid {
         let mut grid = Grid { nodes: vec![0.0], usable: Vec::new() };
         for (k, pair) in self.grid.nodes.windows(2).enumerate() {
@@ -79,8 +81,8 @@ pub(super) struct Limits<'a> {
     pub(super) torques: Option<Torques<'a>>,
 }
 
-/// Returns the first grid of a stretch, as parameters: even in each piece of the path, and finer beside instants of
-/// rest of a curve, where the velocity of the parameter has no bound.
+/// Returns the first grid of a stretch, as ascending parameters (rad, m or s): evenly spaced in each piece of the path,
+/// and finer beside instants of rest of a curve, where the velocity of the parameter has no bound.
 pub(super) fn grid(stretch: &Stretch, settings: &Settings) -> Vec<f64> {
     let breaks = stretch.breaks();
     let step = stretch.length / settings.intervals as f64;
@@ -116,9 +118,9 @@ fn graded(first: f64, step: f64, most: f64) -> Vec<f64> {
     found
 }
 
-/// Returns a grid for a better law, which is about even in time: intervals that take more than an even share of the
-/// duration are divided, and points left out that follow others so soon that accelerations over the time between would
-/// be rounding of positions. Ends of pieces stay.
+/// Returns a grid for the next time law that is about even in time: intervals that take more than an even share of the
+/// duration are divided, and points that follow others within `TOLERANCES.interval` are left out, as accelerations over
+/// so short a time would be rounding of positions. Ends of pieces of the path stay.
 pub(super) fn equidistributed(stretch: &Stretch, law: &TimeLaw, settings: &Settings) -> Grid {
     let breaks = stretch.breaks();
     let durations: Vec<f64> = (0..law.grid.usable.len()).map(|k| law.duration(k)).collect();
@@ -141,11 +143,12 @@ pub(super) fn equidistributed(stretch: &Stretch, law: &TimeLaw, settings: &Setti
     Grid::new(nodes)
 }
 
-/// Returns the time law of a stretch on a grid.
+/// Returns the time law of least duration of a stretch on a grid: in closed form for a straight path without torques,
+/// else by reachability analysis (TOPP-RA).
 ///
 /// # Errors
-/// [`Refusal::NoAcceleration`] if nothing limits the velocity; [`Refusal::Overloaded`] if no velocity but zero is
-/// within the limits, or [`Refusal::TooLong`] if torques do not count.
+/// [`Refusal::NoAcceleration`] if nothing limits the velocity. If no velocity but zero is within the limits,
+/// [`Refusal::Overloaded`] where torques count, else [`Refusal::TooLong`].
 pub(super) fn solve(stretch: &Stretch, grid: Grid, limits: &Limits) -> Result<TimeLaw, Refusal> {
     if stretch.straight && limits.torques.is_none() {
         return trapezoid(stretch, limits);

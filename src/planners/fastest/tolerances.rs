@@ -1,6 +1,6 @@
 //! The tolerances and thresholds of time-optimal path parameterisation.
 
-/// The tolerances with which every plan is retimed.
+/// The tolerances with which plans are retimed; [`TOLERANCES`] has the values.
 pub(super) struct Tolerances {
     /// The change of a joint's velocity in an instant, rad/s or m/s, below which it counts as none, and the velocity
     /// below which a joint counts as at rest: rounding of control points over short segments.
@@ -36,7 +36,7 @@ pub(super) struct Tolerances {
     pub slower: f64,
 }
 
-/// The tolerances of every call.
+/// The values of the tolerances, the same in every call.
 pub(super) const TOLERANCES: Tolerances = Tolerances {
     velocity: 1e-8,
     straight: 1e-11,

@@ -8,7 +8,8 @@ use crate::plan::{DynamicsModel, Ground, Plan, Tracks, World};
 use crate::robot::dynamics::{Dynamics, MotionState, Twist};
 use crate::robot::{Assembly, Drive, Kinematics, drives, motor_efforts};
 
-/// The torques of a robot whose base is held, with the bonds that hold in one stretch.
+/// The efforts of the joints and motors of a robot whose base a fixture holds, as functions of the motion along the
+/// path, with the bonds that are closed in one stretch.
 pub(super) struct Torques<'a> {
     /// The kinematics with the bonds that hold, rooted at the base.
     kinematics: Kinematics,
@@ -35,7 +36,8 @@ struct Load {
     terms: Vec<(usize, f64)>,
 }
 
-/// A torque at a point of a path: `a s̈ + b ṡ² + c`, at most `limit` in size.
+/// The effort (N·m or N) of one joint or motor at a point of a path: `a s̈ + b ṡ² + c` for the parameter s, at most
+/// `limit` in absolute value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     /// The factor of the acceleration of the parameter.
@@ -48,7 +50,7 @@ pub(super) struct Row {
     pub(super) limit: f64,
 }
 
-/// The torque at rest of one load.
+/// The effort that one joint or motor needs against gravity at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AtRest {
     /// The index of the load in [`Torques::loads`].
@@ -81,9 +83,10 @@ fn holds(world: &World) -> bool {
     world.dynamics == DynamicsModel::Full && fixture
 }
 
-/// Returns the torques in a stretch under the world at its beginning; one that begins within it counts in
-/// [`slowed`](super::slowdown::slowed) alone. `None` where no fixture alone holds the base, where loops leave torques
-/// open, or where the world is not one of full dynamics. `reserve`: the part of the limits that is left unused.
+/// Returns the efforts of the robot in a stretch under the world at its beginning; a world that begins within it counts
+/// in [`slowed`](super::slowdown::slowed) alone. `None` where the base is not held by a fixture alone, where closed
+/// kinematic loops leave the efforts undetermined, or where the world has not full dynamics. `reserve`: the fraction, 0
+/// to 1, of each limit that is left unused.
 pub(super) fn torques<'a>(
     plan: &Plan,
     tracks: &Tracks,
@@ -135,22 +138,23 @@ fn motors(robot: &Assembly, kinematics: &Kinematics, reserve: f64) -> Vec<Load> 
 }
 
 impl AtRest {
-    /// Returns the torque at rest that is the greatest part of what may be used of its limit; `None` without loads.
+    /// Returns the effort at rest that is the greatest fraction of what may be used of its limit; `None` without rows.
+    /// Entry k of `rows` is that of load k.
     pub(super) fn of(rows: &[Row]) -> Option<AtRest> {
         let at_rest =
             |(load, row): (usize, &Row)| AtRest { load, torque: row.c.abs(), ratio: row.c.abs() / row.limit };
         rows.iter().enumerate().map(at_rest).reduce(AtRest::greater)
     }
 
-    /// Returns that one of two torques which is the greater part of its limit; this one if they are alike.
+    /// Returns that one of two efforts at rest which is the greater fraction of its limit; `self` if they are equal.
     pub(super) fn greater(self, other: AtRest) -> AtRest {
         if other.ratio > self.ratio { other } else { self }
     }
 }
 
 impl Torques<'_> {
-    /// Returns the torques at a point of a path, in the order of the loads, by inverse dynamics without weight for the
-    /// factors of acceleration and of squared velocity, and at rest for the weight.
+    /// Returns the effort of each joint and motor with a limit at a point of a path, by inverse dynamics: without
+    /// gravity for the factors of acceleration and of squared velocity, and at rest for the effort of gravity.
     pub(super) fn rows(&self, point: &PathPoint) -> Vec<Row> {
         let mut poses = vec![Pose::identity(); self.kinematics.link_count()];
         self.kinematics.link_poses(&point.q, &self.base, &mut poses);
@@ -179,7 +183,7 @@ impl Torques<'_> {
         self.loads.iter().map(row).collect()
     }
 
-    /// Returns the refusal of a stretch in which this torque at rest is too great.
+    /// Returns [`Refusal::Overloaded`] for a stretch in which this effort at rest is above its limit.
     pub(super) fn refusal(&self, at_rest: &AtRest, stretch: &Stretch) -> Refusal {
         let Load { ref name, turns, limit, allowed, .. } = self.loads[at_rest.load];
         let (torque, from, to) = (at_rest.torque, stretch.from, stretch.to);

@@ -14,8 +14,9 @@ const BACKTRACKS_MAX: usize = 20;
 /// A rollout with its end; `None` if it may go on.
 type Tried<'a> = (Rollout<'a>, Option<End>);
 
-/// Returns the rollout in which `rollout` goes on by the policies that make the fastest progress, up to its end:
-/// arrival, the limit of steps, an end by `monitor`, or, once no policy gets on, that with the least distance left.
+/// Continues a rollout to its end by depth-first search with lookahead: the step policy that makes the fastest progress
+/// is taken, and a dead end leads back to an earlier choice. Returns the rollout at its end: arrival, the limit of
+/// steps, or an end by `monitor`; if all policies get stuck, relaxed steps go on from where the least distance is left.
 pub(super) fn search<'a>(rollout: Rollout<'a>, monitor: &mut Monitor) -> Rollout<'a> {
     let mut alternatives: VecDeque<Vec<Tried<'a>>> = VecDeque::new();
     let mut backtracks = 0;

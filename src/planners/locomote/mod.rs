@@ -105,12 +105,14 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans a motion along the path, as far as it gets (Section IV of [Usevitch et al.](super::truss)): a search that
-/// gets stuck, or that `progress` ends, gives the motion so far, and the report says why. The body is node paths for
-/// a world with gravity and ground. `problem`: the truss and the path; `settings`: the settings of the search.
+/// Plans a motion along the path, as far as it gets (Section IV of [Usevitch et al.](super::truss)): a search that gets
+/// stuck, or that `progress` ends, gives the motion so far, and the report says why. The body is node paths in the
+/// world's frame, for a world with gravity and ground. `problem`: the truss and the path; `settings`: the settings of
+/// the search.
 ///
 /// # Errors
-/// [`Refusal`] if the truss, its rest on the ground or the path rules out any motion.
+/// A [`Refusal`] if the truss is invalid or does not come to rest on the ground, or if the path is empty or reaches too
+/// far.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,

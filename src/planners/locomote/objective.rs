@@ -49,9 +49,10 @@ impl Objective {
     pub const FEWEST: Objective = Objective::Fewest { damping: DAMPING_FEWEST };
 }
 
-/// Returns the quadratic cost of the displacements of the nodes at `x` (m, in the world's frame, by index) in one
-/// step. `pace`: the displacement in the step, m, for a speed of 1 m/s, by which the velocities of `Springs` and the
-/// rates of `Restoring` are scaled. `objective`: the quantity; `truss`: the truss with its limits.
+/// Returns the cost, quadratic or with absolute values, of displacing the nodes from `x` (m, in the world's frame, by
+/// index of the node) in one step. `pace`: the displacement in the step, m, for a speed of 1 m/s, by which the
+/// velocities of `Springs` and the rates of `Restoring` are scaled. `objective`: the quantity; `truss`: the truss with
+/// its limits.
 pub fn cost(objective: Objective, truss: &Structure, x: &[Vec3], pace: f64) -> QuadraticCost {
     match objective {
         Objective::Springs => springs(truss, x, pace),

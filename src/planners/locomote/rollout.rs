@@ -202,7 +202,7 @@ pub fn follow_path(
     rollout.travel
 }
 
-/// The observer, with the number of steps begun on all branches of the search.
+/// The observer of the caller, with the number of steps begun on all branches of the search.
 pub(super) struct Monitor<'a> {
     progress: &'a mut dyn Progress,
     asked: usize,
@@ -236,7 +236,7 @@ impl Travel {
     }
 }
 
-/// The choices by which steps are made, the present ones of a rollout; lookahead tries others beside them.
+/// The choices by which a rollout makes its steps; lookahead compares several of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StepPolicy {
     /// The objective that the steps minimise.
@@ -245,7 +245,7 @@ pub(super) struct StepPolicy {
     pub impact: bool,
 }
 
-/// A truss that moves along the path; lengths in m.
+/// A state of the search: a truss on its way along the path, with the motion so far.
 #[derive(Clone)]
 pub(super) struct Rollout<'a> {
     /// The truss with its limits and surroundings.
@@ -275,8 +275,9 @@ pub(super) struct Rollout<'a> {
 }
 
 impl Rollout<'_> {
-    /// Continues for at most `steps` steps; returns the reason why the rollout ended, `None` if it may go on then.
-    /// Points of the path that are near enough are reached without a step.
+    /// Makes at most `steps` steps towards the next points of the path. Returns the reason why the rollout ended;
+    /// `None` if the steps are used up and it may go on. Points of the path that are near enough are reached without a
+    /// step.
     pub(super) fn advance_steps(&mut self, steps: usize, monitor: &mut Monitor) -> Option<End> {
         let first = self.travel.steps;
         while let Some(place) = self.path.get(self.travel.reached) {
@@ -326,7 +327,8 @@ impl Rollout<'_> {
         settled
     }
 
-    /// Returns the remaining distance, along straight lines from point to point, m.
+    /// Returns the distance left on the ground along straight lines from the centre of mass to the next point of the
+    /// path and from point to point, m.
     pub(super) fn distance_left(&self) -> f64 {
         let centre = self.truss.centre_of_mass(&self.x);
         let rest = &self.path[self.travel.reached.min(self.path.len())..];

@@ -72,7 +72,7 @@ impl Default for Settings {
     }
 }
 
-/// The reason why a descent ends.
+/// The reason why [`descend`] ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
     /// The target is reached: both distances are within the tolerance.
@@ -99,11 +99,11 @@ pub struct Descent {
     pub end: End,
 }
 
-/// Morphs a truss with its nodes at `start`, m, into a target, which is moved so that its centroid is the mean of the
-/// nodes (Section V of [Usevitch et al.](crate::planners::truss)). With [`Settings::orientations`], each is screened
-/// for some steps, and the truss descends to the best. The truss must have nodes and struts. If `progress` ends it,
-/// the result is the descent at hand, so far. `truss`: the truss with its limits; `settings`: the settings of the
-/// descent.
+/// Morphs a truss with its nodes at `start` (m, in the world's frame, by index) into a target, which is moved so that
+/// its centroid is the mean of the nodes (Section V of [Usevitch et al.](crate::planners::truss)). With
+/// [`Settings::orientations`], each is screened for some steps, and the truss descends to the best. The truss must have
+/// nodes and struts. If `progress` ends it, the result is the descent at hand, so far. `truss`: the truss with its
+/// limits; `settings`: the settings of the descent.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// Outer triangles are sampled at the centroids of the squares of this many smaller ones.
 const PIECES: usize = 4;
 
-/// The weights of the terms of the cost.
+/// The weights of the terms of the cost that a step of a morph minimises.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Weights {
     /// The weight of the squared distances from surface to target, relative to that of those from target to surface,
@@ -48,7 +48,7 @@ impl Distance {
         libm::hypot(self.target_to_surface, self.surface_to_target)
     }
 
-    /// Returns true if both root mean square distances are at most `tolerance`, m.
+    /// Returns true if both root mean square distances are at most `tolerance` (m).
     pub fn within(&self, tolerance: f64) -> bool {
         self.target_to_surface <= tolerance && self.surface_to_target <= tolerance
     }
@@ -66,7 +66,7 @@ struct Residual {
     fraction: f64,
 }
 
-/// The distances of a truss from its target, with the residuals that they come from.
+/// The distances of a truss from its target, with the residuals that a least-squares step reduces.
 pub(super) struct Fit {
     /// The distances between the outer surface of the truss and the target, m.
     pub distance: Distance,
@@ -74,9 +74,10 @@ pub(super) struct Fit {
     backward: Vec<Residual>,
 }
 
-/// Measures the fit of the outer triangles `faces` (indices of nodes) with the nodes at `x`, m. `guesses` holds for
-/// each sample point of the target the index in `faces` of the triangle that was closest last, and is updated; it may
-/// be empty at first.
+/// Measures the fit of the outer triangles `faces` (indices of nodes) with the nodes at `x` (m, by index) to the
+/// target, in one frame. `guesses` holds for each sample point of the target the index in `faces` of the triangle that
+/// was closest last, and is updated; it may be empty at first, but must hold no other index. Panics if there is no
+/// triangle.
 pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &mut Vec<usize>) -> Fit {
     let corners: Vec<[Vec3; 3]> = faces.iter().map(|f| f.map(|node| x[node])).collect();
     let normals: Vec<Vec3> =
@@ -123,8 +124,8 @@ pub(super) fn fit(faces: &[[usize; 3]], x: &[Vec3], target: &Target, guesses: &m
 }
 
 impl Fit {
-    /// Returns the Gauss-Newton model of the weighted squared distances, with springs and damping, as a cost
-    /// of displacements of the nodes from `x`, m.
+    /// Returns the Gauss-Newton model of the weighted squared distances, with springs and damping, as a quadratic cost
+    /// of displacements (m) of the nodes from `x` (m, by index). `weights`: those of the terms.
     pub(super) fn cost(&self, truss: &Structure, x: &[Vec3], weights: &Weights) -> QuadraticCost {
         let mut sums = Sums { blocks: BTreeMap::new(), linear: vec![Vec3::zeros(); truss.nodes] };
         // All residuals of one face have the same metric, so their weights can be added up first.

@@ -124,13 +124,14 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Plans a motion towards the target, as near as it gets (Section V of [Usevitch et al.](super::truss)): a search
-/// that gets stuck, or that `progress` ends, gives the motion to the best fit so far, and the report says why. The
-/// body is node paths for a world without gravity and ground. `problem`: the truss and the target; `settings`: the
-/// settings of the descent.
+/// Plans a motion towards the target, as near as it gets (Section V of [Usevitch et al.](super::truss)): a search that
+/// gets stuck, or that `progress` ends, gives the motion to the best fit so far, and the report says why. The body is
+/// node paths in the world's frame, for a world without gravity and ground. `problem`: the truss and the target;
+/// `settings`: the settings of the descent.
 ///
 /// # Errors
-/// [`Refusal`] if the truss or the target rules out any motion.
+/// A [`Refusal`] if the truss is invalid or has no outer surface of triangles, or if the target reaches too far, has no
+/// area, or has too few points.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,

@@ -4,7 +4,7 @@ use crate::geometry::Vec3;
 use crate::planners::truss::Structure;
 use std::collections::BTreeMap;
 
-/// The reason why a truss has no outer surface of triangles.
+/// The reason why a truss has no outer surface: its triangles of struts do not close one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Open {
     /// The edges of the truss's convex hull that do not lie between exactly two triangles of struts, as pairs of

@@ -17,7 +17,7 @@ pub struct Target {
 }
 
 impl Target {
-    /// Returns a target of points (m) of equal weight, without a surface.
+    /// Returns a target of points (m) of equal weight, without a surface between them.
     pub fn cloud(points: Vec<Vec3>) -> Target {
         let fraction = 1.0 / points.len().max(1) as f64;
         Target { fractions: vec![fraction; points.len()], points, surface: None }
@@ -42,12 +42,13 @@ impl Target {
         Target { points, fractions, surface: Some(Surface::new(triangles)) }
     }
 
-    /// Returns the weighted mean of the sample points, m.
+    /// Returns the mean of the sample points, m, each weighted by the fraction of the surface that it stands for.
     pub fn centroid(&self) -> Vec3 {
         self.points.iter().zip(&self.fractions).map(|(p, fraction)| p * *fraction).sum()
     }
 
-    /// Returns the target with every point (m) moved by `motion`, which has to be rigid.
+    /// Returns the target with every point (m) mapped by `motion`, which has to be a rigid motion: weights and
+    /// distances are kept.
     pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Target {
         let surface = self.surface.as_ref();
         let surface =
@@ -56,8 +57,8 @@ impl Target {
         Target { points, fractions: self.fractions.clone(), surface }
     }
 
-    /// Returns the point of the target closest to `p`, m: of the surface, or of the sample points of a cloud. Panics
-    /// for a cloud without points.
+    /// Returns the point of the target closest to `p`, m: of the surface, or of the points of a cloud; of equal ones
+    /// the first. Panics for a cloud without points.
     pub fn closest(&self, p: Vec3) -> Vec3 {
         match &self.surface {
             Some(surface) => surface.closest(p, None).at,
@@ -69,7 +70,8 @@ impl Target {
     }
 }
 
-/// Returns the barycentric coordinates of the centroids of the n² congruent triangles that divide a triangle.
+/// Returns the barycentric coordinates (each three sum to 1) of the centroids of the n² congruent triangles into which
+/// a triangle is divided by n parts of each side; empty for 0.
 pub(super) fn centroids(n: usize) -> Vec<[f64; 3]> {
     let mut found = Vec::new();
     for i in 0..n {

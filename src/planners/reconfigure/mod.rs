@@ -41,7 +41,7 @@ pub struct Problem<'a> {
     pub world: World,
 }
 
-/// The settings of [`plan`](plan()): those of the searches for both halves, and of the judge.
+/// The settings of [`plan`](plan()): those of the searches for both halves of the motion, and of the judge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
     /// The settings of the search for either half.

@@ -2,8 +2,9 @@
 
 use crate::planners::fold::Target;
 
-/// Returns the number of connected groups of the faces (indices in [`Target::faces`]) for which `gone` is false and
-/// which are not connected with any of the faces `first`.
+/// Returns the number of connected components (across sides of faces) of the faces for which `gone` is false and that
+/// are not connected with any of the faces `first`; faces are indices in [`Target::faces`]. Panics if one of `first` is
+/// no face.
 pub(super) fn groups(
     target: &Target,
     gone: impl Fn(usize) -> bool,

@@ -28,7 +28,8 @@ const SAMPLES: usize = 12;
 /// The numbers of panels of a fan: fewer do not close, and more need not fold.
 const FAN: [usize; 3] = [3, 4, 5];
 
-/// A stroke of a sheet: the change of one connection of panels, with the fan of panels that folds for it.
+/// A stroke of a flat sheet: it makes one connection between two sides of panels and undoes another, and folds a fan of
+/// panels for it where the two sides do not lie at each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
     /// The connections that fold from level to `angle` before the change, and open again after it; the one that is
@@ -52,7 +53,7 @@ pub fn cell(corners: &Corners) -> Point {
 }
 
 /// Returns the corners of the lattice cell across side `k` (0 to 2) of a panel with these corners, counterclockwise,
-/// so that its side 0 is the common one. Panics for a side above 2.
+/// numbered so that its side 0 is the common one. Panics for a side above 2.
 pub fn across(corners: &Corners, k: usize) -> Corners {
     let (a, b, c) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
     [b, a, [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]]
@@ -70,7 +71,7 @@ pub fn bond(a: Side, b: Side) -> [Side; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// A flat sheet of panels on the triangular lattice, joined as a tree.
+/// A flat sheet of equilateral panels on the triangular lattice, whose connections make a tree.
 #[derive(Clone, Debug)]
 pub struct LatticeSheet {
     /// The corners of each panel on the lattice, by its index.
@@ -89,8 +90,8 @@ impl LatticeSheet {
         LatticeSheet { corners, cells, bonds }
     }
 
-    /// Returns the side of another panel that lies at a side of a panel, joined or not; `None` if the cell there is
-    /// free.
+    /// Returns the side of another panel that lies at a side of a panel, connected or not; `None` if the lattice cell
+    /// there is free. Panics if there is no such panel or side.
     pub fn beside(&self, (panel, side): Side) -> Option<Side> {
         let ahead = across(&self.corners[panel], side);
         let other = *self.cells.get(&cell(&ahead))?;
@@ -107,7 +108,7 @@ impl LatticeSheet {
         })
     }
 
-    /// Returns the connections on the path between two panels, given by index, that at `to` first; empty for the same
+    /// Returns the connections on the path in the tree between two panels, that at `to` first; empty for the same
     /// panel. `from` and `to`: the indices of the panels. Panics if there is no such panel.
     pub fn path(&self, from: usize, to: usize) -> Vec<[Side; 2]> {
         let mut before: Vec<Option<(usize, [Side; 2])>> = vec![None; self.corners.len()];
@@ -212,9 +213,9 @@ impl LatticeSheet {
         pairs.filter(|[a, b]| a < b && !self.bonds.contains(&[*a, *b])).collect()
     }
 
-    /// Returns the stroke without folding that joins two sides that lie at each other and undoes one of the
-    /// connections of the ring that this closes: that of least `worth`; of equal ones that nearest to `make[1]`.
-    /// Panics for two sides of one panel.
+    /// Returns the stroke without folding that joins two sides that lie at each other and undoes one of the connections
+    /// of the cycle that this closes: that of least `worth`; of equal ones that nearest to `make[1]`. Panics for two
+    /// sides of one panel.
     pub fn change(&self, make: [Side; 2], worth: impl Fn(&[Side; 2]) -> usize) -> Stroke {
         let ring = self.path(make[0].0, make[1].0);
         let cut = ring.into_iter().min_by_key(|bond| worth(bond)).expect("a tree joins any two");
@@ -235,8 +236,8 @@ impl LatticeSheet {
     }
 
     /// Returns true if no sample of a stroke of this sheet shows a collision, while the fan closes and opens again.
-    /// `solids`: by panel; `side`: the length of the panels' sides, m. The panels that touch where the fan is closed
-    /// may do so.
+    /// `solids`: the collision parts of the panels, by index; `side`: the length of the panels' sides, m. The panels
+    /// that touch where the fan is closed may do so.
     pub fn is_free(&self, stroke: &Stroke, solids: &Solids, side: f64) -> bool {
         if stroke.fold.is_empty() {
             return true;

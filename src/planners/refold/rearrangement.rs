@@ -31,7 +31,7 @@ pub struct PanelSolids<'p> {
     pub side: f64,
 }
 
-/// Returns a pair of cells, given by their names ([`cell`]), the lesser first.
+/// Returns two cells, given by their names ([`cell`]), as an unordered pair: the lesser name first.
 pub fn pair(a: Point, b: Point) -> [Point; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
@@ -45,9 +45,9 @@ struct Node {
 }
 
 /// Searches for fewer than `most` strokes, free of collisions in their samples, that change the sheet `start` into
-/// `goal`, by best-first search over at most `steps` states taken from the queue. Returns the strokes in order and
-/// the sheet after them; `None` if none were found. No strokes are needed from a sheet that is the goal. `panels`:
-/// the panels as solids, for samples of collisions.
+/// `goal`, by best-first search over at most `steps` states taken from the queue. Returns the strokes in order and the
+/// sheet after them, without any strokes if `start` is the goal; `None` if none were found. `panels`: the panels as
+/// solids, for samples of collisions.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,

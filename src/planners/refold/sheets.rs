@@ -57,13 +57,14 @@ impl Refolding {
         }
     }
 
-    /// Returns the side of a panel (0 to 2) that becomes `side` of its face of the second shape. No such panel: a panic.
+    /// Returns the side of a panel (0 to 2) that becomes `side` of its face of the second shape. Panics without such a
+    /// panel.
     pub fn side(&self, panel: usize, side: usize) -> usize {
         (side + 3 - self.turns[panel]) % 3
     }
 }
 
-/// The result of [`sheets`]: the best sheets found, with a lower bound.
+/// The result of [`sheets`]: the best refoldings found, with a lower bound on the changes.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The sheets found, at least one, all different: the fewest changes first, then the least cost.
@@ -83,7 +84,7 @@ pub struct Settings {
     pub kept: usize,
 }
 
-/// The reason why [`sheets`] found no sheet.
+/// The reason why [`sheets`] found no refolding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRefolding {
     /// The shapes have different numbers of faces.
@@ -98,12 +99,12 @@ pub enum NoRefolding {
     },
 }
 
-/// Returns sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders those with
-/// equally many changes, least first; `solids`: by panel. All sides of both shapes must have one length.
+/// Returns refoldings: flat sheets that unfold from `from` and that fold into `to`, with the strokes between them.
+/// `cost` orders those with equally many changes, least first; `solids`: by panel. All sides of both shapes must have
+/// one length.
 ///
 /// # Errors
-/// [`NoRefolding::Counts`] if the shapes differ in their number of faces, [`NoRefolding::Budget`] if no sheet was
-/// found.
+/// [`NoRefolding::Counts`] if the shapes differ in their number of faces, [`NoRefolding::Budget`] if none was found.
 pub fn sheets(
     from: &Target,
     to: &Target,
