@@ -99,9 +99,8 @@ pub enum NoRefolding {
     },
 }
 
-/// Returns refoldings: flat sheets that unfold from `from` and that fold into `to`, with the strokes between them.
-/// `cost` orders those with equally many changes, least first; `solids`: by panel. All sides of both shapes must have
-/// one length.
+/// Returns refoldings: sheets that unfold from `from` and fold into `to`, with the strokes between them. `cost` orders
+/// those with equally many changes, least first; `solids`: by panel. All sides of both shapes must have one length.
 ///
 /// # Errors
 /// [`NoRefolding::Counts`] if the shapes differ in their number of faces, [`NoRefolding::Budget`] if none was found.

@@ -5,8 +5,8 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i,
-/// 0, 0), to a column of them along y, in which the row folds up and unrolls like an accordion; all cells keep their
+/// Returns the motion from a row of `count` cells along x, at least one, with cell `i` (from 0) at lattice site (i, 0,
+/// 0), to a column of them along y, in which the row folds up and unrolls like an accordion; all cells keep their full
 /// size. `limits`: the limits of the cells.
 ///
 /// # Errors
@@ -15,8 +15,9 @@ pub fn accordion(limits: PlanLimits, count: u64) -> Result<Motion, Refusal> {
     of_height(limits, count, rounded_root(count).max(1))
 }
 
-/// Returns the same motion through an array whose sides are both even, the squarest: mirror symmetry keeps its angular
-/// momentum at zero. `None` if the count has no such factors; [`Refusal::TooLarge`] inside if a number does not fit.
+/// Returns the motion of [`accordion`], folded into the squarest array whose numbers of rows and columns are both even:
+/// mirror symmetry keeps its angular momentum at zero. `None` if `count` has no such factors; [`Refusal::TooLarge`]
+/// inside if a number does not fit 64 bits.
 pub(super) fn balanced_accordion(limits: PlanLimits, count: u64) -> Option<Result<Motion, Refusal>> {
     let root = rounded_root(count);
     let even = |height: u64| count.is_multiple_of(height) && (count / height).is_multiple_of(2);

@@ -14,7 +14,7 @@ use super::shear::shear;
 use super::unroll::unroll;
 use super::{Method, Refusal};
 
-/// A motion with the method that it stands for.
+/// A motion between two shapes, with the method by which it was constructed.
 pub(super) struct Candidate {
     /// The method by which the motion was constructed.
     pub method: Method,
@@ -92,7 +92,8 @@ pub(super) fn candidates(
     Ok(found)
 }
 
-/// The greatest number of cells that melt: each takes some stages, in all of which all cells move a little.
+/// The greatest number of cells of a shape for which [`melt`] is tried: each cell takes some stages, in each of which
+/// all cells move a little.
 pub(super) const MELT_MAX: usize = 400;
 
 /// Returns true if the cells lie in a plane.

@@ -1,7 +1,8 @@
 //! Sets of cells in closed form: arithmetic progressions of cell numbers with nested counters, on which
 //! positions are affine.
 
-/// The state of a cell at an instant, in quarters of its full size, which is the grid of all constructions.
+/// The centre and the side lengths of a cell at an instant, in quarters of its full size, which is the grid of all
+/// constructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CellState {
     /// The centre of the cell along x, y, z, in quarters of the full size.
@@ -31,8 +32,8 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Returns the domain of these counters, each (count, stride), without those of one value; `None` if it has no
-    /// cell.
+    /// Returns the domain of these counters, each (count, stride of the cell's number), without those of count 1;
+    /// `None` if a count is 0, so that it has no cell.
     pub fn new(first: u64, counters: &[(u64, i64)]) -> Option<Domain> {
         let counters: Vec<(u64, i64)> = counters.iter().copied().filter(|(count, _)| *count != 1).collect();
         counters.iter().all(|(count, _)| *count > 0).then_some(Domain { first, counters })
@@ -44,8 +45,9 @@ impl Domain {
     }
 }
 
-/// Returns the cells `lo..hi` in blocks whose numbers share all but their low bits, split by parity: on each block
-/// every function is affine that is a sum of functions of single bits and of the lowest.
+/// Splits the cells `lo..hi` into domains: blocks of cells whose numbers share all but their low bits, each split into
+/// even and odd numbers. On each of them every function of the number is affine that is a sum of functions of single
+/// bits.
 pub(super) fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     let mut domains = Vec::new();
     let mut at = lo;
@@ -59,8 +61,8 @@ pub(super) fn by_bits(lo: u64, hi: u64) -> Vec<Domain> {
     domains
 }
 
-/// Returns the cells `first + low + 2^bits·q` for all `low` of that many bits and `q` in 0..times, split by
-/// parity.
+/// Returns the cells `first + low + 2^bits·q`, for all `low` in `0..2^bits` and all `q` in `0..times`, as a domain with
+/// `low` even and one with `low` odd; empty if `times` is 0.
 pub(super) fn free_bits(first: u64, bits: u32, times: u64) -> Vec<Domain> {
     let counters: Vec<(u64, i64)> =
         std::iter::once((times, 1_i64 << bits)).chain((1..bits).rev().map(|bit| (2, 1_i64 << bit))).collect();

@@ -6,14 +6,14 @@ use super::motion::{Builder, Motion, PlanLimits};
 use crate::plan::lattice::{Cube, greatest_relative_displacement};
 use crate::plan::{ArithmeticRun, arithmetic_runs};
 
-/// Configurations one after another, each a list of the states of all cells.
+/// A motion under construction whose configurations are lists of the states of all cells, by number.
 pub(super) struct Listed {
     start: Vec<CellState>,
     stages: Vec<(&'static str, Vec<CellState>)>,
 }
 
 impl Listed {
-    /// Begins at a configuration: the state of each cell, by number.
+    /// Returns the motion that begins at a configuration, the state of each cell by number, without stages so far.
     pub(super) fn new(start: Vec<CellState>) -> Listed {
         Listed { start, stages: vec![] }
     }
@@ -23,8 +23,8 @@ impl Listed {
         self.stages.last().map_or(&self.start, |(_, states)| states)
     }
 
-    /// Appends a stage that takes each cell to the state that `change`, called with its number and its last state,
-    /// makes of that.
+    /// Appends a stage of this name. `change` is called with the number and the last state of each cell, and changes it
+    /// to the state at the end of the stage.
     pub(super) fn stage(&mut self, name: &'static str, mut change: impl FnMut(usize, &mut CellState)) {
         crate::interrupt::checkpoint();
         let mut states = self.last().to_vec();
@@ -32,8 +32,9 @@ impl Listed {
         self.stages.push((name, states));
     }
 
-    /// Returns the motion between the configurations, in which cell `i` has the number `number[i]`, which must be a
-    /// permutation.
+    /// Returns the motion between the configurations in arithmetic runs of cells, under these limits. Cell `i` of the
+    /// lists gets the number `number[i]`, which must be a permutation of 0..count. Stages in which nothing moves are
+    /// left out.
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -22,8 +22,9 @@ const CONTRACT: [&str; 3] = ["swap x-contract", "swap y-contract", "swap z-contr
 const PASS: [&str; 3] = ["x-pass", "y-pass", "z-pass"];
 
 /// Returns the motion from a connected set of cells at these lattice sites, all different and at least one, to a row
-/// along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells must
-/// be able to shrink to half their size. After the planner of Rus and Vona for Crystalline robots, for single cells.
+/// along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells must be
+/// able to shrink to half their size. After the melt-grow planner for Crystalline robots (Rus and Vona 2001), for
+/// single cells. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if cells do not melt.

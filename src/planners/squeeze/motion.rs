@@ -42,7 +42,7 @@ pub enum Profile {
     Trapezoid,
 }
 
-/// The limits under which motions are planned.
+/// The limits of cells under which motions are planned, and the velocity profile.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanLimits {
     /// The limits of a cell: least size and greatest speed, in cell sizes and units of time ([`Motion`]).
@@ -53,7 +53,7 @@ pub struct PlanLimits {
     pub euclidean: bool,
 }
 
-/// The data that a motion needs to become the body of a plan.
+/// The data about cells, limits and model that a motion needs to become the body of a plan.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanHeader {
     /// The index of the kind of cell in [`Library::cells`](crate::robot::Library) of the plan.
@@ -85,8 +85,8 @@ struct Displacements {
 }
 
 impl<'a> Builder<'a> {
-    /// Begins at a configuration: `place` returns the state of a cell by its number, from 0, and must be affine on
-    /// each of the domains, which together hold each of `count` cells once.
+    /// Begins a motion at a configuration: `place` returns the state of a cell by its number, from 0, and must be
+    /// affine on each of the domains, which together hold each of `count` cells once.
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
@@ -101,10 +101,10 @@ impl<'a> Builder<'a> {
         Ok(Builder { limits, motion, last: Box::new(place) })
     }
 
-    /// Appends a stage that takes each cell to the state that `place` returns for its number. On the domains both the
-    /// last state and the next must be affine; `relative_displacement` is the greatest distance (in quarters of a
-    /// cell, along an axis) by which two cells move against each other that stay in contact. A stage in which nothing
-    /// moves is left out.
+    /// Appends a stage that takes each cell to the state that `place` returns for its number. On each of the domains
+    /// both the last states and the next must be affine functions of the number; `relative_displacement` is the
+    /// greatest distance (in quarters of a cell, along an axis) by which two cells move against each other that stay in
+    /// contact. A stage in which nothing moves is left out.
     ///
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
@@ -127,11 +127,12 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Appends a two-phase motion that does not come to rest between its phases: a speed-up to `middle` and a
-    /// slow-down to `end`, with the same displacement of each cell in both.
+    /// Appends two stages between which the cells do not come to rest: a speed-up to the states `middle` and a
+    /// slow-down to the states `end`, with the same displacement of each cell in both. The parameters are those of
+    /// [`stage`](Self::stage).
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub(super) fn two_phase_stage(
         &mut self,
         name: &'static str,
@@ -354,11 +355,11 @@ impl Displacements {
 }
 
 impl Motion {
-    /// Returns the motion of no transitions at a configuration of `count` cells: `place` returns the state of a cell
-    /// by its number and must be affine on each of the domains, which together hold each cell once.
+    /// Returns the motion of no transitions at a configuration of `count` cells: `place` returns the state of a cell by
+    /// its number and must be affine on each of the domains, which together hold each cell once.
     ///
     /// # Errors
-    /// [`Refusal::TooLarge`] if a number does not fit.
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
         Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
     }
@@ -424,7 +425,7 @@ impl Motion {
             .fold(0.0, |time, transition| time + libm::sqrt(transition.time_squared.to_f64()))
     }
 
-    /// Returns true if the angular momentum stays zero during the whole motion.
+    /// Returns true if the total angular momentum of the cells stays zero during the whole motion.
     pub fn is_balanced(&self) -> bool {
         self.transitions.iter().all(|transition| transition.balanced)
     }

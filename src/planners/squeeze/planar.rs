@@ -17,9 +17,9 @@ const X: usize = 0;
 const Y: usize = 1;
 const Z: usize = 2;
 
-/// Returns the motion from a connected set of cells at these lattice sites (x, y), all different and at least one, to
-/// a row along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells
-/// must be able to shrink to half their size; they move along z, too.
+/// Returns the motion from a connected set of cells at these lattice sites (x, y), all different and at least one, to a
+/// row along x, in which the cell at site `i` (from 0) has the number `name(i)`, which must be a permutation. Cells
+/// must be able to shrink to half their size; they move along z, too. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -10,7 +10,7 @@ use crate::plan::{Law, Ratio, Stages};
 /// long under the limit `κ`. Two phases that pass their speed on are slowed down alike.
 ///
 /// # Errors
-/// [`Refusal::TooLarge`] if a number does not fit, [`Refusal::Defect`] if forces can't be found.
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if the contact forces can't be computed.
 pub(super) fn retime(stages: &mut Stages, force: Ratio) -> Result<(), Refusal> {
     let peaks = peak_forces(stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
     let least: Vec<Ratio> = peaks

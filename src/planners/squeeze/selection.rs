@@ -21,7 +21,8 @@ const SPEED_SQUARED_MAX: f64 = 1e6;
 /// and the limits.
 ///
 /// # Errors
-/// [`Refusal`], of which [`Refusal::Defect`] is a failure of the planner, not of the problem.
+/// A [`Refusal`]: shapes of different numbers of cells, cells or settings that no method allows, or numbers that do not
+/// fit. [`Refusal::Defect`] alone is a failure of the planner, not of the problem.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,

@@ -1,6 +1,7 @@
 //! The shape of a set of cells.
 
-/// The positions of cells, translated so that the lowest along each axis is 0, in order.
+/// A set of lattice cells as their sites, translated so that the least coordinate along each axis is 0, in ascending
+/// order.
 pub(super) struct Shape {
     /// The lattice sites of the cells, in cell sizes, in ascending order of x, then y, then z.
     pub positions: Vec<[i64; 3]>,
@@ -9,7 +10,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Returns the shape of the cells at these positions.
+    /// Returns the shape of the cells at these lattice sites, in whole cells.
     pub(super) fn of(positions: &[[i64; 3]]) -> Shape {
         let low = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis]).min().unwrap_or(0));
         let mut positions: Vec<[i64; 3]> =
@@ -24,7 +25,7 @@ impl Shape {
         self.positions.len() as u64
     }
 
-    /// Returns true if the cells fill their bounding box.
+    /// Returns true if the cells fill their bounding box without gaps.
     pub(super) fn is_box(&self) -> bool {
         let volume = self.sides.iter().try_fold(1_u64, |volume, side| volume.checked_mul(*side));
         volume == Some(self.count())

@@ -7,10 +7,10 @@ use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
 /// Returns the motion from a row of `count` cells along x, with cell `i` (from 0) at lattice site (i, 0, 0), to a
-/// column along y with cell `i` at (0, i, 0). It takes √(2 (count - 1)) units of time,
-/// the [`lower_bound`](crate::plan::lattice::lower_bound::lower_bound), unless the speed limit binds or
-/// `limits.euclidean` is set; its angular momentum is not zero. The profile of `limits` is not used. Cells must be able to shrink to half their size,
-/// which is not checked.
+/// column along y with cell `i` at (0, i, 0). It takes √(2 (count - 1)) units of time ([`Motion`]), the
+/// [`lower_bound`](crate::plan::lattice::lower_bound::lower_bound), unless the speed limit binds or `limits.euclidean`
+/// is set; its angular momentum is not zero. The profile of `limits` is not used. Cells must be able to shrink to half
+/// their size, which is not checked.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

@@ -7,5 +7,5 @@ pub(super) struct Tolerances {
     pub limits: f64,
 }
 
-/// The tolerances with which every plan of this planner is made.
+/// The values of the tolerances with which every plan of this planner is made.
 pub(super) const TOLERANCES: Tolerances = Tolerances { limits: 1e-12 };

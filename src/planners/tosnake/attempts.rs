@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// An attempt with its random numbers.
+/// An attempt to bring one pair of docks together, with its own generator of random numbers.
 pub(super) struct Job<'a> {
     /// The attempt at one pair.
     pub(super) attempt: Attempt<'a>,
@@ -22,7 +22,7 @@ pub(super) struct Job<'a> {
     pub(super) rng: SplitMix64,
 }
 
-/// The result of a job.
+/// The result of a [`Job`]: the path found, and the work.
 pub(super) struct Done {
     /// The index of the job in the list given, from 0.
     pub(super) job: usize,
@@ -35,9 +35,9 @@ pub(super) struct Done {
 /// The number of jobs done before threads start: the first often succeeds.
 const SEQUENTIAL_JOBS: usize = 1;
 
-/// Does jobs and calls `take` with their results, in the order of `jobs`, until it returns true or all are done.
-/// `threads`: the greatest number of threads that work at once. With more than one thread the robot must float, for
-/// loads are noted in the state.
+/// Runs jobs on up to `threads` threads and calls `take` with their results in the order of `jobs`, until it returns
+/// true or all are done. `state`: the robot at which all attempts start. With more than one thread the robot must
+/// float, for a gravity model notes overloads in the state.
 pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut dyn FnMut(Done) -> bool) {
     let (tree, docked, here) = (&state.tree, &state.docked, &state.robot.joints);
     let done = |job: usize, scene: &Scene| {

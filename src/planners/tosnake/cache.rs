@@ -10,7 +10,7 @@ use std::rc::Rc;
 /// Greatest number of stored sequences; beyond it the oldest goes.
 const STORED_MAX: usize = 100;
 
-/// The problem and the settings that determine a step sequence; two searches with equal keys find the same.
+/// The robot, settings and gravity model that determine a step sequence; two searches with equal keys find the same.
 #[derive(Clone, PartialEq)]
 pub(crate) struct SearchKey {
     robot: Robot,

@@ -8,7 +8,7 @@ use super::settings::Settings;
 use super::state::{Joints, State};
 use crate::planners::random::SplitMix64;
 
-/// Pairs that come together in one step, and the joint positions at its end.
+/// Pairs of docks that come together in one step, and the joint positions at its end.
 pub(super) struct ConcurrentMerges {
     /// The pairs that come together, in the order in which they were added.
     pub(super) pairs: Vec<Pair>,
@@ -24,9 +24,9 @@ const FAILURES_MAX: usize = 4;
 const START_SPREAD: f64 = 0.02;
 
 impl ConcurrentMerges {
-    /// Adds further pairs that are independent of those there, in their order, until there are
-    /// [`Settings::concurrent_merges_max`] or several in turn failed. `tried` counts attempts and `work` forward
-    /// kinematics.
+    /// Adds further pairs, tried in the order of `pairs`, that share no joint, bond or chain with those there, until
+    /// there are [`Settings::concurrent_merges_max`] or four attempts in a row failed. `tried` counts attempts, `work`
+    /// counts forward kinematics; `rng` gives random starts.
     pub(super) fn extended(
         mut self,
         state: &State,

@@ -43,7 +43,7 @@ pub fn to_world(robot: &Robot) -> rofi::World {
 /// Parts of a degree to which joints are rounded in files, which hides the rounding of radians.
 const DEGREE_PARTS: f64 = 1e9;
 
-/// An assembly of RoFI modules beside the planner's robot.
+/// An assembly of RoFI modules with the planner's own model of the same robot.
 pub(super) struct Translated<'a> {
     /// The assembly that was translated.
     pub(super) assembly: &'a Assembly,
@@ -53,10 +53,10 @@ pub(super) struct Translated<'a> {
     pub(super) robot: Robot,
 }
 
-/// Returns the planner's robot for an assembly in a state.
+/// Returns the planner's model of an assembly in a state, whose joint positions and closed bonds it takes.
 ///
 /// # Errors
-/// [`NotRofi`]: a module has other joints or ports, or another pitch than the first.
+/// [`NotRofi`] for the first module that has other joints or ports than a RoFI module, or another pitch than the first.
 pub(super) fn translated<'a>(assembly: &'a Assembly, state: &State) -> Result<Translated<'a>, NotRofi> {
     let kinematics = Kinematics::new(assembly, &state.bonds, assembly.base);
     let mut joints = Vec::with_capacity(assembly.modules.len());

@@ -103,7 +103,7 @@ pub fn plan_with_cache(
     task.solution(&found)
 }
 
-/// A problem in the planner's own terms.
+/// A problem of unwinding translated into the planner's own model.
 #[derive(Clone)]
 pub(crate) struct Task<'a> {
     problem: Problem<'a>,
@@ -113,10 +113,11 @@ pub(crate) struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    /// Translates a problem.
+    /// Translates a problem into the planner's model.
     ///
     /// # Errors
-    /// [`Refusal::NotRofi`] or [`Refusal::GravityUnsupported`].
+    /// [`Refusal::NotRofi`] for other modules; [`Refusal::GravityUnsupported`] if the settings choose the method of
+    /// [Mrázek et al.](super) under gravity.
     pub(crate) fn new(problem: &Problem<'a>, settings: &Settings) -> Result<Task<'a>, Refusal> {
         let Problem { robot, start, world } = *problem;
         let translated = translated(robot, start).map_err(Refusal::NotRofi)?;
@@ -130,7 +131,7 @@ impl<'a> Task<'a> {
         Ok(Task { problem: *problem, translated: Rc::new(translated), gravity })
     }
 
-    /// Returns the same task with another gravity model.
+    /// Returns the same task with this gravity model in place of its own.
     pub(crate) fn with_gravity(&self, gravity: GravityModel) -> Task<'a> {
         Task { gravity: Some(gravity), ..self.clone() }
     }
@@ -140,7 +141,7 @@ impl<'a> Task<'a> {
         &self.translated.robot
     }
 
-    /// Searches for the steps to the snake, unless the cache has them; stores what it finds there.
+    /// Returns the steps to the snake from the cache; searches for them if they are not there, and stores them.
     ///
     /// # Errors
     /// As [`search::unwind`](super::search::unwind); nothing is stored then.
@@ -161,7 +162,7 @@ impl<'a> Task<'a> {
         Ok(found)
     }
 
-    /// Schedules a step sequence as a motion; all its causes are 0.
+    /// Schedules a step sequence as a motion of the assembly, with the report of the search; all its causes are 0.
     ///
     /// # Errors
     /// [`Refusal::Schedule`] if the steps can't be scheduled.

@@ -10,14 +10,16 @@ use super::tolerances::TOLERANCES;
 use crate::geometry::RigidTransform;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Greatest number of modules of a loop: every module has 36 postures, so three have 46,656.
+/// The greatest number of modules of a loop whose postures are enumerated: every module has 36 postures of quarter
+/// turns, so three have 46,656.
 pub(super) const LENGTH_MAX: usize = 3;
 
 /// Postures of a module at quarter turns: three of either tilt and four of gamma.
 const POSTURES: usize = 36;
 
-/// Returns the posture of quarter turns that brings a pair's docks together by a free straight motion; of
-/// several the one with the smallest joint travel; `None` if there is none. `work` counts forward kinematics.
+/// Returns the joint positions (rad, by module), multiples of a quarter turn in the loop, that bring a pair's docks
+/// together by a free straight motion in joint space; of several those with the least joint travel; `None` if there are
+/// none. `work` counts forward kinematics.
 pub(super) fn closed_posture(state: &State, pair: &Pair, work: &mut u64) -> Option<Joints> {
     let tree = &state.tree;
     let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);

@@ -8,12 +8,12 @@ use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, ModuleType};
 use nalgebra::Matrix3;
 
-/// Returns the gravity model of a robot that is held by the body of its base module, whose pose in the world is
-/// `X_WB`. `gravity` is in m/s², downwards. Every link counts as a point mass at the centre of its ball, which
-/// is exact for the library's module.
+/// Returns the gravity model of a robot that is held by the body of its base module, whose pose in the world is `X_WB`.
+/// `gravity` is in m/s², downwards. Every link counts as a point mass at the centre of its ball, which is exact for the
+/// library's module.
 ///
 /// # Errors
-/// [`NotRofi`]: a module has other joints or ports.
+/// [`NotRofi`] for the first module that has other joints or ports than a RoFI module.
 #[allow(non_snake_case)]
 pub(super) fn gravity_model(assembly: &Assembly, X_WB: &Pose, gravity: f64) -> Result<GravityModel, NotRofi> {
     let mut shoes = Vec::with_capacity(2 * assembly.modules.len());

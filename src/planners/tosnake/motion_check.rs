@@ -23,7 +23,7 @@ const SKIN: f64 = 1.5;
 /// about eight in ten, all three more than nine in ten.
 const PRECHECK_INSTANTS: [f64; 3] = [0.5, 0.25, 0.75];
 
-/// The robot as checks of collisions and loads see it: its tree, its docked shoes and its limit of loads.
+/// The robot as collision and load checks need it: its tree, its docked shoes and its limit of loads.
 pub struct Scene<'a> {
     /// The kinematic tree over the closed bonds of the robot.
     pub tree: &'a Tree,
@@ -58,7 +58,7 @@ impl LoadLimit<'_> {
     }
 }
 
-/// Stores an overload if it is smaller than the one stored.
+/// Stores an overload in `least_overload` if its ratio is less than that of the one stored.
 pub(super) fn note_overload(least_overload: &Cell<Option<JointLoad>>, load: JointLoad) {
     if least_overload.get().is_none_or(|known| load.ratio < known.ratio) {
         least_overload.set(Some(load));
@@ -66,7 +66,8 @@ pub(super) fn note_overload(least_overload: &Cell<Option<JointLoad>>, load: Join
 }
 
 impl<'a> Scene<'a> {
-    /// Returns the scene of a floating robot; `tree`: that of its closed bonds.
+    /// Returns the scene of a floating robot, without a limit of loads; `tree`: the kinematic tree over its closed
+    /// bonds.
     pub fn new(robot: &Robot, tree: &'a Tree) -> Scene<'a> {
         Scene { tree, docked: broad_phase::docked(robot, tree), load_limit: None }
     }

@@ -25,10 +25,12 @@ struct Level {
     pairs: Vec<[Dock; 2]>,
 }
 
-/// Searches for the steps to the snake: `TOSNAKE` of the paper.
+/// Searches for the steps to the snake by the algorithm TOSNAKE of [Mrázek et al.](super), a depth-first search over
+/// pairs of free docks.
 ///
 /// # Errors
-/// [`Refusal`]: the start is invalid, the pairs or the budget are exhausted, or the observer ended the search.
+/// A [`Refusal`]: the start is invalid, all pairs were tried, the budget of forward kinematics is spent, or the
+/// observer ended the search.
 pub(super) fn unwind(
     robot: &Robot,
     settings: &Settings,

@@ -16,8 +16,9 @@ const UNLIMITED_SPEED: f64 = 1.0;
 const SMOOTH_PEAK_SPEED: f64 = 15.0 / 8.0;
 
 impl Translated<'_> {
-    /// Returns the program of steps that start at the robot's joint positions: one after the other, in each all
-    /// joints at once. `bonds` are the bonds that the steps index.
+    /// Returns the program that executes steps one after the other from the robot's joint positions; in each step all
+    /// its joints move at once, as fast as the slowest may. `bonds`: the list that the steps index; `cause`: that of
+    /// all actions.
     pub(super) fn program(&self, steps: &[Step], bonds: &[Bond], cause: CauseId) -> Arc<Node> {
         let mut positions = self.robot.joints.clone();
         let action = |command| {

@@ -129,7 +129,7 @@ impl Robot {
     }
 
     /// Closes a bond and returns its index in [`Robot::bonds`]: that of the same bond in the list, with its docks in
-    /// either order, or a new one at the end of the list. Other bonds of its docks are not checked.
+    /// either order, or a new one at the end of the list. It is not checked that its docks are free.
     pub fn dock(&mut self, bond: Bond) -> usize {
         let same =
             |known: &Bond| *known == bond || (known.a, known.b, known.turn) == (bond.b, bond.a, bond.turn);

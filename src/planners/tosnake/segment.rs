@@ -4,7 +4,7 @@ use super::robot::{ALPHA, BETA, GAMMA, across};
 use super::tree::Tree;
 use crate::geometry::RigidTransform;
 
-/// A segment of a chain, from one shoe to the next.
+/// A segment of a kinematic chain, from one shoe to the next: across a module or across a bond.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Segment {
     /// The step from a shoe to the one docked to it, at a constant pose.
@@ -21,8 +21,8 @@ pub(super) enum Segment {
 }
 
 impl Segment {
-    /// Returns the segments between successive shoes, given by their indices in the tree's order: one less than there
-    /// are shoes. `poses`: of the shoes, in the tree's order, in pitches.
+    /// Returns the segments between successive shoes of a chain, one less than there are shoes. `indices`: those of the
+    /// shoes in the tree's order. `poses`: of the shoes, in the tree's order, in pitches.
     pub(super) fn along(tree: &Tree, poses: &[RigidTransform], indices: &[usize]) -> Vec<Segment> {
         let segment = |step: &[usize]| {
             let (from, to) = (tree.shoe[step[0]], tree.shoe[step[1]]);

@@ -7,9 +7,10 @@ use super::robot::Robot;
 use super::state::{Joints, State, Step};
 use std::sync::Arc;
 
-/// Returns steps with the same docks and undocks, and as few motions between them as bisection finds. `robot` is the
-/// start, with all bonds in its list that the steps name; `gravity`: the gravity model, `None` for a robot that
-/// floats. `work` counts forward kinematics.
+/// Shortcuts the path between changes of bonds: returns steps with the same docks and undocks in which joints go
+/// straight from posture to posture where that is free, with as few postures between as bisection finds. `robot`: the
+/// start, with all bonds in its list that the steps name; `gravity`: the gravity model, `None` for a robot that floats.
+/// `work` counts forward kinematics.
 pub(super) fn shortened(
     robot: Robot,
     gravity: Option<Arc<GravityModel>>,

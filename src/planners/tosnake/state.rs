@@ -24,7 +24,7 @@ pub enum Step {
     Undock(usize),
 }
 
-/// The robot during the search for the snake.
+/// The state of the search for the snake: the robot with its tree and poses, the steps made so far, and the work.
 #[derive(Clone, Debug)]
 pub struct State {
     /// The configuration at the present: joint positions and bonds.
@@ -94,13 +94,13 @@ impl State {
         self.update_poses();
     }
 
-    /// Recomputes all poses from the joint positions (forward kinematics), and counts that as work.
+    /// Recomputes the poses of all shoes from the joint positions (forward kinematics), and counts that as work.
     pub fn update_poses(&mut self) {
         self.work += 1;
         self.tree.poses(&self.robot.joints, &mut self.poses);
     }
 
-    /// Returns the robot as checks of collisions and loads see it.
+    /// Returns the robot as collision and load checks need it; overloads are noted in [`State::least_overload`].
     pub fn scene(&self) -> Scene<'_> {
         let load_limit = self.gravity.as_deref().map(|gravity| LoadLimit {
             gravity,
@@ -110,7 +110,7 @@ impl State {
         Scene { tree: &self.tree, docked: self.docked.clone(), load_limit }
     }
 
-    /// Notes an overload in [`State::least_overload`], if it is smaller than the one there.
+    /// Stores an overload in [`State::least_overload`], if its ratio is less than that of the one there.
     pub fn note_overload(&self, load: JointLoad) {
         motion_check::note_overload(&self.least_overload, load);
     }
@@ -136,13 +136,14 @@ impl State {
         self.update_poses();
     }
 
-    /// Undocks the bond of an index in [`Robot::bonds`], and adds a step; the tree is to be rebuilt afterwards.
+    /// Opens the bond of an index in [`Robot::bonds`], and adds a step; the caller has to rebuild the tree. Panics if
+    /// there is no such bond.
     pub fn undock(&mut self, bond: usize) {
         self.robot.undock(bond);
         self.steps.push(Step::Undock(bond));
     }
 
-    /// Docks a bond, and adds a step; the tree is to be rebuilt afterwards.
+    /// Closes a bond, and adds a step; the caller has to rebuild the tree.
     pub fn dock(&mut self, bond: Bond) {
         let index = self.robot.dock(bond);
         self.steps.push(Step::Dock(index));

@@ -24,7 +24,7 @@ pub struct SearchStatus {
 }
 
 impl SearchStatus {
-    /// Updates the number of chains and the length of the longest.
+    /// Sets the number of chains and the length of the longest (in modules) to those of the state.
     pub(super) fn count_chains(&mut self, state: &State) {
         let mut chains = state.chains();
         chains.sort_unstable();
@@ -33,19 +33,19 @@ impl SearchStatus {
     }
 }
 
-/// The reporter of a search to an observer: it reports a new merge as a milestone, anything else on request.
+/// The reporter of a search to its observer: it sends a new merge as a milestone, anything else as a report on request.
 pub(super) struct Reporter<'a> {
     progress: &'a mut dyn Progress,
     made: Option<usize>,
 }
 
 impl<'a> Reporter<'a> {
-    /// Returns a reporter that has not told of any merge.
+    /// Returns a reporter to `progress` that has not reported any merge.
     pub(super) fn new(progress: &'a mut dyn Progress) -> Reporter<'a> {
         Reporter { progress, made: None }
     }
 
-    /// Reports the status; returns false if the search is to end.
+    /// Reports the status to the observer; returns false if the observer ends the search.
     pub(super) fn report(&mut self, status: &SearchStatus) -> bool {
         let SearchStatus { needed, made, tried, .. } = status;
         let words = || format!("{made} of {needed} connections made, {tried} pairs of ends tried");

@@ -12,9 +12,9 @@ use std::f64::consts::FRAC_PI_4;
 /// The least number of joints that are turned at once.
 const TOGETHER_MIN: usize = 2;
 
-/// Turns tilts to zero, together and one by one in random order, until no more are free to; returns the number of
-/// tilts that are left. Under gravity no joint exceeds [`State::load_share`] on the way. `state`: the robot, which is
-/// moved; `rng`: the generator of random orders.
+/// Turns tilts to zero, together and one by one in random order, until none can turn without collision; returns the
+/// number of tilts that are not zero then. Under gravity no joint exceeds [`State::load_share`] on the way. `state`:
+/// the robot, which is moved; `rng`: the generator of random orders.
 pub fn straighten(state: &mut State, rng: &mut SplitMix64) -> usize {
     loop {
         let joints = tilted(state);

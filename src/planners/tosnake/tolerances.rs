@@ -48,7 +48,7 @@ pub struct Tolerances {
     pub divisor: f64,
 }
 
-/// The tolerances with which every search of this planner computes.
+/// The values of the tolerances that every search of this planner uses.
 pub const TOLERANCES: Tolerances = Tolerances {
     min_distance: 1.0 - 6e-4,
     turn_min_distance: 1.0 - 6e-4 + 2e-4,

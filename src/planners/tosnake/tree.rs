@@ -241,7 +241,7 @@ impl Tree {
     }
 }
 
-/// A path through the tree: up to a common ancestor, then down.
+/// A path through the tree between two shoes: up to their common ancestor, then down.
 #[derive(Clone, Debug)]
 pub struct Path {
     /// The indices in the tree's order of the shoes on the path, both ends included, from the first to the last.

@@ -8,11 +8,12 @@ use super::tolerances::TOLERANCES;
 use super::tree::Tree;
 use crate::geometry::RigidTransform;
 
-/// Checks that closed bonds connect all modules, that the docks of those that close loops meet, and that no two
-/// modules overlap.
+/// Checks that closed bonds connect all modules, that the docks of those that close loops meet, and that no two modules
+/// overlap.
 ///
 /// # Errors
-/// [`Refusal::InvalidStart`] or [`Refusal::OpenLoop`].
+/// [`Refusal::InvalidStart`] for a robot that is not connected or overlaps, [`Refusal::OpenLoop`] for a bond whose
+/// docks do not meet.
 pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
     let tree = Tree::grow(robot, 0)
         .ok_or_else(|| Refusal::InvalidStart(InvalidStart::Disconnected(loose(robot))))?;

@@ -56,8 +56,8 @@ impl NeighbourList {
     }
 
     /// Returns the pairs of struts (indices, the lesser first) that may come nearer than the clearance plus `more`, m,
-    /// while the nodes move linearly from x to y, m. Reuses the list in `known` if it still covers the motion, else
-    /// rebuilds it.
+    /// while the nodes move linearly from x to y, m. `known`: the neighbour list of earlier calls; reuses it if it
+    /// still covers the motion, else rebuilds it.
     pub(super) fn candidates(
         known: &mut Option<NeighbourList>,
         truss: &Structure,
@@ -84,7 +84,8 @@ impl NeighbourList {
         found
     }
 
-    /// Updates the bounds on distances after linear motion of the nodes to y, m, within the skin.
+    /// Lowers the bounds on distances in the list by what the nodes moved against their mean, now that they are at `y`
+    /// (m, by index), which must be within the skin of where the list was made.
     pub(super) fn moved(&mut self, truss: &Structure, y: &[Vec3]) {
         let reach = reach(truss, &self.now, y);
         for pair in &mut self.pairs {
@@ -113,8 +114,8 @@ fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
     x.iter().zip(y).map(move |(p, q)| (q - p - mean).norm())
 }
 
-/// Returns the pairs of struts without a common node whose bounding boxes are within `reach` of each other: two
-/// indices, the lesser first, and the distance between the boxes, both lengths in m.
+/// Returns the pairs of struts without a common node whose bounding boxes, with the nodes at `x`, are within `reach` of
+/// each other: two indices, the lesser first, and the distance between the boxes, both lengths in m.
 pub(super) fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();

@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 /// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
 const RIGID: usize = 6;
 
-/// A singular value of the rigidity matrix with its singular vectors: over the struts (left) and over the
-/// nodes' coordinates (right).
+/// A singular value of the rigidity matrix (the Jacobian of the strut lengths) with its singular vectors: over the
+/// struts (left) and over the nodes' coordinates (right).
 #[derive(Clone)]
 pub(super) struct Mode {
     /// The singular value of the rigidity matrix, without unit.
@@ -22,8 +22,9 @@ pub(super) struct Mode {
     nodes: DVector<f64>,
 }
 
-/// Returns the modes of the `count` least singular values in ascending order, those of the six rigid motions left out.
-/// Found as square roots of the eigenvalues of RᵀR, so values below about 1e-8 are noise.
+/// Returns the modes of the `count` least singular values of the rigidity matrix with the nodes at `x` (m), in
+/// ascending order, those of the six rigid motions left out. Found as square roots of the eigenvalues of RᵀR, so values
+/// below about 1e-8 are noise.
 pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> {
     let n = 3 * truss.nodes;
     let along = |strut: usize| {
@@ -52,10 +53,10 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize) -> Vec<Mode> 
     order.iter().skip(RIGID).take(count).map(mode).collect()
 }
 
-/// Returns mode i for i = j, else the normalised sum (i < j) or difference (i > j) of two modes, as in
-/// [`Constraint::Rigidity`](super::constraint::Constraint). If two singular values nearly coincide, their
-/// vectors are any two of the plane that they span, and a step that keeps both values may still lower one in
-/// between.
+/// Returns mode i (an index in `modes`) for i = j, else the normalised sum (i < j) or difference (i > j) of two modes,
+/// as in [`Constraint::Rigidity`](super::constraint::Constraint). If two singular values nearly coincide, their vectors
+/// are any two of the plane that they span, and a step that keeps both values may still lower one in between. Panics if
+/// there is no such mode.
 pub(super) fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
     if i == j {
         return modes[i].clone();
@@ -71,13 +72,14 @@ pub(super) fn joined(modes: &[Mode], i: usize, j: usize) -> Mode {
 }
 
 impl Mode {
-    /// Returns the singular value minus its limit, times the unit, m.
+    /// Returns the amount by which the singular value is above its limit
+    /// [`Limits::rigidity`](super::structure::Limits), times the unit length of the truss, m; negative if it is below.
     pub(super) fn spare(&self, truss: &Structure) -> f64 {
         (self.value - truss.limits.rigidity) * truss.unit
     }
 
-    /// Returns the gradient of the singular value times the unit, `uᵀ dR v`, for each node with its index; without
-    /// unit.
+    /// Returns the gradient of the singular value times the unit length over the positions of the nodes, `uᵀ dR v`, for
+    /// each node with its index; without unit. `x`: the positions, m.
     pub(super) fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         let mut sums = vec![Vec3::zeros(); truss.nodes];
         for (strut, &(a, b)) in truss.struts.iter().enumerate() {

@@ -21,8 +21,8 @@ pub struct Roll {
     pub angle: f64,
 }
 
-/// Returns the roll over an edge of the support polygon, two nodes with the inside on the left, to the outside, by the
-/// least angle that brings another node to the ground; `None` if none gets there.
+/// Returns the roll outwards over an edge of the support polygon (two nodes, the inside on their left) by the least
+/// angle that brings another node to the ground; `None` if none gets there. `x`: the positions of the nodes, m.
 pub(in crate::planners) fn over(truss: &Structure, x: &[Vec3], edge: (usize, usize)) -> Option<Roll> {
     let axis = axis(x, edge);
     // Over terrain by conservative advancement, over flat ground in closed form.
@@ -53,13 +53,13 @@ fn axis(x: &[Vec3], edge: (usize, usize)) -> Axis {
     Axis { origin: x[edge.0], along: (x[edge.1] - x[edge.0]).normalize() }
 }
 
-/// Returns a constraint that a roll would violate: a strut would meet an obstacle, or the ground before its
-/// ends do. `None` if the roll is free.
+/// Returns a constraint that a roll would violate: a strut would meet an obstacle, or the ground before its ends do.
+/// `None` if the roll is free. `x`: the positions of the nodes, m.
 pub(in crate::planners) fn blocked(truss: &Structure, x: &[Vec3], roll: Roll) -> Option<Constraint> {
     rotation::blocked(truss, x, &axis(x, roll.edge), roll.angle)
 }
 
-/// The static equilibrium of a truss on the ground.
+/// The static equilibrium of a truss on the ground: stable, toppling over an edge, or on one node.
 pub(in crate::planners) enum Equilibrium {
     /// The centre of mass is inside the support polygon.
     Stable,
@@ -69,8 +69,9 @@ pub(in crate::planners) enum Equilibrium {
     OnOneNode(usize),
 }
 
-/// Returns the equilibrium of a truss; `None` if it has no contact, or topples over an edge beyond which
-/// nothing meets the ground.
+/// Returns the static equilibrium of a truss with its nodes at `x` (m) on the ground: stable if the centre of mass is
+/// inside the support polygon by more than the tolerance `stability_margin`. `None` if it has no contact, or topples
+/// over an edge beyond which nothing meets the ground.
 pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<Equilibrium> {
     let contacts = contacts(truss, x);
     match support_polygon::stability_margin(truss, x, &contacts) {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// The greatest number of samples of one advancement; a rotation that needs more counts as blocked, a node as landed.
 const ADVANCEMENT_STEPS_MAX: usize = 20_000;
 
-/// A directed line; rotations about it are by the right-hand rule.
+/// A directed line in the world's frame; rotations about it are by the right-hand rule.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::planners) struct Axis {
     /// A point of the axis of rotation, m.
@@ -19,7 +19,7 @@ pub(in crate::planners) struct Axis {
 }
 
 impl Axis {
-    /// Returns the rotation by an angle, rad, as a function of points, m.
+    /// Returns the rotation about the axis by an angle (rad) as a function of points (m, in the world's frame).
     pub(super) fn rotation(&self, angle: f64) -> impl Fn(Vec3) -> Vec3 + use<> {
         let (origin, rotation) = (self.origin, turned(self.along, angle).rotation);
         move |p| origin + rotation * (p - origin)
@@ -32,7 +32,7 @@ impl Axis {
     }
 }
 
-/// Returns the angle of rotation, rad, at which a point comes down on uneven ground from above; a point that
+/// Returns the angle of rotation (rad) at which the point `p` (m) comes down on uneven ground from above; a point that
 /// starts on the ground leaves it first. `None` if it does not come down, or is on the axis.
 pub(super) fn touchdown(truss: &Structure, axis: &Axis, p: Vec3) -> Option<f64> {
     let (tolerances, unit) = (&truss.tolerances, truss.unit);
@@ -72,8 +72,8 @@ pub(super) fn touchdown(truss: &Structure, axis: &Axis, p: Vec3) -> Option<f64> 
     Some(angle)
 }
 
-/// Returns a constraint that the truss would violate while it rotates by an angle, rad: a strut meets an
-/// obstacle, or ground before its ends do. `None` if the roll is free.
+/// Returns a constraint that the truss would violate while it rotates by an angle, rad: a strut meets an obstacle, or
+/// ground before its ends do. `None` if the rotation is free. `x`: the positions of the nodes at its start, m.
 pub(super) fn blocked(truss: &Structure, x: &[Vec3], axis: &Axis, angle: f64) -> Option<Constraint> {
     (0..truss.struts.len()).find_map(|strut| {
         let ends = truss.segment(x, strut);

@@ -38,7 +38,7 @@ pub struct QuadraticCost {
     pub absolutes: Vec<Vec<(usize, f64)>>,
 }
 
-/// The problem of one step: minimise a cost under the constraints of a truss.
+/// The problem of one step: the cost to minimise by displacing the nodes, under the constraints of a truss.
 pub struct StepProblem<'a> {
     /// The truss with its limits and surroundings.
     pub truss: &'a Structure,

@@ -96,7 +96,7 @@ impl Structure {
         self
     }
 
-    /// Returns the truss in these surroundings, in place of those that it has.
+    /// Returns the truss among these obstacles and on this terrain, in place of those that it has.
     pub fn with_surroundings(mut self, surroundings: Surroundings) -> Structure {
         self.surroundings = surroundings;
         self

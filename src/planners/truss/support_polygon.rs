@@ -4,13 +4,15 @@
 use super::structure::Structure;
 use crate::geometry::Vec3;
 
-/// Returns the nodes on the ground, in ascending order: those at most `contact_height` above it.
+/// Returns the indices of the nodes on the ground, ascending: those at most the tolerance `contact_height` (in unit
+/// lengths) above it. `x`: the positions of the nodes, m.
 pub(in crate::planners) fn contacts(truss: &Structure, x: &[Vec3]) -> Vec<usize> {
     let height = truss.tolerances.contact_height * truss.unit;
     (0..truss.nodes).filter(|&node| truss.surroundings.height(x[node]) <= height).collect()
 }
 
-/// Returns true if a node that is on the ground at both ends of a linear motion, m, is so in between.
+/// Returns true if a node on the ground at both ends, `from` and `to` (m), of a linear motion stays on it in between;
+/// always true without terrain.
 pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: Vec3) -> bool {
     let height_max = truss.tolerances.contact_height * truss.unit;
     let terrain = truss.surroundings.terrain.as_ref().filter(|_| from != to);
@@ -21,8 +23,8 @@ pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: V
     })
 }
 
-/// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above,
-/// counter-clockwise, without nodes on its edges (Andrew's monotone chain).
+/// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above, counter-clockwise,
+/// without nodes on its edges (Andrew's monotone chain). `x`: the positions of the nodes, m; `contacts`: their indices.
 pub(in crate::planners) fn hull(x: &[Vec3], contacts: &[usize]) -> Vec<usize> {
     let mut order = contacts.to_vec();
     order.sort_by(|&a, &b| x[a].x.total_cmp(&x[b].x).then(x[a].y.total_cmp(&x[b].y)));
@@ -50,9 +52,9 @@ fn cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// Returns the signed distance of the point `at` from the boundary of a hull (nodes as by [`hull`]) seen from above,
-/// m, positive inside, and the edge that it is nearest to, as two nodes. A hull of two nodes has no inside. `None`
-/// with fewer.
+/// Returns the signed distance of the point `at` from the boundary of a hull (nodes as by [`hull`]) seen from above, m,
+/// positive inside, and the edge that it is nearest to, as two nodes. A hull of two nodes has no inside. `None` with
+/// fewer. `x`: the positions of the nodes, m.
 pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Option<(f64, (usize, usize))> {
     if hull.len() < 2 {
         return None;
@@ -65,8 +67,9 @@ pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Optio
     edges.map(inside).min_by(|p, q| p.0.total_cmp(&q.0))
 }
 
-/// Returns the static stability margin of the truss on some contacts (nodes), m, negative if it topples, and the edge
-/// of the support polygon nearest to the centre of mass, as two nodes. `None` with fewer than two contacts.
+/// Returns the static stability margin (McGhee and Frank 1968) of the truss on some contacts (indices of nodes), m,
+/// negative if it topples, and the edge of the support polygon nearest to the centre of mass, as two nodes. `None` with
+/// fewer than two contacts.
 pub(in crate::planners) fn stability_margin(
     truss: &Structure,
     x: &[Vec3],
@@ -75,8 +78,8 @@ pub(in crate::planners) fn stability_margin(
     margin(x, &hull(x, contacts), truss.centre_of_mass(x))
 }
 
-/// Returns the three nodes of a hull (as by [`hull`]) whose triangle holds the point `at` with the greatest margin;
-/// all nodes of a hull of fewer.
+/// Returns the three nodes of a hull (as by [`hull`]) whose triangle holds the point `at` (x and y in m) with the
+/// greatest margin; all nodes of a hull of fewer.
 pub(in crate::planners) fn support_triangle(x: &[Vec3], hull: &[usize], at: Vec3) -> Vec<usize> {
     let mut best: Option<(f64, Vec<usize>)> = None;
     for (i, &a) in hull.iter().enumerate() {

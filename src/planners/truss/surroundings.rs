@@ -16,8 +16,8 @@ const DISC: [[f64; 2]; 9] = [
     [-0.7, -0.7],
 ];
 
-/// Obstacles and terrain in the world's frame, prepared for distance queries. The default is flat ground at
-/// height 0 without obstacles.
+/// The obstacles and the terrain around a truss in the world's frame, prepared for distance queries. The default is
+/// flat ground at height 0 without obstacles.
 #[derive(Clone, Debug, Default)]
 pub struct Surroundings {
     /// The convex parts of all obstacles, in the world's frame, each with the index of its obstacle, from 0.

@@ -60,7 +60,7 @@ pub struct Tolerances {
 }
 
 impl Tolerances {
-    /// The default tolerances, whose values the fields' documentation gives.
+    /// The default values, which the documentation of the fields gives.
     pub const DEFAULT: Tolerances = Tolerances {
         rounding: 1e-10,
         clearance_margin: 2e-4,
