@@ -19,7 +19,7 @@ const WIDENED_MAX: usize = 1_000;
 /// The first words of the error that a lambda's result is of another type.
 const RESULT_WANTS: &str = "the function's result wants";
 
-/// The types and dimensions bound to the type parameters of a function in one call. Its three lists have one entry for
+/// The types and dimensions bound to the type parameters of a function in one call. Each of its lists has one entry for
 /// each type parameter, in order.
 #[derive(Clone, Default)]
 pub(super) struct Bindings {
@@ -32,7 +32,8 @@ pub(super) struct Bindings {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a lambda against the type of a parameter, which has type parameters, and binds them.
+    /// Checks a lambda given for a parameter whose type has type parameters, binds these, and returns the typed lambda;
+    /// an error node after a report.
     ///
     /// Its result may not fit what the arguments before it have bound, as in `reduce(list, (a, x) => a + x, from: 0)`
     /// over numbers: then the parameter is bound anew to what both fit, and the lambda is checked again with it.
@@ -80,8 +81,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Binds the type parameters in `pattern` so that `got` fits it; returns true if it does. After false some
-    /// parameters may be bound anew.
+    /// Binds the type parameters in `pattern` so that a value of type `got` fits it; returns true if it does. After
+    /// false some parameters may be bound anew.
     pub(super) fn unify(&self, pattern: &Type, got: &Type, bindings: &mut Bindings) -> bool {
         match (pattern, got) {
             (_, Type::Error) => true,
@@ -167,7 +168,7 @@ impl Bindings {
     }
 
     /// Returns a type with the bound parameters substituted; unbound ones stay. [`Type::Error`] stands for a quantity
-    /// whose power of a dimension is too large.
+    /// in which the exponent of a base dimension would be too large.
     pub(super) fn apply(&self, ty: &Type) -> Type {
         let inner = |t: &Arc<Type>| Arc::new(self.apply(t));
         match ty {

@@ -29,7 +29,8 @@ enum Callee {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a call, and returns it typed; `want` is the type expected of its result, `None` if any will do.
+    /// Checks a call, and returns it typed, as an error node after a report. `want` is the type expected of its result,
+    /// `None` if any will do.
     pub(super) fn call(
         &mut self,
         scope: &mut Scope,
@@ -156,8 +157,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the item `gaits.caterpillar` of an imported file; [`Entity::Error`] if the file has no such item
-    /// (reported). `None` if the object is no name of an imported file.
+    /// Returns the entity of an item of an imported file, as in `gaits.caterpillar`; [`Entity::Error`] if the file has
+    /// no such item (reported). `None` if the object is no name of an imported file.
     pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
@@ -224,9 +225,9 @@ impl<'a> Checker<'a> {
         expr_of(span, result, ExprKind::Call { def: id, args })
     }
 
-    /// Returns the signature with which a declaration is called. A built-in may give a value or a signal, as
-    /// `pose(of: Port | Module) -> Pose | Signal<Pose>` does: it gives the signal where `want` is one, otherwise the
-    /// value, and what its parameters may be is told apart likewise.
+    /// Returns the signature with which a declaration is called. A built-in may give a value or a signal, as `pose(of:
+    /// Port | Module) -> Pose | Signal<Pose>` does: then the signature has the signal if `want` is one, else the value,
+    /// and those types of parameters that go with it.
     pub(super) fn reading(&mut self, id: DefId, want: Option<&Type>) -> Rc<Signature> {
         let signature = self.signature(id);
         let either = |ty: &Type| alternatives(ty).len() > 1 && alternatives(ty).into_iter().any(is_signal);
@@ -482,8 +483,8 @@ impl<'a> Checker<'a> {
         self.bind_argument(got, &param.ty, param.name, bindings)
     }
 
-    /// Checks that an argument fits the type `pattern` of the parameter `name`, and binds the type parameters in it.
-    /// Returns the argument, as an error if it does not fit (reported).
+    /// Checks that an argument `got` fits the type `pattern` of the parameter `name`, and binds the type parameters in
+    /// it. Returns the argument; an error node if it does not fit (reported).
     pub(super) fn bind_argument(
         &mut self,
         got: Expr,

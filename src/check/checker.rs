@@ -27,7 +27,7 @@ pub(super) enum Entity {
     Error,
 }
 
-/// The tree of a declaration.
+/// The syntax tree of a declaration, by its keyword.
 #[derive(Clone, Copy)]
 pub(super) enum DefItem<'a> {
     /// A constant: `let`.
@@ -161,7 +161,7 @@ pub(super) struct Members<'a> {
     pub behaviors: Vec<BehaviorInfo<'a>>,
 }
 
-/// A member by its text.
+/// A member of a declaration with instances: its name with its syntax, not yet checked.
 pub(super) struct MemberInfo<'a> {
     /// The name of the member, as in `object.name`.
     pub name: Symbol,
@@ -173,7 +173,7 @@ pub(super) struct MemberInfo<'a> {
     pub kind: MemberInfoKind<'a>,
 }
 
-/// The kinds of members.
+/// The kinds of members, each with its syntax.
 #[derive(Clone, Copy)]
 pub(super) enum MemberInfoKind<'a> {
     /// The parameter at this index.
@@ -193,7 +193,7 @@ pub(super) enum MemberInfoKind<'a> {
     },
 }
 
-/// A joint of a module by its text.
+/// A joint of a module: its name with its syntax, not yet checked.
 pub(super) struct JointInfo<'a> {
     /// The name of the joint, by which programs command it.
     pub name: Symbol,
@@ -209,7 +209,7 @@ pub(super) struct JointInfo<'a> {
     pub dimension: crate::units::Dimension,
 }
 
-/// A port of a module by its text.
+/// A port, or an array of ports, of a module: its name with its syntax, not yet checked.
 pub(super) struct PortInfo {
     /// The name of the port, or of the array of ports.
     pub name: Symbol,
@@ -221,7 +221,7 @@ pub(super) struct PortInfo {
     pub array: bool,
 }
 
-/// A behaviour of a configuration by its text.
+/// A behaviour of a configuration: its name with its syntax, not yet checked.
 pub(super) struct BehaviorInfo<'a> {
     /// The syntax tree of the behaviour.
     pub ast: &'a ast::Behavior,
@@ -260,7 +260,7 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Returns the state before any declaration is entered. `diagnostics` are those of loading.
+    /// Returns the checker of the loaded files before any declaration is entered. `diagnostics` are those of loading.
     pub(super) fn new(loaded: &'a Loaded, sources: &'a Sources, diagnostics: Vec<Diagnostic>) -> Checker<'a> {
         Checker {
             loaded,
@@ -277,12 +277,12 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the state of a declaration. Panics if the identity is of another program.
+    /// Returns the state of a declaration. Panics if there is none of this identity.
     pub(super) fn def(&self, id: DefId) -> &DefInfo<'a> {
         &self.defs[id.0 as usize]
     }
 
-    /// Returns the state of a declaration, to change it. Panics if the identity is of another program.
+    /// Returns the state of a declaration, to change it. Panics if there is none of this identity.
     pub(super) fn def_mut(&mut self, id: DefId) -> &mut DefInfo<'a> {
         &mut self.defs[id.0 as usize]
     }
@@ -309,7 +309,8 @@ impl<'a> Checker<'a> {
         found
     }
 
-    /// Returns the names at the top of a file, without the prelude, with their entities.
+    /// Returns the names at the top of a file (an index into the loaded files), imports included but not the prelude,
+    /// with their entities.
     pub(super) fn top(&self, file: usize) -> &HashMap<Symbol, Entity> {
         &self.scopes[self.scope_index(file)]
     }
@@ -333,7 +334,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the names visible at the top of a file, the prelude's included, in no order.
+    /// Returns the names visible at the top of a file (an index into the loaded files), the prelude's included, in no
+    /// order.
     pub(super) fn visible_names(&self, file: usize) -> Vec<&'static str> {
         let mut names: Vec<&str> = self.top(file).keys().map(|s| s.as_str()).collect();
         if let Some(prelude) = self.loaded.prelude {
@@ -342,7 +344,7 @@ impl<'a> Checker<'a> {
         names
     }
 
-    /// Fills the scopes: the items of every file, then its imports.
+    /// Enters the declarations of every file into its scope, then the imports; reports names that are declared twice.
     pub(super) fn declare(&mut self) {
         let mut of_entries = Vec::new();
         let in_session = self.loaded.files.iter().any(|file| file.entry);
@@ -376,7 +378,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns true if a piece of text that could not be read would have declared this name.
+    /// Returns true if a declaration of this name is in a piece of text that could not be parsed.
     pub(super) fn is_unread(&self, name: Symbol) -> bool {
         self.loaded.files.iter().any(|file| file.ast.unread.contains(&name))
     }
@@ -438,7 +440,7 @@ impl<'a> Checker<'a> {
         DefId(self.defs.len() as u32 - 1)
     }
 
-    /// Reports a name declared at both spans.
+    /// Reports that a name is declared at both of these spans.
     pub(super) fn declared_twice(&mut self, name: Symbol, first: Span, second: Span) {
         self.report(
             Diagnostic::error(code::DECLARED_TWICE, format!("`{name}` is declared twice"))
@@ -515,7 +517,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the family of a declaration with instances; `None` for other declarations.
+    /// Returns the family (module, configuration, cell and so on) of a declaration with instances; `None` for other
+    /// declarations.
     pub(super) fn family(&self, id: DefId) -> Option<Family> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,
@@ -528,7 +531,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the typed program and the diagnostics in the order of discovery, once every declaration has been
-    /// checked; one that has not is an error in it.
+    /// checked; one that has not is [`DefKind::Error`]. `statements` and `tests`: those of the file that is run.
     pub(super) fn finish(
         self,
         statements: typed::Body,

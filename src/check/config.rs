@@ -15,7 +15,8 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
-    /// Checks a `config`, and returns it typed; reports parts, ports and clauses that are wrong.
+    /// Checks a `config`, and returns it typed; reports parts, ports and clauses that are wrong, for which error nodes
+    /// stand.
     pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));
@@ -300,8 +301,8 @@ impl<'a> Checker<'a> {
         self.coerce(port, &Type::Port, Role::Place("`connect`"))
     }
 
-    /// Returns `body.side[i]` as a checked expression; every prefix has its own span. `want` is the type expected of
-    /// the whole.
+    /// Checks a path such as `body.side[i]`, and returns it as a typed expression in which every prefix has its own
+    /// span; an error node after a report. `want` is the type expected of the whole, `None` if any will do.
     pub(super) fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
         let last = path.steps.len();
         let root_want = if last == 0 { want } else { None };
@@ -349,8 +350,8 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, name, chosen.as_ref().or(want))
     }
 
-    /// Returns a `port` clause of a configuration as a member; `array` is true where the clause names an array. Panics
-    /// on another clause.
+    /// Checks a `port` clause of a configuration, and returns it as a member. `array`: true if the clause declares an
+    /// array of ports. Panics on another clause.
     pub(super) fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
         let ConfigClauseKind::Port { name, count, value } = clause else {
             unreachable!("only port clauses are ports")

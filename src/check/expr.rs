@@ -36,7 +36,8 @@ pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }
 
-/// Returns an expression that fits `want` with its quantities in the dimensions of that type.
+/// Returns the expression `got`, whose type fits `want`, with its quantities in the dimensions of `want`: without the
+/// radians that are dropped there, energies and torques as they are named there.
 pub(super) fn in_dimensions(got: Expr, want: &Type) -> Expr {
     match got.ty.in_dimensions_of(want) {
         Some(ty) => expr_of(got.span, ty, ExprKind::SetDimension(Box::new(got))),
@@ -44,22 +45,22 @@ pub(super) fn in_dimensions(got: Expr, want: &Type) -> Expr {
     }
 }
 
-/// Returns the expression that marks a reported mistake.
+/// Returns the error node that stands for an expression with a reported mistake.
 pub(super) fn error_expr(span: Span) -> Expr {
     expr_of(span, Type::Error, ExprKind::Error)
 }
 
 impl<'a> Checker<'a> {
-    /// Checks an expression that must fit the type `want`, in a context that messages name by `role`; reports a
-    /// mismatch, and returns an error.
+    /// Checks an expression that must fit the type `want`, in a context that messages name by `role`, and returns it
+    /// typed; an error node after a report.
     pub(super) fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
         let got = self.expr(scope, e, Some(want));
         self.coerce(got, want, role)
     }
 
-    /// Returns an expression as one of the type `want`, in a context that messages name by `role`: drops the radians
-    /// of a quantity where `want` has none, and shows energies and torques as `want` does. Reports a mismatch, and
-    /// returns an error.
+    /// Converts a checked expression to the type `want`, in a context that messages name by `role`: drops the radians
+    /// of a quantity where `want` has none, and names energies and torques as `want` does. Reports a mismatch, and
+    /// returns an error node.
     pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
@@ -68,7 +69,8 @@ impl<'a> Checker<'a> {
         in_dimensions(got, want)
     }
 
-    /// Returns the text of a span; `None` if it has more than 40 bytes or several lines.
+    /// Returns the source text of a span, to be quoted in a message; `None` if it has more than 40 bytes or several
+    /// lines.
     pub(super) fn quoted(&self, span: Span) -> Option<&'a str> {
         let text = self.sources.text(span);
         (text.len() <= 40 && !text.contains('\n')).then_some(text)
@@ -108,8 +110,8 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks an expression, and returns it typed, or as an error after a report. `want` is the expected type, which
-    /// decides words, optional values and lists; `None` if any will do.
+    /// Checks an expression, and returns it typed; an error node after a report. `want` is the expected type, which
+    /// decides what words of choices, `_` and `[...]` mean; `None` if any will do.
     pub(super) fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
         use ast::ExprKind as K;
         let span = e.span;

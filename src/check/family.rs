@@ -122,7 +122,7 @@ impl From<FactsFamily> for Family {
     }
 }
 
-/// The parts that the declarations of all families of instances have: parameters, members, frame.
+/// The parts that the declarations of all families of instances have: parameters, members, size of the frame of locals.
 pub struct Instantiable<'p> {
     /// The family of the declaration.
     pub family: Family,
@@ -135,7 +135,8 @@ pub struct Instantiable<'p> {
 }
 
 impl DefKind {
-    /// Returns the parts that the declarations of all families have; `None` for a declaration without instances.
+    /// Returns the parts that the declarations of all families of instances have; `None` for a declaration without
+    /// instances.
     pub fn instantiable(&self) -> Option<Instantiable<'_>> {
         let (family, params, members, frame) = match self {
             DefKind::Module(d) => (Family::Module, &d.params, &d.members, d.frame),

@@ -33,7 +33,8 @@ impl<'a> Checker<'a> {
         Some(self.field_of(span, object, ast::Name { text: name, span }, want))
     }
 
-    /// Checks `object.name`; `want` decides between a joint and a port of one name.
+    /// Checks `object.name`, and returns it typed; an error node after a report. `want`, the expected type, decides
+    /// between a joint and a port of one name.
     pub(super) fn field(
         &mut self,
         scope: &mut Scope,
@@ -67,8 +68,8 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, field, want)
     }
 
-    /// Resolves `.joint` or `.port` behind `object`: the object itself, if it is already the one or the other, else
-    /// its field of this name.
+    /// Resolves `.joint` or `.port` behind `object`: the object itself, if it is already the one or the other, else its
+    /// field of this name; reports an unknown field, and returns an error node.
     pub(super) fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
         match (field.text.as_str(), object.kind) {
             ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {
@@ -79,7 +80,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the field of a checked object, by the type of the object; reports a field that it does not have, and
-    /// returns an error.
+    /// returns an error node. `want`, the expected type, decides between a joint and a port of one name.
     pub(super) fn field_of(
         &mut self,
         span: Span,
@@ -260,8 +261,8 @@ impl<'a> Checker<'a> {
         self.prelude_def("plan").and(self.prelude_def("Plan"))
     }
 
-    /// Returns the expression `plan(behavior)`. Panics if the prelude could not be read; [`Checker::plan_record`]
-    /// tells.
+    /// Returns the expression `plan(behavior)` of the record type `Plan`, as for a plan's field that is read from a
+    /// behaviour. Panics if the prelude could not be read; [`Checker::plan_record`] tells.
     pub(super) fn planned(&mut self, behavior: Expr) -> Expr {
         let def = self.prelude_def("plan").expect("the prelude declares what its record comes from");
         let record = self.prelude_def("Plan").expect("the prelude declares what `plan` gives");

@@ -14,8 +14,8 @@ use crate::units::{self, Dimension};
 const LISTED_MAX: usize = 12;
 
 impl Checker<'_> {
-    /// Returns the hint for a name that is unknown in `file` and that another file or the library declares: what
-    /// imports it. `None` if none does.
+    /// Returns a hint with the `use` that imports a name that is unknown in `file` (an index into the loaded files) and
+    /// that another file or the library declares; `None` if none does.
     pub(super) fn import_hint(&self, file: usize, name: Symbol) -> Option<String> {
         match library::declares(name.as_str()) {
             Some(home) => Some(format!("the library has it: `use std.{home}.{name}`")),
@@ -26,7 +26,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns a hint on the correction of an expression that is not of the type `want`; `None` if none is known.
+    /// Returns a hint on how to mend the expression `got`, which is not of the type `want`; `None` if none is known.
     pub(super) fn type_hint(&mut self, got: &Expr, want: &Type) -> Option<String> {
         let written = self.quoted(got.span).unwrap_or("it");
         if let Some(hint) = self.port_or_joint(got, want).or_else(|| self.vector_hint(got, want)) {
@@ -136,8 +136,9 @@ impl Checker<'_> {
 /// The built-ins for joints that turn, each with what does the same for joints that slide.
 const BY_JOINT: &[(&str, &str)] = &[("angle", "displacement"), ("torque", "force"), ("spin", "move")];
 
-/// Returns the hint that names what does for a joint of the other kind what `function` does; `None` where nothing
-/// does, or the joint is no joint of the other kind.
+/// Returns a hint for a built-in `function` called with a joint of the wrong kind: the built-in that does the same for
+/// it, such as `displacement` of a sliding joint for `angle` of a turning one. `None` if there is no such built-in, or
+/// the types are not joints of the two kinds.
 pub(super) fn for_other_joints(function: Symbol, got: &Type, want: &Type) -> Option<String> {
     let (Type::Joint(got), Type::Joint(want)) = (got, want) else { return None };
     let slides = |joint: &Type| joint.dimension() == Some(Dimension::LENGTH);
@@ -179,8 +180,8 @@ fn written_length(e: &ast::Expr) -> Option<usize> {
     if let ast::ExprKind::List(items) = &e.kind { Some(items.len()) } else { None }
 }
 
-/// Returns a likely correction of a quantity of the dimension `have`, `written` so, where `need` is wanted; `None` if
-/// none is known, or the text is not at hand.
+/// Returns a likely correction of a quantity of the dimension `have` where `need` is wanted, as a hint; `written` is
+/// its source text. `None` if none is known, or there is no text.
 pub(super) fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimension) -> Option<String> {
     let written = written?;
     let literal = written.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit())
@@ -208,8 +209,8 @@ pub(super) fn dimension_hint(written: Option<&str>, have: Dimension, need: Dimen
     (literal && !unit.is_empty()).then(|| format!("{} has a unit such as `{unit}`", dimension_words(need)))
 }
 
-/// Returns the hint for a plain number, `written` so, where an angle is wanted. A fraction up to a whole turn is most
-/// likely in radians, a larger number in degrees; a small whole number may be either.
+/// Returns the hint for a plain number, whose source text is `written`, where an angle is wanted. A fraction up to a
+/// whole turn is most likely in radians, a larger number in degrees; a small whole number may be either.
 pub(super) fn angle_hint(written: &str) -> String {
     let digits: String = written.chars().filter(|c| !matches!(c, '-' | '_')).collect();
     let (whole, small) = match digits.parse::<f64>() {

@@ -23,7 +23,7 @@ const STACK_LEFT_MIN: usize = 1 << 20;
 const STACK_PIECE: usize = 8 << 20;
 
 impl<'a> Checker<'a> {
-    /// Returns the signature of a declaration; computes it once.
+    /// Returns the signature of a declaration; computes it at the first call, and reports its mistakes then.
     pub(super) fn signature(&mut self, id: DefId) -> Rc<Signature> {
         if let Some(signature) = &self.def(id).signature {
             return signature.clone();
@@ -111,8 +111,9 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
-    /// Returns the parameters `infos` with their defaults, written in `asts`: of a method, whose object is the first
-    /// parameter, `asts` has one fewer. Each is bound as a local if `bind` is true, for a body without members.
+    /// Checks the defaults of parameters, written in `asts`, and returns the parameters `infos` with them. `infos` may
+    /// begin with others that have no default, as a method's does with its object. If `bind` is true, each parameter is
+    /// bound as a local, for a body without members.
     pub(super) fn typed_params(
         &mut self,
         scope: &mut Scope,
@@ -136,8 +137,8 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Returns the type of a top-level `let`; `at` is the span that needs it, `None` if it is not needed by another
-    /// declaration. A cycle of needs is reported.
+    /// Returns the type of a top-level `let`; declared or inferred from its value. `at` is the span that needs it,
+    /// `None` if no other declaration does. A declaration that needs itself is reported and has [`Type::Error`].
     pub(super) fn inferred_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         if let DefItem::Let(ast::Let { ty: Some(ty), .. }) = self.def(id).item {
             let scope = Scope::new(self.def(id).file, None);
@@ -150,8 +151,8 @@ impl<'a> Checker<'a> {
         self.inferred_by_body(id, at)
     }
 
-    /// Returns the result type of a function; `at` is the span that needs it, `None` if it is not needed by another
-    /// declaration. A cycle of needs is reported.
+    /// Returns the result type of a function; declared or inferred from its body. `at` is the span that needs it,
+    /// `None` if no other declaration does. A function that needs itself is reported and has [`Type::Error`].
     pub(super) fn result_type(&mut self, id: DefId, at: Option<Span>) -> Type {
         match self.signature(id).result.clone() {
             Some(ty) => ty,
@@ -243,7 +244,8 @@ impl<'a> Checker<'a> {
         DefKind::Let(LetDef { ty, value, frame: scope.frame() })
     }
 
-    /// Checks the value of a `let` against its declared type, if it has one.
+    /// Checks the value of a `let` against its declared type, if it has one, and returns it typed; an error node after
+    /// a report.
     pub(super) fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
         let written = x.ty.as_ref().map(|ty| self.type_expr(scope, ty));
         self.value_of_type(scope, x, written)
@@ -407,7 +409,7 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Checks a `require` clause, whose condition is a truth value and whose message a text.
+    /// Checks a `require` clause, whose condition must be a truth value and whose message a text, and returns it typed.
     pub(super) fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
         super::typed::Require {
             span: r.span,

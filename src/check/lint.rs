@@ -5,7 +5,8 @@ use super::typed::DefId;
 use crate::source::{Diagnostic, Span, Symbol, code};
 
 impl Checker<'_> {
-    /// Warns of the name of a declaration that is not in the style of its kind.
+    /// Warns if the name of a declaration is not in the style of its kind: snake_case for variables, CamelCase for
+    /// types and configurations.
     pub(super) fn lint_def(&mut self, id: DefId) {
         let info = self.def(id);
         let (name, span) = (info.name, info.span);
@@ -17,7 +18,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Warns of a name that should be in snake_case; `what` is the plural of its kind.
+    /// Warns if a name is not in snake_case; `what` is the plural noun for its kind in the message.
     pub(super) fn lint_snake(&mut self, name: Symbol, span: Span, what: &str) {
         if name.as_str().len() > 1 && name.as_str().contains(|c: char| c.is_ascii_uppercase()) {
             self.style(span, name, what, &snake(name.as_str()));

@@ -10,7 +10,8 @@ use crate::syntax::ast;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a list, or a vector of three where `want` expects one.
+    /// Checks a list `[a, b]`, or a vector where `want` expects one, which must have three elements, and returns it
+    /// typed; an error node after a report.
     pub(super) fn list(
         &mut self,
         scope: &mut Scope,
@@ -70,7 +71,8 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::list(common), ExprKind::List(out))
     }
 
-    /// Checks a comprehension; `want` is the type expected of the list.
+    /// Checks a list comprehension, and returns it typed; `want` is the type expected of the list, `None` if any will
+    /// do.
     pub(super) fn comprehension(
         &mut self,
         scope: &mut Scope,
@@ -102,7 +104,8 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Comprehension { body: Box::new(body), clauses: typed })
     }
 
-    /// Checks the iterable of a `for`, and returns it with the type of its elements.
+    /// Checks the expression that a `for` loops over, and returns it with the type of its elements, [`Type::Error`]
+    /// after a report.
     pub(super) fn iterable(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> (Expr, Type) {
         let got = self.expr(scope, e, None);
         let element = match &got.ty {
@@ -125,7 +128,8 @@ impl<'a> Checker<'a> {
         (got, element)
     }
 
-    /// Checks a range: its ends are two whole numbers, or two quantities of one dimension.
+    /// Checks a range, whose ends must be two whole numbers or two quantities of one dimension, and returns it typed;
+    /// an error node after a report.
     pub(super) fn range(
         &mut self,
         scope: &mut Scope,
@@ -155,7 +159,8 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 
-    /// Checks an index expression; `want` is the type expected of the element.
+    /// Checks `object[index]`, and returns it typed; an error node after a report. `want` is the type expected of the
+    /// element, `None` if any will do.
     pub(super) fn index(
         &mut self,
         scope: &mut Scope,
@@ -170,7 +175,7 @@ impl<'a> Checker<'a> {
         self.index_of(span, object, index)
     }
 
-    /// Returns `object[index]` for checked operands; reports an object without elements.
+    /// Returns `object[index]` for checked operands; reports an object without elements, and returns an error node.
     pub(super) fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
         let element = match &object.ty {
             Type::List(t) => (**t).clone(),
@@ -189,12 +194,12 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the element type of an expected vector; `None` if no vector is expected.
+/// Returns the type of the three elements if an expected type is a vector; `None` otherwise.
 pub(super) fn vec3_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::Vec3(e) = t { Some(&**e) } else { None })
 }
 
-/// Returns the element type of an expected list; `None` if no list is expected.
+/// Returns the type of the elements if an expected type is a list; `None` otherwise.
 pub(super) fn list_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::List(e) = t { Some(&**e) } else { None })
 }

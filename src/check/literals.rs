@@ -11,7 +11,7 @@ use crate::units::Dimension;
 use crate::units::to_si;
 
 impl<'a> Checker<'a> {
-    /// Checks a number with its unit, and returns it in SI units.
+    /// Checks a number with its unit, if it has one, and returns it in SI units; an error node after a report.
     pub(super) fn number(
         &mut self,
         scope: &Scope,
@@ -66,7 +66,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns a number without unit: whole without point and exponent, else a `Number`.
+    /// Returns a number without unit from its text: an `Int` without point and exponent, else a `Number`. Reports one
+    /// that is too large, and returns an error node.
     pub(super) fn plain_number(&mut self, span: Span, text: &str) -> Expr {
         if !text.contains(['.', 'e', 'E']) {
             return match text.parse::<i64>() {
@@ -80,7 +81,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a number that is too large, and returns an error.
+    /// Reports a number that is too large, and returns an error node.
     pub(super) fn bad_number(&mut self, span: Span) -> Expr {
         self.report(
             Diagnostic::error(code::BAD_NUMBER, "this number is too large")
@@ -89,7 +90,7 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Checks a text with its interpolated expressions, which may be of any type.
+    /// Checks a text with its interpolated expressions, which may be of any type, and returns it typed.
     pub(super) fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {
@@ -179,7 +180,7 @@ fn shown_dimension(ty: &Type) -> Option<Dimension> {
     }
 }
 
-/// Returns a value in SI units: times the factors of its units, each as (factor to SI, power).
+/// Converts a value to SI units: multiplies it by the factors of its units, each (factor to SI, exponent).
 pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     factors.iter().fold(value, |value, (factor, power)| {
         let times = power.unsigned_abs();
@@ -187,7 +188,7 @@ pub(super) fn scaled(value: f64, factors: &[(f64, i32)]) -> f64 {
     })
 }
 
-/// Returns the unit vector of an axis, three plain numbers.
+/// Returns the unit vector of a coordinate axis, such as `X` or `-Z`, as an expression of three plain numbers.
 pub(super) fn direction(span: Span, axis: ast::Axis) -> Expr {
     let one = |on: bool| expr_of(span, Type::NUMBER, ExprKind::Number(if on { 1.0 } else { 0.0 }));
     let parts = [ast::Axis::X, ast::Axis::Y, ast::Axis::Z].map(|a| one(a == axis));

@@ -73,7 +73,7 @@ pub struct Entry {
     pub last: Option<Symbol>,
 }
 
-/// The state of loading.
+/// The state of loading: the files read so far, those being read, and the diagnostics.
 pub(super) struct Loader<'a> {
     files: &'a dyn Files,
     /// The texts read so far, by which spans are resolved.

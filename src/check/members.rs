@@ -33,7 +33,8 @@ impl<'a> Members<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Returns the members of a declaration; computes them once.
+    /// Returns the names inside a declaration with instances; collects them at the first call, and reports duplicates
+    /// then.
     pub(super) fn members(&mut self, id: DefId) -> Rc<Members<'a>> {
         if let Some(members) = &self.def(id).members {
             return members.clone();
@@ -251,8 +252,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the type of a member as seen from outside; `at` is the span that needs it, `None` if no other
-    /// declaration does.
+    /// Returns the type of a member as seen from outside its declaration; `at` is the span that needs it, `None` if no
+    /// other declaration does.
     pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -288,7 +289,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the value of a `let` in a body, checked once, in a scope of its own; `at` is the span that needs it,
-    /// `None` if no other declaration does. A value that needs itself is reported. Panics if the member is no `let`.
+    /// `None` if no other declaration does. A value that needs itself is reported and is an error node. Panics if the
+    /// member is no `let`.
     pub(super) fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];
@@ -309,18 +311,20 @@ impl<'a> Checker<'a> {
         value
     }
 
-    /// Records the size of the frame of a member's expression, in slots; the largest counts.
+    /// Records that a member's expression needs a frame of `size` slots for locals; the declaration's frame is the
+    /// largest.
     pub(super) fn note_frame(&mut self, id: DefId, size: usize) {
         let known = self.member_frames.entry(id).or_default();
         *known = size.max(*known);
     }
 
-    /// Returns the largest frame of a declaration's members, in slots.
+    /// Returns the largest number of slots for locals that a member of the declaration needs.
     pub(super) fn member_frame(&self, id: DefId) -> usize {
         self.member_frames.get(&id).copied().unwrap_or(0)
     }
 
-    /// Reports a declaration that needs itself; `at` is the span that needs it, `None` for the declaration's own.
+    /// Reports that a declaration needs itself; `at` is the span that needs it, `None` for the declaration's own
+    /// `span`.
     pub(super) fn declaration_cycle(&mut self, name: Symbol, span: Span, at: Option<Span>) {
         let mut d = Diagnostic::error(code::DECLARATION_CYCLE, format!("`{name}` needs itself"))
             .label(at.unwrap_or(span), "needed here while it is being worked out");

@@ -15,8 +15,8 @@ use crate::units::Dimension;
 use std::collections::HashMap;
 
 impl<'a> Checker<'a> {
-    /// Checks a `connector`, and returns it typed; reports the connectors that it does not know, and clauses of a
-    /// wrong type.
+    /// Checks a `connector`, and returns it typed; reports unknown connectors among those it mates with, and clauses of
+    /// a wrong type.
     pub(super) fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let mut def = ConnectorDef {

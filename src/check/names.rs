@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 impl<'a> Checker<'a> {
     /// Checks a name used as a value: a word of the choice `want`, a local, a member of the body, or a declaration, in
-    /// this order. Reports an unknown one.
+    /// this order. Reports an unknown name, and returns an error node.
     pub(super) fn name_expr(
         &mut self,
         scope: &mut Scope,
@@ -47,15 +47,15 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the declaration that `_` stands for in a session; `None` where an optional value is expected,
-    /// and if there is no value before.
+    /// Returns the name of the declaration that `_` stands for in a session, that of the last value; `None` where an
+    /// optional value is expected, and if there is no value before.
     pub(super) fn last_value(&self, scope: &Scope, want: Option<&Type>) -> Option<Symbol> {
         let may_miss = matches!(want, Some(Type::Optional(_)));
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
-    /// Checks `_`: the last value of a session, or the missing value where `want` is an optional type. Reports one
-    /// that has no value.
+    /// Checks `_`: the last value of a session, or the missing value where `want` is an optional type. Reports `_`
+    /// without either, and returns an error node.
     pub(super) fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
         if let Some(name) = self.last_value(scope, want) {
             return self.name_expr(scope, span, name, want);
@@ -79,7 +79,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports an unknown name, with suggestions, and returns an error; a word where `want` is a choice.
+    /// Reports an unknown name with suggestions, as an unknown word if `want` is a choice with words, and returns an
+    /// error node.
     pub(super) fn unknown_name(
         &mut self,
         scope: &Scope,
@@ -122,8 +123,8 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Returns the path of another file of the program that declares a public name, if it and `file` are at the top of
-    /// the project; otherwise `None`.
+    /// Returns the path of another file of the program that declares a public name, if both that file and `file` (an
+    /// index into the loaded files) are at the top of the project; otherwise `None`.
     pub(super) fn declared_elsewhere(&self, file: usize, name: Symbol) -> Option<String> {
         let public = !name.as_str().starts_with('_');
         let own = |other: usize| match self.top(other).get(&name) {
@@ -141,7 +142,8 @@ impl<'a> Checker<'a> {
         others.find_map(|other| own(other).then(|| path(other)).flatten().filter(beside))
     }
 
-    /// Returns a declaration used as a value; `span` is that of its name. Reports one that is none.
+    /// Returns a declaration used as a value; `span` is that of its name. Reports a declaration that is no value, and
+    /// returns an error node.
     pub(super) fn def_value(&mut self, id: DefId, span: Span) -> Expr {
         match self.def(id).item {
             DefItem::Let(_) => {
@@ -180,7 +182,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the instance with all defaults, for a type name where an instance is expected. Reports parameters that
-    /// have no default.
+    /// have no default, and returns an error node.
     pub(super) fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
         let missing: Vec<String> = signature

@@ -12,7 +12,8 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a unary operator; `want` is the type expected of the result.
+    /// Checks a unary operator and its operand, and returns the expression typed; reports an operand that it does not
+    /// take, and returns an error node. `want` is the type expected of the result, `None` if any will do.
     pub(super) fn unary(
         &mut self,
         scope: &mut Scope,
@@ -50,8 +51,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a binary operator, given with its span, and its operands (left, right); `want` is the type expected of
-    /// the result. Reports operands that it does not take.
+    /// Checks a binary operator, at `op_span`, and its operands (left, right), and returns the expression typed;
+    /// reports operands that it does not take, and returns an error node. `want` is the type expected of the result,
+    /// `None` if any will do.
     pub(super) fn binary(
         &mut self,
         scope: &mut Scope,

@@ -66,7 +66,8 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks a call that builds the record `id`: `Design(bend: 30deg)`. Reports fields that are not given by name.
+    /// Checks a call that builds the record `id`, such as `Design(bend: 30deg)`, and returns it typed. Reports fields
+    /// that are not given by name.
     pub(super) fn build_record(
         &mut self,
         scope: &mut Scope,
@@ -109,7 +110,8 @@ impl<'a> Checker<'a> {
         format!("{}({})", self.def(id).name, fields.join(", "))
     }
 
-    /// Checks `object with { field: value }`. Reports an object that is no record, and fields that it does not have.
+    /// Checks `object with { field: value }`, and returns it typed. Reports an object that is no record, and fields
+    /// that it does not have.
     pub(super) fn with(
         &mut self,
         scope: &mut Scope,
@@ -203,8 +205,8 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns a hint that names the field for which two records can't be compared; `None` where no field is to
-    /// blame.
+    /// Returns a hint that names the field for which records of two types can't be compared for equality; `None` if the
+    /// reason is no field, or there is none.
     pub(super) fn incomparable_field(&mut self, a: &Type, b: &Type) -> Option<String> {
         let (path, ty) = self.join(a, b).and_then(|ty| self.incomparable(&ty))?;
         let words = self.words(&ty);

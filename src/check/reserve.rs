@@ -10,9 +10,9 @@ const RESERVED_MIN: usize = 16;
 const RESERVED_STEP: usize = 64;
 
 impl Checker<'_> {
-    /// Reserves vacant definitions after the declarations of `file`, an index into the loaded files, with the identity
-    /// `id`. A file of a session may have more declarations when it is read again, or fewer; the definitions of the
-    /// files after it keep their identities.
+    /// Reserves vacant declarations, at least 16, after those of `file` (an index into the loaded files; `id` is its
+    /// identity). A file of a session may have more or fewer declarations when it is read again; those of the files
+    /// after it keep their identities.
     pub(super) fn reserve_definitions(&mut self, file: usize, id: FileId) {
         let spare = self.defs.len() + RESERVED_MIN;
         let span = Span::new(id, 0, 0);

@@ -76,13 +76,13 @@ impl Scope {
         local
     }
 
-    /// Opens an inner scope, and returns the mark at which [`Scope::close`] closes it: the numbers of locals and of
-    /// slots taken.
+    /// Opens an inner scope, and returns the mark with which [`Scope::close`] closes it: the number of locals and the
+    /// next free slot.
     pub(super) fn open(&self) -> (usize, u32) {
         (self.frame.locals.len(), self.frame.next)
     }
 
-    /// Closes an inner scope: its locals end, and their slots are free again.
+    /// Closes the inner scope that was opened at the mark: its locals end, and their slots are free again.
     pub(super) fn close(&mut self, mark: (usize, u32)) {
         self.frame.locals.truncate(mark.0);
         // In a lambda, captures made since may lie above the mark: their slots stay taken.
@@ -91,7 +91,7 @@ impl Scope {
         }
     }
 
-    /// Returns the number of slots that the body needs.
+    /// Returns the number of slots for locals that the body needs.
     pub(super) fn frame(&self) -> usize {
         self.frame.size as usize
     }
@@ -101,7 +101,7 @@ impl Scope {
         self.frame.locals[mark.0..].iter().any(|b| b.name == name)
     }
 
-    /// Starts the frame of a lambda: locals added from here on are in it.
+    /// Starts the frame of a lambda: locals added from here on belong to it, and those outside are captured when used.
     pub(super) fn enter_lambda(&mut self) {
         self.outer.push(std::mem::take(&mut self.frame));
     }

@@ -18,7 +18,7 @@ pub(crate) struct Inside {
     pub doc: Option<Arc<str>>,
 }
 
-/// The groups of what a declaration contains, in the order in which they are listed.
+/// The groups of items that a declaration contains, in the order in which they are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
     /// A parameter; the signature shows it, too.
@@ -55,7 +55,7 @@ impl Group {
     }
 }
 
-/// Returns a declaration as it is written, without its body: `fn ramp(i: Int, n: Int = 4) -> Number`.
+/// Returns the source form of a declaration without its body, such as `fn ramp(i: Int, n: Int = 4) -> Number`.
 pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
     let program = &checked.program;
     let def = program.def(id);
@@ -105,7 +105,8 @@ fn with_default(checked: &Checked, type_params: &[Symbol], param: &Param) -> Str
     format!("{}{default}", param_text(&checked.program, type_params, param))
 }
 
-/// Returns a parameter without its default, `n: Int`; `type_params` are the names of the type parameters of its function.
+/// Returns a parameter as it is written, without its default, such as `n: Int`. `type_params` are the names of the type
+/// parameters of its function, in order.
 pub(crate) fn param_text(program: &Program, type_params: &[Symbol], param: &Param) -> String {
     let dots = if param.variadic { "..." } else { "" };
     format!("{}: {}{dots}", param.name, program.type_name_with(&param.ty, type_params))

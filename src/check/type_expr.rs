@@ -43,7 +43,7 @@ fn plain(name: &str) -> Option<Type> {
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
 
 impl<'a> Checker<'a> {
-    /// Returns a type as written; reports an unknown one, for which [`Type::Error`] stands.
+    /// Resolves a type as written; reports an unknown one, for which it returns [`Type::Error`].
     pub(super) fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
         match &ty.kind {
             TypeKind::Error => Type::Error,
@@ -260,7 +260,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns true if a value of type `got` may be used where `want` is expected, radians dropped.
+    /// Returns true if a value of type `got` may be used where `want` is expected (subtyping); radians may be dropped
+    /// as [`Dimension::fits`] says, and [`Type::Error`] fits any type.
     pub(super) fn fits(&self, got: &Type, want: &Type) -> bool {
         match (got, want) {
             (Type::Error, _) | (_, Type::Error) => true,
@@ -291,7 +292,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns a record and those it extends, itself first: `Folding`, `Plan`.
+    /// Returns a record type and those that it extends, itself first: for `Folding`, `Folding` and `Plan`.
     pub(super) fn record_line(&self, id: DefId) -> Vec<DefId> {
         let mut line = vec![id];
         let mut last = id;

@@ -43,7 +43,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// Returns a declaration. Panics if the identity is of another program.
+    /// Returns a declaration. Panics if the program has none of this identity.
     pub fn def(&self, id: DefId) -> &Def {
         &self.defs[id.0 as usize]
     }

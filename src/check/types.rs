@@ -139,7 +139,7 @@ impl Type {
     }
 
     /// Returns the type, which fits `want`, with the dimensions of `want`: without the radians that are dropped there,
-    /// and with energies and torques as they are there. `None` if nothing changes.
+    /// and with energies and torques named as there. `None` if nothing changes.
     pub(super) fn in_dimensions_of(&self, want: &Type) -> Option<Type> {
         let inner = |a: &Type, b: &Type| a.in_dimensions_of(b).map(Arc::new);
         match (self, want) {
@@ -159,7 +159,8 @@ impl Type {
         }
     }
 
-    /// Returns true for torques and energies, and for lists, vectors and ranges of them.
+    /// Returns true for torques and energies, which are of one dimension, and for lists, vectors, ranges and optional
+    /// values of them.
     pub(super) fn holds_torques(&self) -> bool {
         match self {
             Type::Quantity(d) => *d == Dimension::TORQUE,
@@ -170,7 +171,8 @@ impl Type {
         }
     }
 
-    /// Returns the type, which `other` fits, for values of both: an energy only where both are energies.
+    /// Returns the type, which `other` fits, as the type of values of both: a quantity in N·m counts as an energy only
+    /// if both are energies, else as a torque.
     pub(super) fn shown_beside(&self, other: &Type) -> Type {
         let inner = |a: &Type, b: &Type| Arc::new(a.shown_beside(b));
         match (self, other) {
