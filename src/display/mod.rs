@@ -32,7 +32,7 @@ pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -
 /// texts are in quotes. After 64 KiB it is cut. `interpreter`: the run that the value belongs to.
 ///
 /// # Errors
-/// A halt while the value is judged or planned.
+/// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.
 pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
     interpreter.display_value(value)
 }
@@ -41,7 +41,7 @@ pub fn display(interpreter: &mut Interpreter, value: &Value) -> Eval<String> {
 /// 600g`. `interpreter`: the run, which elaborates the declaration `def`.
 ///
 /// # Errors
-/// A halt while the declaration is elaborated.
+/// `Stop::Halt` if a limit is reached or the user cancels while the declaration is elaborated.
 pub fn describe_declaration(interpreter: &mut Interpreter, def: DefId) -> Eval<String> {
     interpreter.describe_declaration_line(def)
 }

@@ -33,7 +33,7 @@ impl Interpreter<'_> {
     /// Returns the tree of a behaviour, with its times if it can be planned from the start pose. Reports nothing.
     ///
     /// # Errors
-    /// A halt while it is planned.
+    /// `Stop::Halt` if a limit is reached or the user cancels while it is planned.
     pub(super) fn display_behavior(&mut self, behavior: &Behavior) -> Eval<String> {
         let Some(design) = behavior.robot.as_ref().map(|robot| robot.design.clone()) else {
             return Ok("a behaviour that moves no robot".to_owned());

@@ -21,7 +21,7 @@ impl Interpreter<'_> {
     /// reader is cut.
     ///
     /// # Errors
-    /// A halt while the value is judged or planned.
+    /// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         let mut shown = self.display_whole(value)?;
         if shown.len() > BYTES_MAX {

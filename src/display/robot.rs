@@ -145,7 +145,7 @@ impl Interpreter<'_> {
     /// Returns a line about a declaration, with its defaults; without facts where it can't be elaborated.
     ///
     /// # Errors
-    /// A halt while its instance with all defaults is elaborated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while its instance with all defaults is elaborated.
     pub(super) fn describe_declaration_line(&mut self, def: DefId) -> Eval<String> {
         let program = self.shared.program;
         let declared = program.def(def);

@@ -11,7 +11,8 @@ impl Interpreter<'_> {
     /// Elaborates a declaration with its defaults, evaluates all that its body declares, and checks its links.
     ///
     /// # Errors
-    /// [`Stop::Halt`](crate::interpret::stop::Stop::Halt); faults are reported.
+    /// [`Stop::Halt`](crate::interpret::stop::Stop::Halt) if a limit is reached or the user cancels; faults are
+    /// reported.
     pub(super) fn elaborate_with_defaults(&mut self, def: DefId) -> Eval<()> {
         let program = self.shared.program;
         let declared = program.def(def);

@@ -14,7 +14,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// A requirement with the variables of its scope: it is checked when the body is complete.
+/// A `require` clause with the local variables at its place, to be checked when the body is complete.
 pub(super) struct Deferred<'d> {
     /// The clause `require`, with its condition and message.
     pub require: &'d Require,
@@ -23,11 +23,12 @@ pub(super) struct Deferred<'d> {
 }
 
 impl Interpreter<'_> {
-    /// Elaborates the body of a configuration into its design, which already stands in memory so that a body that
-    /// needs itself is found. The design is marked as broken where parts are unknown.
+    /// Elaborates the body of a configuration into `design`, which exists before so that a body that needs itself is
+    /// found. The design is marked as broken where parts are unknown.
     ///
     /// # Errors
-    /// A fault of the body that ends it, or a halt; other faults are reported.
+    /// A fault of the body that ends it, or `Stop::Halt` if a limit is reached or the user cancels; other faults are
+    /// reported.
     pub(super) fn elaborate_config(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let config = design.config().expect("made as a configuration");
         let this = self.whole(design);
@@ -327,7 +328,7 @@ impl Interpreter<'_> {
     /// Reports the requirements whose conditions are false, in their order.
     ///
     /// # Errors
-    /// A halt while a condition or message is evaluated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while a condition or message is evaluated.
     pub(super) fn check_requirements(&mut self, requirements: Vec<Deferred>) -> Eval<()> {
         for Deferred { require, mut frame } in requirements {
             self.check_requirement(require, &mut frame)?;
@@ -335,10 +336,10 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Reports a requirement if its condition is false; one that is unknown was reported.
+    /// Reports a requirement if its condition is false; an unknown condition has been reported before.
     ///
     /// # Errors
-    /// A halt while the condition or the message is evaluated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while the condition or the message is evaluated.
     pub(super) fn check_requirement(&mut self, require: &Require, frame: &mut Frame) -> Eval<()> {
         if !matches!(self.eval(&require.condition, frame)?, Value::Bool(false)) {
             return Ok(());

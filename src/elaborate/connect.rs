@@ -99,7 +99,7 @@ impl Interpreter<'_> {
     /// Returns the connector at a port; `None` where it is broken, which has been reported.
     ///
     /// # Errors
-    /// A halt while the connector is elaborated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while the connector is elaborated.
     pub(super) fn connector_at(&mut self, port: &PortValue) -> Eval<Option<Rc<ConnectorDesign>>> {
         let design = port.robot.module_at(port.module);
         let module = design.module().expect("only modules have ports of their own");
@@ -167,10 +167,10 @@ impl Interpreter<'_> {
             .into()
     }
 
-    /// Reports modules that are not connected with the first, by their parts.
+    /// Reports modules that bonds do not connect with the first module of a configuration, grouped by its parts.
     ///
     /// # Errors
-    /// None of its own.
+    /// None: the result is always `Ok`.
     pub(super) fn check_connected(
         &mut self,
         def: &ConfigDef,
@@ -207,10 +207,11 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Reports connections whose ports do not meet in the start state, in a configuration that is `closed`.
+    /// Reports connections whose ports do not meet in the start state, in a configuration that is `closed`; others are
+    /// not checked.
     ///
     /// # Errors
-    /// A fault or halt while the robot is assembled.
+    /// A fault or `Stop::Halt` while the robot is assembled.
     pub(super) fn check_closure(&mut self, def: &ConfigDef, design: &Rc<Design>) -> Eval<()> {
         let Some(closed) = def.closed else { return Ok(()) };
         if design.broken.get() || design.module_count() == 0 {
@@ -295,7 +296,8 @@ fn path_between(config: &ConfigDesign, from: usize, to: usize) -> Option<Vec<usi
     Some(path)
 }
 
-/// Returns the names of the free ports of the module of this index of a robot, in the order of the module's ports.
+/// Returns the names of the ports of a module that no bond takes, in the order of the module's ports. `module`: its
+/// index in the robot, from 0.
 pub(crate) fn free_ports<'c>(
     config: &'c ConfigDesign,
     robot: &Rc<Design>,

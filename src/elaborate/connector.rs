@@ -21,7 +21,7 @@ impl Interpreter<'_> {
     /// and for a declaration that is no connector.
     ///
     /// # Errors
-    /// A halt.
+    /// `Stop::Halt` if a limit is reached or the user cancels.
     pub(super) fn connector(&mut self, def: DefId) -> Eval<Option<Rc<ConnectorDesign>>> {
         let index = def.0 as usize;
         if let Some(known) = &self.memory.connectors[index] {
@@ -155,8 +155,8 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// Returns the value of an expression that must be a positive number, SI; 1 where it is unknown, which has
-    /// been reported.
+    /// Returns the value, in SI units, of an expression that must be a positive number; 1 where it is unknown, which
+    /// has been reported. `what`: its name for messages.
     ///
     /// # Errors
     /// A fault where it is not positive.

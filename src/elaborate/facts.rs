@@ -63,11 +63,11 @@ impl Stated {
 }
 
 impl Interpreter<'_> {
-    /// Returns the design of a cell or a strut; `None` where a fact is missing, unknown or out of range, which has
-    /// been reported. `title`: the name with its arguments.
+    /// Returns the design of a cell or a strut; `None` where a fact is missing, unknown or out of range, which has been
+    /// reported. `title`: the name with its arguments, for messages.
     ///
     /// # Errors
-    /// A halt; faults are reported.
+    /// `Stop::Halt` if a limit is reached or the user cancels; faults are reported.
     pub(super) fn elaborate_facts(
         &mut self,
         def: &FactsDef,

@@ -11,8 +11,8 @@ use crate::units::Dimension;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the joint of the connection at a port, from either of its two sides; unknown where its connector
-    /// is broken.
+    /// Returns the joint of the connection at a port, from either of its two sides; [`Value::Unknown`] where its
+    /// connector is broken.
     ///
     /// # Errors
     /// A fault at `span` where nothing is connected there, or the connector has no hinge.
@@ -37,11 +37,11 @@ impl Interpreter<'_> {
         Ok(Value::Joint(JointValue { robot: port.robot.clone(), owner, dimension: Dimension::ANGLE }))
     }
 
-    /// Returns the limits of the joint that the bond of this index makes (rad, rad/s, rad/s², N·m); none where its
-    /// connector is broken or has no hinge.
+    /// Returns the limits of the joint that the bond of this index (from 0) of a robot makes, in rad, rad/s, rad/s² and
+    /// N·m; no limits where its connector is broken or has no hinge.
     ///
     /// # Errors
-    /// A halt while the connector is elaborated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while the connector is elaborated.
     pub(super) fn hinge_limits(&mut self, robot: &Rc<Design>, bond: usize) -> Eval<Limits> {
         let connector = self.connector_of(robot, bond)?;
         let hinge = connector.and_then(|connector| connector.connector.hinge.as_ref().map(|h| h.limits));

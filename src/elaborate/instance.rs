@@ -30,7 +30,7 @@ impl Interpreter<'_> {
     /// declaration; `args`: its arguments in the order of the parameters.
     ///
     /// # Errors
-    /// A fault at `span` where the declaration needs itself, or a halt.
+    /// A fault at `span` where the declaration needs itself, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn design_of(&mut self, def: DefId, args: Args, span: Span) -> Eval<Option<Rc<Design>>> {
         if self.shared.faulty[def.0 as usize] {
             return Ok(None);
@@ -177,7 +177,7 @@ impl Interpreter<'_> {
     /// `None` where a parameter has no default, the declaration has no instances, or `check` found mistakes in it.
     ///
     /// # Errors
-    /// A fault at the declaration where it needs itself, or a halt.
+    /// A fault at the declaration where it needs itself, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn default_design(&mut self, def: DefId) -> Eval<Option<Rc<Design>>> {
         let declared = self.shared.program.def(def);
         let Some(Instantiable { params, .. }) = declared.kind.instantiable() else { return Ok(None) };

@@ -14,7 +14,8 @@ impl Interpreter<'_> {
     /// reported.
     ///
     /// # Errors
-    /// A halt, or a fault of the kind of cells; faults of the lattice itself are reported.
+    /// A fault of the kind of cells, or `Stop::Halt` if a limit is reached or the user cancels; faults of the lattice
+    /// itself are reported.
     pub(super) fn elaborate_lattice(
         &mut self,
         lattice: &LatticeDef,

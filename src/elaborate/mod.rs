@@ -34,11 +34,11 @@ use crate::robot::Library;
 use crate::source::Span;
 use std::rc::Rc;
 
-/// Returns an instance of a declaration with these arguments; unknown where it is broken or an argument is unknown.
-/// `def`: the declaration; `args`: its arguments in the order of the parameters; `interpreter`: the run.
+/// Returns an instance of a declaration with these arguments; [`Value::Unknown`] where it is broken or an argument is
+/// unknown. `def`: the declaration; `args`: its arguments in the order of the parameters; `interpreter`: the run.
 ///
 /// # Errors
-/// A fault at `span` where the declaration needs itself, or a halt.
+/// A fault at `span` where the declaration needs itself, or `Stop::Halt` if a limit is reached or the user cancels.
 pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: Span) -> Eval<Value> {
     interpreter.make_instance(def, args, span)
 }
@@ -48,7 +48,7 @@ pub fn instantiate(interpreter: &mut Interpreter, def: DefId, args: Args, span: 
 /// declaration; `interpreter`: the run, which elaborates it.
 ///
 /// # Errors
-/// A halt, or a fault of a declaration that it needs.
+/// A fault of a declaration that it needs, or `Stop::Halt` if a limit is reached or the user cancels.
 pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Library>> {
     let Some(design) = interpreter.default_design(def)?.filter(|design| !design.broken.get()) else {
         return Ok(None);
@@ -65,13 +65,14 @@ pub fn library_of(interpreter: &mut Interpreter, def: DefId) -> Eval<Option<Libr
 /// `span`: the code that asks for it. `interpreter`: the run, which keeps the robot.
 ///
 /// # Errors
-/// A halt, a fault at `span` for a configuration without modules, or one of a declaration that the robot needs.
+/// A fault at `span` for a configuration without modules, a fault of a declaration that the robot needs, or
+/// `Stop::Halt` if a limit is reached or the user cancels.
 pub fn robot_of(interpreter: &mut Interpreter, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
     interpreter.assemble_robot(design, span)
 }
 
-/// Returns the joint of the connection at a port, from either of its sides; unknown where its connector is broken.
-/// `interpreter`: the run that the port belongs to.
+/// Returns the joint of the connection at a port, from either of its sides; [`Value::Unknown`] where its connector is
+/// broken. `interpreter`: the run that the port belongs to.
 ///
 /// # Errors
 /// A fault at `span` where nothing is connected there, or the connector has no hinge.
@@ -83,7 +84,7 @@ pub fn hinge_of(interpreter: &mut Interpreter, port: &PortValue, span: Span) -> 
 /// or are too thin. A `let` is evaluated. `def`: the declaration; `interpreter`: the run.
 ///
 /// # Errors
-/// A halt; faults are reported.
+/// `Stop::Halt` if a limit is reached or the user cancels; faults are reported.
 pub fn check_declaration(interpreter: &mut Interpreter, def: DefId) -> Eval<()> {
     interpreter.elaborate_with_defaults(def)
 }

@@ -30,10 +30,10 @@ struct Draft<'d> {
 
 impl Interpreter<'_> {
     /// Returns the design of a module; `None` where it is broken, which has been reported. `title`: the name with its
-    /// arguments.
+    /// arguments, for messages.
     ///
     /// # Errors
-    /// A halt; faults are reported.
+    /// `Stop::Halt` if a limit is reached or the user cancels; faults are reported.
     pub(super) fn elaborate_module(
         &mut self,
         def: &ModuleDef,
@@ -132,8 +132,8 @@ impl Interpreter<'_> {
         Ok((solid, built))
     }
 
-    /// Returns the pose of `at [x, y, z] turned(Z, 90deg)`, position in m, of which each turn is about an axis of the
-    /// frame turned so far, in the order written; the identity for `None`.
+    /// Returns the pose that `at [x, y, z] turned(Z, 90deg)` gives in the frame around it: the position in m, then the
+    /// turns in the order written, each about an axis of the frame turned so far. The identity for `None`.
     ///
     /// # Errors
     /// A fault where the position is farther than 1 km along an axis, or an axis is zero.

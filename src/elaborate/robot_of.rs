@@ -114,7 +114,7 @@ impl Interpreter<'_> {
     /// type in that library; `None` where a connector is broken.
     ///
     /// # Errors
-    /// A halt while a connector is elaborated.
+    /// `Stop::Halt` if a limit is reached or the user cancels while a connector is elaborated.
     pub(crate) fn library_of(&mut self, design: &Rc<Design>) -> Eval<Option<(Library, Vec<usize>)>> {
         let mut types: Vec<Rc<Design>> = Vec::new();
         let mut kinds = Vec::new();

@@ -23,11 +23,11 @@ struct Overlap {
 }
 
 impl Interpreter<'_> {
-    /// Warns of joints whose two links overlap at a sampled position of its range, deeper than at position 0 by more
-    /// than the module's `touch`. Depths in m; other designs than modules give no warning.
+    /// Warns of joints whose two links overlap at one of 73 sampled positions of the joint's range, deeper than at
+    /// position 0 by more than the module's `touch` (m). Designs other than modules give no warning.
     ///
     /// # Errors
-    /// None of its own.
+    /// None: the result is always `Ok`.
     pub(super) fn check_sweep(&mut self, def: DefId, design: &Rc<Design>) -> Eval<()> {
         let program = self.shared.program;
         let (DefKind::Module(declared), Some(module)) = (&program.def(def).kind, design.module()) else {

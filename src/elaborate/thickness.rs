@@ -10,10 +10,10 @@ use std::rc::Rc;
 
 impl Interpreter<'_> {
     /// Warns of links that are thinner than the `touch` of their module: the judge lets two such links pass through
-    /// each other. Other designs than modules give no warning.
+    /// each other. Designs other than modules give no warning.
     ///
     /// # Errors
-    /// None of its own.
+    /// None: the result is always `Ok`.
     pub(super) fn check_thickness(&mut self, def: DefId, design: &Rc<Design>) -> Eval<()> {
         let program = self.shared.program;
         let (DefKind::Module(declared), Some(module)) = (&program.def(def).kind, design.module()) else {

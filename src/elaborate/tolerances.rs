@@ -22,7 +22,7 @@ pub(super) struct Tolerances {
     pub parallel: f64,
 }
 
-/// The tolerances with which every declaration is elaborated.
+/// The values of the tolerances with which every declaration is elaborated.
 pub(super) const TOLERANCES: Tolerances = Tolerances {
     node_distance: 1e-9,
     strut_length: 1e-9,

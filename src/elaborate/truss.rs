@@ -40,7 +40,8 @@ impl Interpreter<'_> {
     /// reported.
     ///
     /// # Errors
-    /// A halt, or a fault of the kind of struts; faults of the truss itself are reported.
+    /// A fault of the kind of struts, or `Stop::Halt` if a limit is reached or the user cancels; faults of the truss
+    /// itself are reported.
     pub(super) fn elaborate_truss(
         &mut self,
         def: &TrussDef,
@@ -153,7 +154,7 @@ impl Interpreter<'_> {
     /// Adds a node; with an index it is one of an array, `group[index]`.
     ///
     /// # Errors
-    /// A fault where the node is there already, and a halt beyond the greatest number of nodes.
+    /// A fault where the node is there already, and `Stop::Halt` beyond the greatest number of nodes.
     fn add_node(
         &mut self,
         draft: &mut Draft,

@@ -43,10 +43,11 @@ pub fn run(
     interpret::run(&ROUTINES, checked, mode, files, host, options)
 }
 
-/// Starts the evaluator of a session, which keeps the values of earlier entries.
+/// Starts the evaluator thread of a session, which keeps the values of earlier entries. `cancel_state`: the state by
+/// which the user can cancel it.
 ///
 /// # Errors
-/// The system's words where it gives no memory for the thread.
+/// The message of the operating system if the thread can't be started.
 pub fn evaluator(cancel_state: CancelState) -> Result<Evaluator, String> {
     Evaluator::new(&ROUTINES, cancel_state)
 }

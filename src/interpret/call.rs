@@ -50,7 +50,7 @@ impl Interpreter<'_> {
     /// in which it stands.
     ///
     /// # Errors
-    /// A fault of the function or of the built-in, or a halt.
+    /// A fault of the function or of the built-in, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn call_def(
         &mut self,
         def: DefId,
@@ -68,7 +68,7 @@ impl Interpreter<'_> {
     /// variables of the body in which it stands.
     ///
     /// # Errors
-    /// A fault of a default, or a halt.
+    /// A fault of a default, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn build_record(
         &mut self,
         def: DefId,
@@ -141,7 +141,7 @@ impl Interpreter<'_> {
     /// result. `callable`: the function value; `values`: the arguments; `span`: the span of the call.
     ///
     /// # Errors
-    /// A fault of the function or of the built-in, or a halt.
+    /// A fault of the function or of the built-in, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn apply(&mut self, callable: &Callable, values: Vec<Value>, span: Span) -> Eval<Value> {
         match callable {
             Callable::Lambda { body, captured, frame, this } => {
@@ -255,7 +255,7 @@ impl Interpreter<'_> {
     /// `span`: the span of the call; `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
-    /// A fault of the behaviour, or a halt.
+    /// A fault of the behaviour, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn call_behavior(
         &mut self,
         object: &Rc<Instance>,
@@ -326,7 +326,7 @@ impl Interpreter<'_> {
     /// `object`: the instance whose behaviour it is; `behavior`: the declaration of the behaviour.
     ///
     /// # Errors
-    /// A fault of the behaviour, or a halt.
+    /// A fault of the behaviour, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn default_behavior(&mut self, object: &Rc<Instance>, behavior: &BehaviorDef) -> Eval<Option<Value>> {
         if behavior.params.iter().any(|p| p.default.is_none() && !p.variadic) {
             return Ok(None);

@@ -387,7 +387,7 @@ impl Interpreter<'_> {
     /// `def`: the declaration of the `let`.
     ///
     /// # Errors
-    /// A fault at `span` where the value needs itself, or a halt.
+    /// A fault at `span` where the value needs itself, or `Stop::Halt` if a limit is reached or the user cancels.
     pub fn global(&mut self, def: DefId, span: Span) -> Eval<Value> {
         let index = def.0 as usize;
         match &self.memory.globals[index] {

@@ -68,7 +68,8 @@ impl Interpreter<'_> {
     /// robot.
     ///
     /// # Errors
-    /// A halt, a configuration without modules, or a fault of a declaration that the robot needs.
+    /// A fault for a configuration without modules, a fault of a declaration that the robot needs, or `Stop::Halt` if a
+    /// limit is reached or the user cancels.
     pub fn robot_of(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         (self.shared.routines.robot_of)(self, design, span)
     }
@@ -94,7 +95,7 @@ impl Interpreter<'_> {
     /// Returns a value on as many lines as it needs, the first of which can stand alone.
     ///
     /// # Errors
-    /// A halt while the value is judged or planned.
+    /// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.
     pub fn display(&mut self, value: &Value) -> Eval<String> {
         (self.shared.routines.display)(self, value)
     }
@@ -102,7 +103,7 @@ impl Interpreter<'_> {
     /// Elaborates a declaration with its defaults and checks all that its body declares.
     ///
     /// # Errors
-    /// A halt; faults are reported.
+    /// `Stop::Halt` if a limit is reached or the user cancels; faults are reported.
     pub fn check_declaration(&mut self, def: DefId) -> Eval<()> {
         (self.shared.routines.check_declaration)(self, def)
     }

@@ -117,7 +117,7 @@ pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
 /// name. Faults are reported.
 ///
 /// # Errors
-/// A halt.
+/// `Stop::Halt` if a limit is reached or the user cancels.
 pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
     interpreter.draw_declarations()
 }

@@ -160,7 +160,7 @@ impl Interpreter<'_> {
     /// program that draws nothing itself. Faults are reported.
     ///
     /// # Errors
-    /// A halt.
+    /// `Stop::Halt` if a limit is reached or the user cancels.
     pub(super) fn draw_declarations(&mut self) -> Eval<()> {
         let program = self.shared.program;
         for &def in &program.own {

@@ -349,7 +349,7 @@ fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
     fault(code::NOT_COVERED, at, message, label)
 }
 
-/// Returns the fault of a refusal of the planner, at the robot that it refuses; a halt if the user cancelled.
+/// Returns the fault of a refusal of the planner, at the robot that it refuses; `Stop::Halt` if the user cancelled.
 fn refused(
     interpreter: &Interpreter,
     call: &Call,

@@ -260,7 +260,7 @@ impl<F: Fn() -> bool> Progress for Timed<F> {
     }
 }
 
-/// Returns the fault of a planner that was stopped by its timeout; a halt if the user cancelled.
+/// Returns the fault of a planner that was stopped by its timeout; `Stop::Halt` if the user cancelled.
 fn timed_out(host: &HostProxy, call: &Call, so_far: &str) -> Stop {
     if host.cancelled() {
         return Stop::Halt;

@@ -6,7 +6,7 @@ use crate::source::{Code, Diagnostic, FileId, Span, Symbol};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// The builder of the tree of one file, piece by piece.
+/// The builder of the syntax tree of one file from pest's parse trees, piece by piece.
 pub(super) struct Builder<'t> {
     /// The identity of the file.
     pub(super) file: FileId,
@@ -41,7 +41,8 @@ pub(super) struct Builder<'t> {
 }
 
 impl<'t> Builder<'t> {
-    /// Returns a builder at the start of the file.
+    /// Returns a builder at the start of the file. `text`: the text of the file; `read`: the text of equal length that
+    /// the grammar reads, with comments blanked; `comments`: the comments, in order.
     pub(super) fn new(file: FileId, text: &'t str, read: &'t str, comments: &'t [Comment]) -> Builder<'t> {
         Builder {
             file,
@@ -96,7 +97,7 @@ impl<'t> Builder<'t> {
         Name { text: self.symbol(span), span }
     }
 
-    /// Returns a declared name; reports the words `true`, `X` and others that cannot be declared.
+    /// Returns a declared name; reports a reserved word, such as `true` or `X`, which can't be declared.
     pub(super) fn declared(&mut self, node: Node) -> Name {
         let name = self.word(node);
         if let taken @ ("true" | "false" | "X" | "Y" | "Z") = name.text.as_str() {
@@ -185,12 +186,12 @@ fn doc_line(comment: &str) -> &str {
     text.strip_prefix(' ').unwrap_or(text)
 }
 
-/// Returns the next child. Panics if there is none, which the grammar excludes.
+/// Returns the next child node. Panics if there is none, which the grammar excludes.
 pub(super) fn next<'i>(nodes: &mut impl Iterator<Item = Node<'i>>) -> Node<'i> {
     nodes.next().expect("the grammar gives this node another child")
 }
 
-/// Returns the next child if it is of this rule; otherwise `None`, and the child stays the next.
+/// Returns the next child node if it is of this rule; otherwise `None`, and the child stays the next.
 pub(super) fn next_if<'i>(nodes: &mut pest::iterators::Pairs<'i, Rule>, rule: Rule) -> Option<Node<'i>> {
     nodes.peek().is_some_and(|node| node.as_rule() == rule).then(|| next(nodes))
 }

@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
-    /// Builds a `config` from its node.
+    /// Builds the syntax tree of a `config` from its parse node.
     pub(super) fn config(&mut self, node: Node) -> Config {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -15,7 +15,7 @@ impl Builder<'_> {
         Config { name, params, closed, clauses: self.config_clauses(next(&mut nodes)) }
     }
 
-    /// Builds the clauses of a configuration, in order.
+    /// Builds the clauses of a configuration, in order, from the parse node of its body.
     pub(super) fn config_clauses(&mut self, body: Node) -> Vec<ConfigClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.config_clause(node)).collect()
@@ -50,7 +50,8 @@ impl Builder<'_> {
         clauses
     }
 
-    /// Replaces clauses that are allowed only at the top of a configuration by errors.
+    /// Reports clauses inside `for` or `if` that are allowed only at the top of a configuration, and replaces them by
+    /// `Error` nodes.
     pub(super) fn refuse_top_clauses(&mut self, clauses: &mut [ConfigClause]) {
         for clause in clauses {
             let (what, hint) = match &clause.kind {
@@ -121,7 +122,7 @@ impl Builder<'_> {
         ConfigClauseKind::Connect { a, b, turn: nodes.next().map(|turn| self.expr(turn)) }
     }
 
-    /// Builds a path from its node: a name, then steps.
+    /// Builds a path, a name with its steps, from its parse node.
     pub(super) fn path(&mut self, node: Node) -> Path {
         let span = self.span(&node);
         let mut nodes = node.into_inner();

@@ -6,7 +6,7 @@ use super::parse::{HEIGHT_MAX, Node, Rule};
 use crate::source::{Span, code};
 use pest::iterators::Pairs;
 
-/// An expression with the height of its tree.
+/// An expression with the height of its syntax tree, in nodes.
 pub(super) struct Tall {
     /// The expression.
     pub(super) expr: Expr,
@@ -15,7 +15,8 @@ pub(super) struct Tall {
 }
 
 impl Tall {
-    /// Returns an expression of a height, which counts its root and the longest path below it.
+    /// Returns an expression with the height of its tree: the number of nodes on the longest path from its root to a
+    /// leaf, both counted.
     pub(super) fn new(span: Span, kind: ExprKind, height: usize) -> Tall {
         Tall { expr: Expr { span, kind }, height }
     }
@@ -27,29 +28,29 @@ impl Tall {
 
 /// The binding powers of operators, loosest first.
 mod power {
-    /// The binding power of `x => e`.
+    /// The binding power of `x => e`, as in a Pratt parser (Pratt 1973): operators of greater power bind tighter.
     pub(super) const LAMBDA: u8 = 1;
-    /// The binding power of `or` and `else`.
+    /// The binding power of `or` and `else` (greater binds tighter).
     pub(super) const OR: u8 = 2;
-    /// The binding power of `and`.
+    /// The binding power of `and` (greater binds tighter).
     pub(super) const AND: u8 = 3;
-    /// The binding power of `not`.
+    /// The binding power of `not` (greater binds tighter).
     pub(super) const NOT: u8 = 4;
-    /// The binding power of `==`, `<` and the other comparisons.
+    /// The binding power of `==`, `<` and the other comparisons (greater binds tighter).
     pub(super) const COMPARISON: u8 = 5;
-    /// The binding power of `<->`.
+    /// The binding power of `<->`, which stands between two ports (greater binds tighter).
     pub(super) const MATED: u8 = 6;
-    /// The binding power of `..`.
+    /// The binding power of `..`, which makes a range (greater binds tighter).
     pub(super) const RANGE: u8 = 7;
-    /// The binding power of `++`.
+    /// The binding power of `++`, which joins lists or texts (greater binds tighter).
     pub(super) const JOIN: u8 = 8;
-    /// The binding power of `+` and `-`.
+    /// The binding power of `+` and `-` between operands (greater binds tighter).
     pub(super) const SUM: u8 = 9;
-    /// The binding power of `*`, `/` and `%`.
+    /// The binding power of `*`, `/` and `%` (greater binds tighter).
     pub(super) const PRODUCT: u8 = 10;
-    /// The binding power of `+` and `-` before an operand.
+    /// The binding power of `+` and `-` before an operand (greater binds tighter).
     pub(super) const SIGN: u8 = 11;
-    /// The binding power of `^`.
+    /// The binding power of `^` (greater binds tighter).
     pub(super) const POWER: u8 = 12;
 }
 
@@ -62,12 +63,13 @@ enum Infix {
 }
 
 impl Builder<'_> {
-    /// Builds an expression; one that is nested too deeply is reported, and is an `Error` node.
+    /// Builds an expression from its parse node; one that is nested too deeply is reported, and is an `Error` node.
     pub(super) fn expr(&mut self, node: Node) -> Expr {
         self.tall_expr(node).expr
     }
 
-    /// Builds an expression with its height; one that is nested too deeply is reported, and is an `Error` node.
+    /// Builds an expression from its parse node, with the height of its tree; one that is nested too deeply is
+    /// reported, and is an `Error` node.
     pub(super) fn tall_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         if self.depth >= HEIGHT_MAX {
@@ -283,7 +285,7 @@ impl Builder<'_> {
         self.grown(span, kind, height.max(object.height))
     }
 
-    /// Builds the arguments of a call, in order.
+    /// Builds the arguments of a call, in order, from their parse node.
     pub(super) fn args(&mut self, node: Node) -> Vec<Arg> {
         self.tall_args(node).0
     }
@@ -475,8 +477,8 @@ impl Builder<'_> {
         (binder, self.tall_expr(next(&mut nodes)))
     }
 
-    /// Returns a node above subtrees, the highest of which has this height. From [`HEIGHT_MAX`] on it reports the
-    /// height, once for each piece of text, and returns an error node.
+    /// Returns the expression `kind` with its height: one more than `height`, that of its highest subtree. From
+    /// [`HEIGHT_MAX`] on it is reported, once for each piece of text, and is an `Error` node.
     pub(super) fn grown(&mut self, span: Span, kind: ExprKind, height: usize) -> Tall {
         if height >= HEIGHT_MAX {
             self.too_deep(span, "this expression");
@@ -485,7 +487,7 @@ impl Builder<'_> {
         Tall::new(span, kind, height + 1)
     }
 
-    /// Reports deep nesting of `what`, such as "this type", once for each piece of text.
+    /// Reports that `what`, such as "this type", is nested too deeply, once for each piece of text.
     pub(super) fn too_deep(&mut self, span: Span, what: &str) {
         if self.deep_reported.replace(self.base) != Some(self.base) {
             self.error(code::TOO_DEEP, format!("{what} is nested too deeply"), span)

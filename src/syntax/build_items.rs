@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::Span;
 
 impl Builder<'_> {
-    /// Builds the items of a chunk, and appends them to those before.
+    /// Builds the items of a chunk from its parse node, and appends them to `items`.
     pub(super) fn chunk(&mut self, node: Node, items: &mut Vec<Item>) {
         for node in node.into_inner().filter(|node| node.as_rule() != Rule::EOI) {
             let item = self.item(node, items.last().map(|item| item.span));
@@ -119,7 +119,7 @@ impl Builder<'_> {
         ExternType { name, is, fields, methods }
     }
 
-    /// Builds the parameters if they are the next child; otherwise returns none and takes nothing.
+    /// Builds the parameters if their parse node is the next child; otherwise returns an empty list and takes no child.
     pub(super) fn params_if(&mut self, nodes: &mut pest::iterators::Pairs<Rule>) -> Vec<Param> {
         next_if(nodes, Rule::params).map(|params| self.plain_params(params)).unwrap_or_default()
     }

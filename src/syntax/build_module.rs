@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::code;
 
 impl Builder<'_> {
-    /// Builds a `connector` from its node.
+    /// Builds the syntax tree of a `connector` from its parse node.
     pub(super) fn connector(&mut self, node: Node) -> Connector {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -34,7 +34,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Builds a `cell` or `strut`, as `family` says, from its node.
+    /// Builds the syntax tree of a `cell` or `strut`, as `family` says, from its parse node.
     pub(super) fn facts(&mut self, family: FactsFamily, node: Node) -> Facts {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -46,7 +46,7 @@ impl Builder<'_> {
         Facts { family, name, params, facts: nodes.map(|node| fact(node, self)).collect() }
     }
 
-    /// Builds a `module` from its node.
+    /// Builds the syntax tree of a `module` from its parse node.
     pub(super) fn module(&mut self, node: Node) -> Module {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -54,7 +54,7 @@ impl Builder<'_> {
         Module { name, params, clauses: self.module_clauses(next(&mut nodes)) }
     }
 
-    /// Builds the clauses of a module, in order.
+    /// Builds the clauses of a module, in order, from the parse node of its body.
     pub(super) fn module_clauses(&mut self, body: Node) -> Vec<ModuleClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.module_clause(node)).collect()
@@ -158,7 +158,7 @@ impl Builder<'_> {
         Placement { span, position, turned }
     }
 
-    /// Builds the expression inside `[ ]`, from the node of the brackets.
+    /// Builds the expression between `[` and `]` from the parse node of the brackets.
     pub(super) fn index_expr(&mut self, node: Node) -> Expr {
         self.expr(next(&mut node.into_inner()))
     }

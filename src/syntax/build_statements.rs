@@ -10,7 +10,7 @@ use crate::source::Span;
 type TallStmt = (Stmt, usize);
 
 impl Builder<'_> {
-    /// Builds the statements of a test, a loop or a branch, in order.
+    /// Builds the statements of a test, a loop or a branch, in order, from the parse node of its block.
     pub(super) fn statements(&mut self, block: Node) -> Vec<Stmt> {
         self.tall_statements(block).0
     }
@@ -26,7 +26,8 @@ impl Builder<'_> {
         (statements, height)
     }
 
-    /// Builds a block `{ let a = ... newline expr }`, whose value is the last expression.
+    /// Builds a block `{ let a = ... newline expr }`, whose value is the last expression, from its parse node, with the
+    /// height of its tree.
     pub(super) fn block(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut nodes: Vec<Node> = node.into_inner().collect();
@@ -47,7 +48,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Block { statements, value }, height)
     }
 
-    /// Builds the expression or block behind `=`, from its node.
+    /// Builds the expression or block behind `=` from its parse node.
     pub(super) fn body(&mut self, node: Node) -> Expr {
         self.tall_body(node).expr
     }
@@ -56,7 +57,8 @@ impl Builder<'_> {
         if node.as_rule() == Rule::block { self.block(node) } else { self.tall_expr(node) }
     }
 
-    /// Builds a statement; `before` is the span of the statement before it.
+    /// Builds a statement, with the height of its tree, from its parse node. `before` is the span of the statement
+    /// before it, `None` for the first.
     pub(super) fn statement(&mut self, node: Node, before: Option<Span>) -> TallStmt {
         let span = self.span(&node);
         let (kind, height) = match node.as_rule() {
@@ -91,7 +93,7 @@ impl Builder<'_> {
         (Let { name, ty, value: value.expr }, value.height)
     }
 
-    /// Builds a `let` from its node.
+    /// Builds the syntax tree of a `let` from its parse node.
     pub(super) fn let_item(&mut self, node: Node) -> Let {
         self.tall_let(node).0
     }
@@ -104,7 +106,7 @@ impl Builder<'_> {
         (condition.expr, message.map(|message| message.expr), height)
     }
 
-    /// Builds a `require` from its node.
+    /// Builds the syntax tree of a `require` from its parse node.
     pub(super) fn require(&mut self, node: Node) -> Require {
         let span = self.span(&node);
         let (condition, message, _) = self.condition(node);
@@ -140,7 +142,8 @@ impl Builder<'_> {
         (kind, height)
     }
 
-    /// Builds an `if` expression with its `else` branches; too many of them are reported, and give an `Error` node.
+    /// Builds an `if` expression with its `else` branches from its parse node; more than
+    /// [`NESTING_MAX`](super::parse::NESTING_MAX) branches are reported, and give an `Error` node.
     pub(super) fn if_expr(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let Some((branches, last)) = self.branches(node) else {

@@ -8,7 +8,7 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, Symbol, code};
 
 impl Builder<'_> {
-    /// Builds a number: splits `1_000.5e-3N*m` into its digits and its unit.
+    /// Builds a number from the text at its span: splits `1_000.5e-3N*m` into its digits and its unit.
     pub(super) fn number(&mut self, span: Span) -> ExprKind {
         let text = &self.read[span.range()];
         let end = digits_end(text.as_bytes());
@@ -25,7 +25,7 @@ impl Builder<'_> {
         ExprKind::Number { digits, unit }
     }
 
-    /// Builds a text `"..."` with escapes and `{expr}`.
+    /// Builds a text `"..."`, with its escapes and `{expr}`, from its parse node; reports unknown escapes.
     pub(super) fn text(&mut self, node: Node) -> Tall {
         let span = self.span(&node);
         let mut parts = Vec::new();

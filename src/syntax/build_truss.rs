@@ -6,7 +6,7 @@ use super::parse::{Node, Rule};
 use crate::source::Span;
 
 impl Builder<'_> {
-    /// Builds a `lattice` from its node.
+    /// Builds the syntax tree of a `lattice` from its parse node.
     pub(super) fn lattice(&mut self, node: Node) -> Lattice {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -15,7 +15,7 @@ impl Builder<'_> {
         Lattice { name, params, of, value: self.body(next(&mut nodes)) }
     }
 
-    /// Builds a `truss` from its node.
+    /// Builds the syntax tree of a `truss` from its parse node.
     pub(super) fn truss(&mut self, node: Node) -> Truss {
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
@@ -29,7 +29,7 @@ impl Builder<'_> {
         Truss { name, params, of, body }
     }
 
-    /// Builds the clauses of a truss, in order.
+    /// Builds the clauses of a truss, in order, from the parse node of its body.
     pub(super) fn truss_clauses(&mut self, body: Node) -> Vec<TrussClause> {
         let nodes = body.into_inner().filter(|node| node.as_rule() != Rule::EOI);
         nodes.map(|node| self.truss_clause(node)).collect()

@@ -6,7 +6,7 @@ use super::parse::{NESTING_MAX, Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
-    /// Builds the parameters of a declaration, variadic ones included.
+    /// Builds the parameters of a declaration, variadic ones included, from their parse node.
     pub(super) fn params(&mut self, node: Node) -> Vec<Param> {
         node.into_inner().map(|param| self.param(param)).collect()
     }
@@ -20,7 +20,8 @@ impl Builder<'_> {
         Param { name, ty, default, variadic }
     }
 
-    /// Builds the parameters of a function that is not native; reports variadic ones and reserved names.
+    /// Builds the parameters of a function that is not native from their parse node; reports variadic ones and reserved
+    /// names.
     pub(super) fn plain_params(&mut self, node: Node) -> Vec<Param> {
         let variadic = node.clone().into_inner().flat_map(Node::into_inner);
         let variadic: Vec<Span> =
@@ -48,7 +49,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Builds a type; reports one that is nested too deeply.
+    /// Builds a type from its parse node; reports one that is nested too deeply.
     pub(super) fn ty(&mut self, node: Node) -> TypeExpr {
         let span = self.span(&node);
         if self.type_depth >= NESTING_MAX {
@@ -114,7 +115,7 @@ impl Builder<'_> {
         TypeKind::Fn { params, result }
     }
 
-    /// Builds type parameters, in order.
+    /// Builds the type parameters of a function, in order, from their parse node.
     pub(super) fn type_params(&mut self, node: Node) -> Vec<TypeParam> {
         let param = |node: Node, this: &mut Self| {
             let mut nodes = node.into_inner();
@@ -161,7 +162,8 @@ impl Builder<'_> {
     }
 }
 
-/// Returns the offset behind the run of bytes from offset `start` on that satisfy `fits`.
+/// Returns the offset, in bytes, of the first byte at or after `start` that does not satisfy `fits`; the length of the
+/// text if all do.
 pub(super) fn run(text: &[u8], start: usize, fits: impl std::ops::Fn(u8) -> bool) -> usize {
     text[start..].iter().position(|b| !fits(*b)).map_or(text.len(), |length| start + length)
 }

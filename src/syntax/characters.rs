@@ -2,14 +2,15 @@
 
 use crate::source::{Diagnostic, Span, code};
 
-/// The probable meaning of a character.
+/// The text that the writer of an odd character probably meant, with a hint.
 pub(super) struct Meant {
     /// The character that the grammar reads in its place; `None` if no one character is read there.
     pub(super) replacement: Option<char>,
     hint: Option<&'static str>,
 }
 
-/// Returns the probable meaning of a character outside texts and comments.
+/// Returns what the writer of a character that is not allowed outside texts and comments probably meant; both fields
+/// are `None` if that is unknown.
 pub(super) fn meant(c: char) -> Meant {
     let (replacement, hint) = match c {
         ';' => (Some('\n'), "a line break or the next keyword ends a statement"),

@@ -3,7 +3,7 @@
 use super::parse::NESTING_MAX;
 use crate::source::{Diagnostic, Span, code};
 
-/// Returns the error of a line that begins with `+`, `-`, `(` or `[` and cannot continue the line before.
+/// Returns the diagnostic for a line that begins with `+`, `-`, `(` or `[` and cannot continue the line before.
 pub(super) fn line_break(mark: Span, first: char) -> Diagnostic {
     let what = match first {
         '(' => "arguments in `( )` begin",
@@ -27,15 +27,15 @@ fn sum_break(mark: Span, sign: char) -> Diagnostic {
     .hint(format!("put the `{sign}` at the end of the line before"))
 }
 
-/// Returns the error of the deep nesting of `what`, such as "this bracket", at a span.
+/// Returns the diagnostic that `what`, such as "this bracket", is nested too deeply at a span.
 pub(super) fn too_deep(at: Span, what: &str) -> Diagnostic {
     Diagnostic::error(code::TOO_DEEP, format!("{what} is nested too deeply"))
         .label(at, "")
         .hint(format!("the limit is {NESTING_MAX} levels"))
 }
 
-/// Returns the error of unclosed brackets, given outermost first and at least one, and of the token found instead;
-/// `found` is `None` at the end of the file.
+/// Returns the diagnostic for brackets that are never closed, `open`, given outermost first and at least one; `found`
+/// is the token that stands where the closing one is missing, `None` at the end of the file. Panics without brackets.
 pub(super) fn unclosed(open: &[(char, Span)], found: Option<Span>) -> Diagnostic {
     let (bracket, span) = open[open.len() - 1];
     let mut diagnostic =
@@ -58,8 +58,8 @@ fn closer(bracket: char) -> char {
     }
 }
 
-/// Returns the error of an unclosed `what`, "text" or "comment"; `length` is the number of bytes of its opening
-/// quotes, 1 or 3.
+/// Returns the diagnostic for a `what`, "text" or "comment", that is never closed; `opener` is the span of its opening,
+/// `length` the number of bytes of its quotes, 1 or 3.
 pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnostic {
     let hint = match (what, length) {
         ("comment", _) => "close it with `*/`",
@@ -69,8 +69,8 @@ pub(super) fn unclosed_token(opener: Span, what: &str, length: usize) -> Diagnos
     Diagnostic::error(code::UNCLOSED, format!("this {what} is never closed")).label(opener, "").hint(hint)
 }
 
-/// Returns the error of a closing bracket without an opening one; `open` is the innermost open bracket, and `None` if
-/// none is open.
+/// Returns the diagnostic for a closing bracket without an opening one; `open` is the innermost open bracket, and
+/// `None` if none is open.
 pub(super) fn stray_closer(closer: char, at: Span, open: Option<Span>) -> Diagnostic {
     let diagnostic = Diagnostic::error(code::SYNTAX, format!("this `{closer}` closes nothing")).label(at, "");
     match open {

@@ -10,7 +10,7 @@ use crate::source::suggest::suggest;
 use crate::source::{Code, Diagnostic, FileId, Span, code};
 use std::cell::Cell;
 
-/// The kind of body that a faulty piece is in.
+/// The kind of body in which a piece of text that does not parse stands: it decides which keywords may begin a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BodyKind {
     Items,
@@ -21,7 +21,7 @@ pub(super) enum BodyKind {
 }
 
 impl BodyKind {
-    /// Returns the words that begin a piece in this kind of body.
+    /// Returns the keywords that begin a piece in this kind of body.
     pub(super) fn keywords(self) -> &'static [&'static str] {
         match self {
             BodyKind::Items => words::ITEMS_AND_STATEMENTS,
@@ -44,7 +44,7 @@ impl BodyKind {
     }
 }
 
-/// A parse error: the tokens of the piece, and the token that the grammar could not take.
+/// A syntax error: the tokens of a piece of text, and the one at which the grammar failed.
 pub(super) struct Mistake<'t> {
     /// The text of the piece.
     pub(super) text: &'t str,
@@ -198,12 +198,14 @@ impl Mistake<'_> {
         self.text[before.end..end].contains('\n')
     }
 
-    /// Returns an error at the faulty token. Never `None`: an `Option` because the explanations that end with it are.
+    /// Returns an error at the faulty token. Never `None`: it is an `Option` because the explanations that end with it
+    /// return one.
     pub(super) fn error(&self, message: impl Into<String>) -> Option<Diagnostic> {
         self.error_at(code::SYNTAX, self.found, message)
     }
 
-    /// Returns an error at the token at an index, or behind the last one. Never `None`, as for [`Mistake::error`].
+    /// Returns an error at the token at an index, from 0, or behind the last one. Never `None`, as for
+    /// [`Mistake::error`].
     pub(super) fn error_at(
         &self,
         code: Code,

@@ -11,7 +11,8 @@ const REPEATED_MAX: usize = 60;
 
 // All that explain return `None` where the mistake is another one.
 impl Mistake<'_> {
-    /// Explains notation of other languages, such as `:` before a body; `None` where the mistake is another one.
+    /// Returns the diagnostic for notation of other languages, such as `:` before a body; `None` where the mistake is
+    /// another one.
     pub(super) fn foreign_mark(&self) -> Option<Diagnostic> {
         let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
         let hint = match (self.before(), self.found()) {
@@ -50,7 +51,8 @@ impl Mistake<'_> {
             .map(|diagnostic| diagnostic.hint(format!("a body stands in braces: `for {each} {{ ... }}`")))
     }
 
-    /// Explains `a if c else b`; `None` where the mistake is another one.
+    /// Returns the diagnostic for a condition in Python's order, `a if c else b`; `None` where the mistake is another
+    /// one.
     pub(super) fn turned_condition(&self) -> Option<Diagnostic> {
         let behind = (1..self.found).rev().find(|&i| self.token_text(i) == "if")?;
         let value = matches!(
@@ -66,7 +68,8 @@ impl Mistake<'_> {
         })
     }
 
-    /// Explains `test hello { ... }`; `None` where the mistake is another one.
+    /// Returns the diagnostic for a test whose name is no text, `test hello { ... }`; `None` where the mistake is
+    /// another one.
     pub(super) fn name_of_test(&self) -> Option<Diagnostic> {
         let is_word = self.kind_of(1) == Some(TokenKind::Word);
         if self.token_text(0) != "test" || self.found != 1 || !is_word || self.begins_line() {
@@ -78,8 +81,8 @@ impl Mistake<'_> {
             .map(|d| d.hint(format!("write `test \"{}\" {{ ... }}`", name.join(" "))))
     }
 
-    /// Explains `x = x + 1` and `m.tilt = 30deg` in place of a statement or clause; `None` where the mistake is
-    /// another one.
+    /// Returns the diagnostic for an assignment, such as `x = x + 1` or `m.tilt = 30deg`, in place of a statement or
+    /// clause; `None` where the mistake is another one.
     pub(super) fn assignment(&self) -> Option<Diagnostic> {
         if !matches!(self.place, BodyKind::Items | BodyKind::Statements | BodyKind::Config) {
             return None;
@@ -140,7 +143,8 @@ impl Mistake<'_> {
         (text.len() <= REPEATED_MAX && !text.contains('\n')).then_some(text)
     }
 
-    /// Explains `Pc(f(x) for x in xs)`; `None` where the mistake is another one.
+    /// Returns the diagnostic for a comprehension without brackets, such as `Pc(f(x) for x in xs)`; `None` where the
+    /// mistake is another one.
     pub(super) fn bare_comprehension(&self) -> Option<Diagnostic> {
         if self.found() != "for" || self.in_text || !(self.wants(")") && self.wants(",")) {
             return None;

@@ -61,7 +61,7 @@ pub(super) struct Lexer<'t> {
 }
 
 impl<'t> Lexer<'t> {
-    /// Returns the tokens from the offset `start`, in bytes, on; it must not be within a token.
+    /// Returns a lexer of a text from the offset `start`, in bytes, on; it must not be within a token.
     pub(super) fn new(text: &'t str, start: usize) -> Lexer<'t> {
         Lexer { bytes: text.as_bytes(), text, at: start, plain_text: false }
     }
@@ -226,8 +226,8 @@ pub(super) fn is_word_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// Returns the offset of the line end of the line that holds the offset `start`, both in bytes, or of the end of the
-/// text.
+/// Returns the offset, in bytes, of the first line feed at or after the offset `start`; the length of the text if there
+/// is none.
 pub(super) fn line_end(bytes: &[u8], start: usize) -> usize {
     bytes[start..].iter().position(|b| *b == b'\n').map_or(bytes.len(), |length| start + length)
 }

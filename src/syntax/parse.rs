@@ -101,8 +101,8 @@ pub(super) struct Failure {
 /// Guards pest's switch for detailed errors, which is global to the process.
 static DETAIL: Mutex<()> = Mutex::new(());
 
-/// Parses a text once more, by `rule`, to collect what would fit at the furthest offset; `None` if the text parses
-/// after all.
+/// Parses a text once more, by `rule`, to collect what the grammar would have accepted at the furthest offset reached;
+/// `None` if the text parses after all.
 pub(super) fn failure(rule: Rule, text: &str) -> Option<Failure> {
     let _guard = DETAIL.lock().unwrap_or_else(PoisonError::into_inner);
     pest::set_error_detail(true);

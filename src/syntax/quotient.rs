@@ -10,7 +10,7 @@ use crate::source::{Diagnostic, Span, code};
 /// The greatest length of a divisor, in bytes.
 const DIVISOR_MAX: usize = 60;
 
-/// A comment that looks like a divisor.
+/// A comment `// ...` that looks like the divisor of an integer division in other languages.
 #[derive(Debug)]
 pub(super) struct Quotient {
     /// The comment.
@@ -21,15 +21,15 @@ pub(super) struct Quotient {
 }
 
 impl Quotient {
-    /// Returns the warning that part of the line is skipped.
+    /// Returns the warning that the rest of the line is a comment, with the hint how to divide.
     pub(super) fn warning(self) -> Diagnostic {
         Diagnostic::warning(code::COMMENT_DIVIDES, "`//` begins a comment, it does not divide")
             .label(self.comment, "all of this is skipped")
             .hint(self.hint)
     }
 
-    /// Returns the error that `bracket`, which opens at `at`, is never closed, because the one that should close it is
-    /// in the comment.
+    /// Returns the diagnostic that `bracket`, which opens at `at`, is never closed, because the closing one is in the
+    /// comment.
     pub(super) fn unclosed(self, bracket: char, at: Span) -> Diagnostic {
         let message = format!("this `{bracket}` is never closed: `//` begins a comment");
         Diagnostic::error(code::UNCLOSED, message)

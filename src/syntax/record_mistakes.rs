@@ -7,8 +7,8 @@ use crate::source::{Diagnostic, code};
 
 // All that explain return `None` where the mistake is another one.
 impl Mistake<'_> {
-    /// Explains `Design { bend: 30deg }`, with which other languages build a record; `None` where the mistake is
-    /// another one.
+    /// Returns the diagnostic for a record built in braces as in other languages, `Design { bend: 30deg }`; `None`
+    /// where the mistake is another one.
     pub(super) fn built_in_braces(&self) -> Option<Diagnostic> {
         let named = |i: usize| {
             self.kind_of(i) == Some(TokenKind::Word)
@@ -34,7 +34,7 @@ impl Mistake<'_> {
             .map(|d| d.hint(format!("write `{name}({fields})`")))
     }
 
-    /// Explains `with` without its braces; `None` where the mistake is another one.
+    /// Returns the diagnostic for `with` without its braces; `None` where the mistake is another one.
     pub(super) fn with_without_braces(&self) -> Option<Diagnostic> {
         if self.before() != "with" || !self.wants("{") {
             return None;
@@ -43,7 +43,8 @@ impl Mistake<'_> {
             .map(|d| d.hint("a changed copy of a record is written `d with { bend: 40deg }`"))
     }
 
-    /// Explains `{ a: 1 }`, or `{` in place of an expression; `None` where the mistake is another one.
+    /// Returns the diagnostic for `{ a: 1 }`, or `{` in place of an expression; `None` where the mistake is another
+    /// one.
     pub(super) fn brace_literal(&self) -> Option<Diagnostic> {
         let record = self.found() == ":"
             && matches!(

@@ -64,7 +64,7 @@ clause!(ConfigClause, ConfigClauseKind, config_clauses, config_clauses, Config, 
 clause!(TrussClause, TrussClauseKind, truss_clauses, truss_clauses, Truss);
 clause!(Stmt, StmtKind, statements, statements, Statements);
 
-/// The parser of the chunks of a file.
+/// The parser of the chunks of a file, which recovers from syntax errors piece by piece.
 pub(super) struct Parser<'t> {
     /// The builder of the tree.
     pub(super) builder: Builder<'t>,
@@ -75,12 +75,13 @@ pub(super) struct Parser<'t> {
 }
 
 impl<'t> Parser<'t> {
-    /// Returns a parser at the top of the file.
+    /// Returns a parser of a scanned text, with `builder` at its start.
     pub(super) fn new(builder: Builder<'t>, scan: &'t Scan<'t>) -> Parser<'t> {
         Parser { builder, scan, depth: 0 }
     }
 
-    /// Parses the chunk at this range of bytes, and appends its items to those before.
+    /// Parses the chunk at this range of bytes, and appends its items to `items`; what can't be parsed is reported, and
+    /// becomes `Error` nodes.
     pub(super) fn chunk(&mut self, range: Range<usize>, items: &mut Vec<Item>) {
         if self.faults(&range).iter().any(|fault| fault.fatal && self.nests_too_deep(*fault)) {
             items.push(self.error_item(range));

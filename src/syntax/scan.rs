@@ -18,7 +18,7 @@ use std::ops::Range;
 /// The distance in bytes within which a wrong closing bracket is matched with an open one on its line.
 const LINE_LENGTH: usize = 500;
 
-/// The result of the first pass.
+/// The result of [`scan`], the first pass over a text: its comments, the beginnings of its chunks, and its faults.
 pub(super) struct Scan<'t> {
     /// The text that the grammar reads: of the length of the one scanned, with comments as blanks and odd characters
     /// replaced.
@@ -37,7 +37,7 @@ pub(super) struct Scan<'t> {
     pub(super) too_deep: bool,
 }
 
-/// A mistake that has been reported.
+/// A mistake of characters or brackets that has been reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fault {
     /// Its offset in bytes.

@@ -24,7 +24,7 @@ pub const ITEMS: &[&str] = &[
     "test",
 ];
 
-/// The words that begin a declaration with instances.
+/// The keywords that begin a declaration with instances.
 pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
 
 /// The keywords after which a name is declared, sorted.
@@ -51,7 +51,7 @@ pub const DECLARING: &[&str] = &[
 /// The keywords that begin a statement; an expression is a statement, too.
 pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
 
-/// The words that begin an item or a statement of a file.
+/// The keywords that begin an item or a statement at the top of a file.
 pub(super) const ITEMS_AND_STATEMENTS: &[&str] = &{
     // Both lists have `let`, the first of the statements.
     let mut all = [""; ITEMS.len() + STATEMENTS.len() - 1];
@@ -76,7 +76,7 @@ pub const CONFIG: &[&str] =
 /// The keywords that begin a clause of a truss.
 pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
 
-/// The words with which a clause continues, also on a new line.
+/// The words with which a clause goes on, even at the beginning of a new line.
 pub(super) const GOING_ON: &[&str] = &[
     "and", "or", "else", "in", "at", "turned", "collides", "facing", "up", "on", "of", "as", "is", "turn",
     "allows", "closed",
