@@ -12,7 +12,7 @@ use crate::geometry::{HeightField, Pose, Vec3};
 use crate::plan::{DynamicsModel, Ground, World};
 use std::rc::Rc;
 
-/// The type of a parameter as its native reads it, which a test compares with the type that the declaration states.
+/// The type of a parameter as its built-in reads it; a test compares it with the type that the declaration states.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A value of any type: the declaration has a type parameter there, or several types.
@@ -70,7 +70,7 @@ pub enum ArgumentError {
     Range(&'static str),
 }
 
-/// A Rust type as which a native can read an argument.
+/// A Rust type as which a built-in can read an argument.
 pub trait Argument<'c>: Sized {
     /// The type in the language that a parameter of this Rust type has.
     const KIND: Kind;
@@ -113,7 +113,7 @@ pub enum WordOr<W, T> {
     Value(T),
 }
 
-/// The word `auto`, which leaves the choice to the planner.
+/// The word `auto`, which leaves the choice of a value to the called function, as in `bins: auto`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Auto;
 
@@ -157,8 +157,8 @@ impl Parameter {
         Parameter { name, kind: T::KIND, rust_type: std::any::type_name::<T> }
     }
 
-    /// Returns a native's own parameters and then those of the part that it shares with others: `part` has one list
-    /// or none. `N` is the number of all: the build fails if it is greater, and parameters are lost if it is less.
+    /// Concatenates a built-in's own parameters and those that it shares with others: `part` holds one such list or
+    /// none. `N` is the number of all: the build fails if it is greater, and parameters are lost if it is less.
     pub const fn concatenated<const N: usize>(own: &[Parameter], part: &[&[Parameter]]) -> [Parameter; N] {
         let mut all = [Parameter::new::<bool>(""); N];
         let mut i = 0;

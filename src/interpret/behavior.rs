@@ -82,9 +82,9 @@ impl Interpreter<'_> {
         robot
     }
 
-    /// Returns a behaviour with the exemptions of `allows unstable, collision(a, b)`, the first outermost; unknown
-    /// where an operand is unknown. `behavior`: the behaviour without them; `frame`: the variables that operands of
-    /// exemptions may name.
+    /// Returns a behaviour with the exemptions of `allows unstable, collision(a, b)`, the first one outermost;
+    /// `Value::Unknown` where an operand is unknown. `behavior`: the behaviour without them; `frame`: the variables
+    /// that operands of exemptions may name.
     ///
     /// # Errors
     /// A fault where an exemption names another robot, or `collision` something that is not a single module.
@@ -142,7 +142,7 @@ impl Interpreter<'_> {
         }))
     }
 
-    /// Returns the condition `a <-> b`, that two ports are docked to each other; unknown where one is no port.
+    /// Returns the condition `a <-> b`, that two ports are docked to each other; `Value::Unknown` where one is no port.
     ///
     /// # Errors
     /// A fault at `span` where the ports belong to two robots.
@@ -154,7 +154,7 @@ impl Interpreter<'_> {
     }
 
     /// Refuses a behaviour that takes more actions, or more steps (repeated groups included), than
-    /// [`behavior::Settings`] allow by default, before anything walks them.
+    /// [`behavior::Settings`] allow by default, before anything traverses them.
     ///
     /// # Errors
     /// A fault at `span` where it does.
@@ -224,8 +224,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the diagnostic of an action that asks for what its joint or ports can't do, or with a number that is
-    /// negative or not finite, at the argument that asks; for an action of the library, at the user's call.
+    /// Returns the diagnostic of an action that asks its joint or ports for what they can't do, or has a number that is
+    /// negative or not finite. It is labelled at the argument concerned; for an action of the library, at the user's
+    /// call.
     pub fn issue(&self, issue: &Issue) -> Diagnostic {
         let record = self.memory.causes.get(issue.cause);
         let (code, message, label) = issue_words(&issue.kind);
@@ -249,7 +250,8 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the node of `action else b`; `None` where `action` is no single action with a timeout.
+/// Returns the node of `action else b`, in which `b` follows the action's timeout; `None` where `action` is no single
+/// action with a timeout.
 pub(super) fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
     let Node::Action(action) = action else { return None };
     let mut action = action.clone();
@@ -280,12 +282,14 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns a label with the instance that the cause is about.
+/// Returns a label's text with the instance that the cause is about, as `label [instance]`; the label alone if it names
+/// the instance already.
 pub(super) fn with_instance(label: String, record: &CauseRecord) -> String {
     if label.contains(&*record.instance) { label } else { format!("{label} [{}]", record.instance) }
 }
 
-/// Labels, after the user's own line, the one in the library, if the cause is there.
+/// Adds a second label at the line in the standard library where the cause is, after that at the user's own line;
+/// nothing if the cause is in the user's own files.
 pub(super) fn in_library(diagnostic: Diagnostic, record: &CauseRecord) -> Diagnostic {
     match record.caller {
         Some(_) => diagnostic.label(record.span, "the command itself, in the library"),

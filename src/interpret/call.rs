@@ -336,8 +336,8 @@ impl Interpreter<'_> {
             .map(Some)
     }
 
-    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; unknown where one of
-    /// them is. `otherwise`: the behaviour `b`; `span`: the span of the whole expression.
+    /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; `Value::Unknown` where one
+    /// of them is. `otherwise`: the behaviour `b`; `span`: the span of the whole expression.
     ///
     /// # Errors
     /// A fault where the two move different robots, or `action` is no single action with a timeout.
@@ -353,7 +353,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns a record of a declaration with the values of its fields; unknown where one is.
+/// Returns a record of a declaration with the values of its fields; `Value::Unknown` where one is.
 fn declared_record(def: DefId, fields: Vec<Value>) -> Value {
     if fields.iter().any(Value::is_unknown) {
         return Value::Unknown;

@@ -55,7 +55,7 @@ impl Causes {
         known
     }
 
-    /// Returns the record of a cause, given by its number in the run. Panics if the number is of another run.
+    /// Returns the record of a cause, given by its number in the run. Panics if there is no cause of this number.
     pub fn get(&self, id: CauseId) -> &CauseRecord {
         &self.records[id.0 as usize]
     }

@@ -43,8 +43,8 @@ pub fn layer(text: &str, z: i64) -> Result<Vec<[i64; 3]>, BadCell> {
 }
 
 impl Cells {
-    /// Returns a block of cells, `size` along x, y and z, from the cell at the origin on; x runs fastest, then
-    /// y.
+    /// Returns a block of cells, `size` cells along x, y and z, whose lowest cell is at the origin; they are numbered
+    /// along x first, then y, then z.
     pub fn block(size: [usize; 3]) -> Cells {
         let mut positions = Vec::with_capacity(size.iter().product());
         for z in 0..size[2] {

@@ -281,7 +281,7 @@ impl ConfigDesign {
         config
     }
 
-    /// Adds a connection to the configuration, takes its two ports, and joins the components of its modules.
+    /// Adds a connection to the configuration, marks its two ports as taken, and joins the components of its modules.
     pub fn add_bond(&self, bond: BondRecord) {
         let index = self.bonds.borrow().len();
         self.taken.borrow_mut().extend([(bond.a, index), (bond.b, index)]);
@@ -422,7 +422,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// Returns the robot of a design as one that has no name yet.
+    /// Returns the robot of a design as a new one, which has no name yet.
     pub fn new(design: Rc<Design>) -> Subject {
         Subject { design, identity: Identity::default() }
     }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// The frame of a body under evaluation: its variables, and the instance whose body it is.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
-    /// The values of the variables, by the slot of the variable, from 0; unknown where none was put yet.
+    /// The values of the variables, by the slot of the variable, from 0; `Value::Unknown` where none was put yet.
     pub slots: Vec<Value>,
     /// The instance whose body is evaluated; `None` outside of declarations with instances.
     pub this: Option<Rc<Instance>>,
@@ -42,14 +42,14 @@ impl Frame {
         self.slots[slot] = value;
     }
 
-    /// Returns the value of a variable; unknown if none was put into its slot.
+    /// Returns the value of a variable; `Value::Unknown` if none was put into its slot.
     pub fn get(&self, local: Local) -> Value {
         self.slots.get(local.0 as usize).cloned().unwrap_or(Value::Unknown)
     }
 }
 
 impl Interpreter<'_> {
-    /// Returns the value of an expression. A fault is reported and leaves an unknown value.
+    /// Returns the value of an expression. A fault is reported and leaves `Value::Unknown`.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -63,7 +63,8 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// Returns the value of a `let`, which gives a robot a name.
+    /// Returns the value of the expression of a `let`; a robot in it gets its name. A fault is reported and leaves
+    /// `Value::Unknown`.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -73,7 +74,8 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// Returns the value of an expression that may be left out; `None` if it is.
+    /// Returns the value of an expression that may be left out; `None` if it is. A fault is reported and leaves
+    /// `Value::Unknown`.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -346,7 +348,7 @@ impl Interpreter<'_> {
         before[start..].into()
     }
 
-    /// Returns an element of a list or a vector; unknown where an operand is.
+    /// Returns an element of a list or a vector; `Value::Unknown` where an operand is.
     ///
     /// # Errors
     /// A fault at `span` where the index is outside.
@@ -518,7 +520,7 @@ impl Interpreter<'_> {
             .into())
     }
 
-    /// Refuses a list that is longer than the limit of the run.
+    /// Refuses a list whose length, in elements, is over the limit of the run.
     ///
     /// # Errors
     /// A fault where it is longer.
@@ -530,7 +532,7 @@ impl Interpreter<'_> {
         self.too_large(span, format!("a list of more than {limit} elements"))
     }
 
-    /// Refuses a text that is longer than the limit of the run, in bytes.
+    /// Refuses a text whose length, in bytes, is over the limit of the run.
     ///
     /// # Errors
     /// A fault where it is longer.

@@ -71,7 +71,7 @@ impl HostProxy {
         self.send(Request::Print(line));
     }
 
-    /// Tells the host a value that the lines printed next show. Waits and unwinds as [`print`](Self::print) does.
+    /// Sends the host a value that the lines printed next show. Waits and unwinds as [`print`](Self::print) does.
     pub fn print_value(&self, value: PrintedValue) {
         self.send(Request::PrintValue(value));
     }
@@ -88,7 +88,7 @@ impl HostProxy {
     /// the contents of the file.
     ///
     /// # Errors
-    /// [`WriteError`] where the path leads out of the output folder, or the system refuses.
+    /// [`WriteError`] where the path leads out of the output folder, or the operating system refuses.
     pub fn write(&self, path: &str, bytes: Vec<u8>) -> Result<String, WriteError> {
         self.ask(|reply| Request::Write(path.into(), bytes, reply))
     }
@@ -154,7 +154,7 @@ fn with_stack<T, E: ToString>(mut start: impl FnMut(Builder, usize) -> Result<T,
 /// requests are answered from. Panics of the evaluator are resumed here.
 ///
 /// # Errors
-/// The system's words where it gives no memory for the thread.
+/// The operating system's message if the thread can't be started.
 pub fn run<T: Send>(
     files: &dyn Files,
     host: &mut dyn Host,
@@ -200,7 +200,7 @@ impl<J: Send + 'static, R: Send + 'static> EvaluatorThread<J, R> {
     /// one.
     ///
     /// # Errors
-    /// The system's words where it gives no memory for the thread.
+    /// The operating system's message if the thread can't be started.
     pub fn new<W: FnMut(J) -> R>(
         cancel_state: CancelState,
         begin: impl FnOnce(HostProxy) -> W + Send + 'static,

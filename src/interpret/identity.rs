@@ -21,7 +21,7 @@ pub struct Name {
     pub index: Option<usize>,
 }
 
-/// The identity of a robot that a program makes, with its names. Copies are the same robot.
+/// The identity of a robot that a program makes, with the names it is bound to. Copies are the same robot.
 #[derive(Clone, Debug, Default)]
 pub struct Identity(Rc<RefCell<Vec<Name>>>);
 
@@ -34,8 +34,9 @@ impl Identity {
         }
     }
 
-    /// Returns, for two robots, a name of each that the other lacks, this one's first. `None` where the program may
-    /// mean one robot: for copies, and where all names of one are names of the other, as where it has none.
+    /// Returns, for two robots that the program names differently, a name of each that the other lacks, this one's
+    /// first. `None` where the program may mean one robot: for copies, and where all names of one are names of the
+    /// other, as where it has none.
     pub fn apart(&self, other: &Identity) -> Option<(Name, Name)> {
         if Rc::ptr_eq(&self.0, &other.0) {
             return None;

@@ -27,7 +27,7 @@ const CALLS_MANY: usize = 100;
 /// The greatest number of calls that a message shows.
 const CALLS_SHOWN: usize = 4;
 
-/// The state of a run: its inputs, its findings, its memory, and the position of evaluation.
+/// The state of a run: its inputs, its diagnostics, its memory, and the position of evaluation.
 pub struct Interpreter<'a> {
     /// The inputs of the run, which never change.
     pub shared: Shared<'a>,
@@ -44,7 +44,7 @@ pub struct Interpreter<'a> {
 
 /// The inputs of a run, which it does not change.
 pub struct Shared<'a> {
-    /// The functions of the rooms above the evaluator.
+    /// The functions of the higher-level modules.
     pub routines: &'a Routines,
     /// The checked program that is run.
     pub program: &'a Program,
@@ -61,7 +61,7 @@ pub struct Shared<'a> {
     pub faulty: Vec<bool>,
 }
 
-/// The findings and effects of a run so far.
+/// The diagnostics, test results and outputs of a run so far.
 #[derive(Default)]
 pub struct Reported {
     /// The diagnostics: at most 200 errors and 200 others, one for each code and span; findings of the judge (E06xx)
@@ -113,7 +113,7 @@ impl Memory {
     }
 }
 
-/// The position of evaluation: the calls and bindings that it is in.
+/// The position of evaluation: the calls and loop variables that it is within.
 #[derive(Default)]
 pub struct Stack {
     /// The calls that evaluation is in, outermost first.
@@ -127,7 +127,7 @@ pub struct Stack {
     depth: usize,
 }
 
-/// A call of something that a user or the library wrote.
+/// A call of a function or behaviour that a user or the library wrote, with its position in the source.
 #[derive(Clone, Debug)]
 pub struct CallSite {
     /// The span of the call in the source text.
@@ -148,9 +148,9 @@ pub struct Binder {
 }
 
 impl<'a> Interpreter<'a> {
-    /// Returns the state at the beginning of a run, with nothing computed. `routines`: the functions of the rooms
-    /// above; `checked`: the program; `mode`: the part of it that is evaluated; `options`: the choices of the user;
-    /// `host`: the access to files and terminal.
+    /// Returns the state at the beginning of a run, with nothing computed. `routines`: the functions of the
+    /// higher-level modules; `checked`: the program; `mode`: the part of it that is evaluated; `options`: the choices
+    /// of the user; `host`: the access to files and terminal.
     pub fn new(
         routines: &'a Routines,
         checked: &'a Checked,
@@ -193,7 +193,7 @@ impl<'a> Interpreter<'a> {
         DefId(index.expect("natives name records that the prelude declares"))
     }
 
-    /// Counts an evaluation step.
+    /// Counts an evaluation step, of the expression at `span`.
     ///
     /// # Errors
     /// [`Stop::Halt`] at the limit of steps, or when the user cancels.
@@ -225,7 +225,7 @@ impl<'a> Interpreter<'a> {
     /// Runs `body` one level of evaluation deeper. `span`: the expression that is evaluated.
     ///
     /// # Errors
-    /// [`Stop::Halt`] where the stack would not bear it, besides the errors of `body`.
+    /// [`Stop::Halt`] where the stack would overflow, besides the errors of `body`.
     pub fn with_depth<T>(&mut self, span: Span, body: impl FnOnce(&mut Self) -> Eval<T>) -> Eval<T> {
         let limit = self.shared.host.nesting_max;
         let bears = stacker::remaining_stack().is_none_or(|left| left >= REST_BYTES);
@@ -293,7 +293,7 @@ impl<'a> Interpreter<'a> {
         result
     }
 
-    /// Reports a finding, as [`add_report`](Self::add_report) does, and ends the run.
+    /// Reports a diagnostic, as [`add_report`](Self::add_report) does, and ends the run.
     ///
     /// # Errors
     /// Always [`Stop::Halt`].
@@ -302,16 +302,16 @@ impl<'a> Interpreter<'a> {
         Err(Stop::Halt)
     }
 
-    /// Reports a finding with the calls that led to it and, for an error, the loop variables, as
+    /// Reports a diagnostic with the calls that led to it and, for an error, the loop variables, as
     /// [`add_report`](Self::add_report) does.
     pub fn report(&mut self, diagnostic: Diagnostic) {
         let diagnostic = self.with_calls(diagnostic);
         self.add_report(diagnostic);
     }
 
-    /// Reports a finding as it is, for one that is not about the position of evaluation. It is dropped if one
-    /// of its code and span is known (of the judge, also of its message), or after 200 errors, or 200 others;
-    /// errors are counted all the same.
+    /// Reports a diagnostic as it is, without the calls and loop variables of the present position. It is dropped if
+    /// one of its code and span is known (for one of the judge, also of its message), or after 200 errors, or 200
+    /// others; errors are counted all the same.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
         self.reported.errors += usize::from(diagnostic.is_error());
         // The judge's findings differ from robot to robot, at one and the same line.
@@ -353,7 +353,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and returns its result and its findings, in order, instead of reporting them. Its errors stay
+    /// Runs `body` and returns its result and its diagnostics, in order, instead of reporting them. Its errors stay
     /// counted.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
@@ -385,7 +385,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Returns the value; a fault is reported and gives an unknown value.
+    /// Returns the value of a result; a fault is reported and gives `Value::Unknown`.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

@@ -11,9 +11,9 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the plan `p ++ q` or `p ++ b`: one plan after another; a behaviour of the same robot begins in the
-    /// state in which the plan before it ends. Unknown where one of them is, or could not be planned. `a` and `b`:
-    /// the two sides; `span`: the span of the whole expression.
+    /// Returns the plan `p ++ q` or `p ++ b`: the concatenation of two plans; a behaviour of the same robot begins in
+    /// the state in which the plan before it ends. `Value::Unknown` where one of them is, or could not be planned. `a`
+    /// and `b`: the two sides; `span`: the span of the whole expression.
     ///
     /// # Errors
     /// A fault where the plans do not fit together, or a behaviour can't be planned.

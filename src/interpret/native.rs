@@ -16,7 +16,7 @@ pub enum Effect {
     OnRun,
 }
 
-/// The body of an `extern fn`: it gets a call with known arguments, and returns the result.
+/// The body of an `extern fn`: it gets a call none of whose arguments is unknown, and returns the result.
 pub type NativeBody = fn(&mut Interpreter, &Call) -> Eval<Value>;
 
 /// A built-in function: the declaration that it belongs to, by its key, and its body in Rust.
@@ -33,8 +33,8 @@ pub struct Native {
 }
 
 impl Native {
-    /// Returns a built-in with this key that does its work whenever it is called. `parameters`: the table of its
-    /// parameters; `body`: its Rust function.
+    /// Returns a built-in with this key that does its work in every mode of a run ([`Effect`]). `parameters`: the table
+    /// of its parameters; `body`: its Rust function.
     pub const fn pure(key: &'static str, parameters: &'static [Parameter], body: NativeBody) -> Native {
         Native { key, parameters, effect: Effect::None, body }
     }

@@ -10,11 +10,11 @@ use crate::plan::Condition;
 use crate::plan::visit::Graph;
 use std::collections::HashMap;
 
-/// The greatest depth of values within each other that a run carries along.
+/// The greatest depth of nested values that a run keeps, in values from the outermost to the innermost.
 pub const DEPTH_MAX: usize = 10_000;
 
-/// Returns the depth of a value: the number of values within each other on the longest path down, this one included.
-/// Values that are shared are walked once, with a stack of the heap.
+/// Returns the depth of a value: the number of values on the longest path into nested ones, this one included. Shared
+/// values are visited once; the stack of the traversal is on the heap.
 pub fn depth(value: &Value) -> usize {
     let mut known: HashMap<usize, usize> = HashMap::new();
     let mut stack = vec![Visit { value, held: holding(value), below: 0 }];

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Returns the whole number of decimal digits as they are written, however many. `span`: the span of the literal.
+    /// Returns the value of a whole number from its decimal digits, however many. `span`: the span of the literal.
     ///
     /// # Errors
     /// A fault where it has more digits than the limit of the run.
@@ -28,8 +28,8 @@ impl Interpreter<'_> {
         Ok(digits.parse::<BigInt>().map_or(Value::Unknown, Value::whole))
     }
 
-    /// Returns the result of a prefix operator; unknown where the operand is. `op`: the operator; `span`: the span of
-    /// the whole expression.
+    /// Returns the result of a prefix operator; `Value::Unknown` where the operand is. `op`: the operator; `span`: the
+    /// span of the whole expression.
     ///
     /// # Errors
     /// A fault where the operator does not fit the value.
@@ -57,9 +57,9 @@ impl Interpreter<'_> {
         })
     }
 
-    /// Returns the result of an infix operator; unknown where an operand is. `and` and `or` leave out the second
-    /// operand where the first decides. `op`: the operator; `left` and `right`: the operands; `span`: the span of the
-    /// whole expression; `frame`: the variables of the body in which it stands.
+    /// Returns the result of an infix operator; `Value::Unknown` where an operand is. `and` and `or` leave out the
+    /// second operand where the first decides. `op`: the operator; `left` and `right`: the operands; `span`: the span
+    /// of the whole expression; `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
     /// A fault where the operator does not fit the values, divides by zero, or gives a value that is too large.

@@ -37,7 +37,7 @@ pub struct PlanValue {
 /// Times (s) with what is known at them.
 type AtTimes<T> = (Rc<Vec<f64>>, Rc<Vec<T>>);
 
-/// A verdict with the settings and worlds that it was given under.
+/// The verdict on a plan, with the settings and worlds under which it was given.
 pub(super) struct Judged {
     /// The settings of the judge under which the verdict was made.
     pub settings: Settings,
@@ -82,7 +82,8 @@ impl std::fmt::Debug for PlanValue {
 }
 
 impl PlanValue {
-    /// Returns the worlds that the plan is judged in: `world` from its beginning on, or its own.
+    /// Returns the worlds that the plan is judged in: `world` from its beginning on if it is given, else the plan's
+    /// own.
     pub fn worlds_in(&self, world: Option<World>) -> Vec<WorldFrom> {
         match world {
             Some(world) => vec![WorldFrom { from: 0.0, world }],
@@ -114,7 +115,7 @@ impl PlanValue {
         }
     }
 
-    /// Returns the robot as a value, one and the same at each call.
+    /// Returns the plan's robot as a value, the same instance at each call.
     pub fn instance(&self) -> Rc<Instance> {
         self.instance.get_or_init(|| Instance::whole(self.robot.clone())).clone()
     }
@@ -129,7 +130,7 @@ impl PlanValue {
         self.report.clone()
     }
 
-    /// Returns the report if it is of the type `R`; `None` where another planner made the plan, or none.
+    /// Returns the planner's report if it is of the type `R`; `None` where another planner made the plan, or none.
     pub fn report<R: PlannerReport>(&self) -> Option<&R> {
         let report: &dyn Any = self.report.as_deref()?;
         report.downcast_ref()
@@ -170,8 +171,8 @@ impl PlanValue {
         usize::try_from(self.actions).unwrap_or(usize::MAX)
     }
 
-    /// Returns the number of intervals between the instants at which the law of motion changes, begin and end of the
-    /// plan included.
+    /// Returns the number of intervals between the instants at which the plan's law of motion changes, its beginning
+    /// and end included.
     pub fn steps(&self) -> usize {
         self.plan.body.instants().len().saturating_sub(1)
     }

@@ -141,7 +141,8 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the causes of a plan that one call of a planner commands as a whole: cause 0 is that call.
+    /// Returns the causes of a plan that one call of a planner commands as a whole: cause 0 is that call. `call`: its
+    /// span.
     pub fn planner_causes(&mut self, call: Span) -> PlanCauses {
         let mut causes = PlanCauses::default();
         let cause = self.cause(call, Vec::new(), "");
@@ -149,13 +150,13 @@ impl Interpreter<'_> {
         causes
     }
 
-    /// Returns the default settings of the judge, within the limits of the run.
+    /// Returns the default settings of the judge, with the sample limits of the run.
     pub fn judge_settings(&self) -> Settings {
         Settings { samples_max: self.limits().samples, ..Settings::default() }
     }
 
-    /// Reports the actions beyond the limits of the joints; returns true if there are none. `ids`: the run's number
-    /// of each cause, indexed by the plan's number. `issues`: the actions.
+    /// Reports the actions that are too fast for the limits of the joints; returns true if there are none. `ids`: the
+    /// run's number of each cause, indexed by the plan's number. `issues`: the actions.
     pub fn report_issues(&mut self, issues: &[behavior::Issue], ids: &[CauseId]) -> bool {
         for issue in issues {
             let issue = behavior::Issue { cause: ids[issue.cause.0 as usize], ..issue.clone() };
@@ -238,7 +239,7 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns the seed of a planner: the one that is stated, else that of the run.
+    /// Returns the seed for a planner's random numbers: the one that is stated, else that of the run.
     pub fn seed(&self, stated: WordOr<Auto, usize>) -> u64 {
         match stated {
             WordOr::Word(Auto) => self.shared.options.seed,

@@ -77,7 +77,7 @@ pub struct StateValue {
     pub among: (Rc<Vec<f64>>, usize),
 }
 
-/// The name of a field of a record, with the function that reads it.
+/// The name of a field of a record, with the function that reads its value.
 pub type Field<T> = (&'static str, fn(&T) -> Value);
 
 /// Returns the value of a field by its table. `fields`: the table; `record`: the value with the fields. Panics if the

@@ -30,8 +30,8 @@ impl Robot {
         owner.map_or_else(String::new, |owner| self.assembly.joint_name(owner))
     }
 
-    /// Returns the closure error of each bond that closes a loop, ascending by bond, in the start state; empty for a
-    /// kinematic tree.
+    /// Returns the closure errors (positions in m, angles in rad, as [`Residual`] has them) of the bonds that close
+    /// loops in the start state, ascending by bond; empty for a kinematic tree.
     pub fn residuals(&self) -> Vec<Residual> {
         self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
     }

@@ -34,14 +34,15 @@ impl Args {
     }
 }
 
-/// A robot that was assembled; `None` where its design is broken or describes none.
+/// The result of assembling the robot of a design; `None` where the design is broken or describes no robot.
 pub type Assembled = Eval<Option<Rc<Robot>>>;
 
-/// The functions of the rooms above the evaluator. Those that return [`Eval`] fail as the evaluator does.
+/// The functions that modules above the evaluator (elaboration, built-ins, display) lend it, so that it need not depend
+/// on them. Those that return [`Eval`] fail as the evaluator does.
 pub struct Routines {
     /// The function that finds a built-in by its key, such as `move` or `Plan.at`; `None` if there is none.
     pub native: fn(Symbol) -> Option<&'static Native>,
-    /// The function that elaborates a declaration with arguments to an instance; unknown where it is broken.
+    /// The function that elaborates a declaration with arguments to an instance; `Value::Unknown` where it is broken.
     pub instantiate: fn(&mut Interpreter, DefId, Args, Span) -> Eval<Value>,
     /// The function that assembles the robot of a design, once; `None` where the design is broken or no robot.
     pub robot_of: fn(&mut Interpreter, &Rc<Design>, Span) -> Assembled,
@@ -74,13 +75,13 @@ impl Interpreter<'_> {
         (self.shared.routines.robot_of)(self, design, span)
     }
 
-    /// Returns a value on one line, as it could be written in a program, with units that suit its size.
+    /// Returns a value as text on one line, as a program could write it, with units that suit its size.
     pub fn show(&self, value: &Value) -> String {
         (self.shared.routines.show)(self, value)
     }
 
-    /// Tells the host a value that is printed next as `text`, if the options ask for values. Values beyond 16 MiB
-    /// in one run are left out.
+    /// Sends the host the value that is printed next as `text`, if the options ask for values. Values beyond 16 MiB in
+    /// one run are left out.
     pub fn print_value(&mut self, value: &Value, text: &str) {
         if !self.shared.options.values {
             return;
@@ -92,7 +93,7 @@ impl Interpreter<'_> {
         self.shared.host.print_value(PrintedValue { text: text.to_string(), value });
     }
 
-    /// Returns a value on as many lines as it needs, the first of which can stand alone.
+    /// Returns a value as text on as many lines as it needs, the first of which can stand alone.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.

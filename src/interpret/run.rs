@@ -11,10 +11,9 @@ use crate::interrupt;
 use crate::source::{Diagnostic, Files, Severity, code};
 
 /// Runs a checked program on a thread of its own and returns the outcome. Faults that `check` reported are not
-/// repeated; parts that it could not understand are passed over in silence. If the system gives no memory for the
-/// thread, that is the only finding. `routines`: the functions of the rooms above; `mode`: the part of the program
-/// that is evaluated; `files` and `host` serve its requests; `options`: the choices of the user. Panics if the
-/// evaluator does.
+/// repeated; parts that it could not understand are passed over in silence. If the thread can't be started, that is the
+/// only diagnostic. `routines`: the functions of the higher-level modules; `mode`: the part of the program that is
+/// evaluated; `files` and `host` serve its requests; `options`: the choices of the user. Panics if the evaluator does.
 pub fn run(
     routines: &Routines,
     checked: &Checked,
@@ -49,7 +48,7 @@ fn no_memory(why: &str) -> Diagnostic {
 
 /// Returns the result of `work`, which is called on a thread of its own with the interpreter of a checked program, of
 /// which nothing was run. `None` where it met a fault or a limit, reported an error or was cancelled, or where the
-/// system gives no memory for the thread. `routines`: the functions of the rooms above; `files` and `host` serve its
+/// thread can't be started. `routines`: the functions of the higher-level modules; `files` and `host` serve its
 /// requests; `options`: the choices of the user.
 pub fn with_interpreter<T: Send>(
     routines: &Routines,

@@ -25,7 +25,7 @@ pub const UNDO_MAX: usize = 200;
 /// after another on them.
 pub struct Evaluator(EvaluatorThread<Task, Answer>);
 
-/// A task of the session: the work, with the program that it is about.
+/// A task for the evaluator of a session: the work, with the program that it is about.
 pub struct Task {
     /// The checked program of the whole session.
     pub checked: Arc<Checked>,
@@ -35,7 +35,7 @@ pub struct Task {
     pub work: Work,
 }
 
-/// The task of an evaluator with the values of earlier entries: add to them, or take some back.
+/// The kind of a task: evaluate a new entry, take the last one back, reload changed texts, or forget all values.
 pub enum Work {
     /// Evaluation of the newest entry.
     Enter(Entered),
@@ -97,11 +97,11 @@ pub struct Answer {
 }
 
 impl Evaluator {
-    /// Starts an evaluator on a thread of its own. `routines`: the functions of the rooms above; `cancel_state`: the
-    /// token by which the user cancels its tasks.
+    /// Starts an evaluator on a thread of its own. `routines`: the functions of the higher-level modules;
+    /// `cancel_state`: the token by which the user cancels its tasks.
     ///
     /// # Errors
-    /// The system's words where it gives no memory for the thread.
+    /// The operating system's message if the thread can't be started.
     pub fn new(routines: &'static Routines, cancel_state: CancelState) -> Result<Evaluator, String> {
         let thread = EvaluatorThread::new(cancel_state, move |proxy| {
             let (mut memory, mut before) = (Memory::default(), Vec::new());

@@ -2,7 +2,7 @@
 
 use crate::source::{Code, Diagnostic, Span};
 
-/// The reason that evaluation ends early. A fault ends the expression that it is in and leaves an unknown value; a
+/// The reason that evaluation ends early. A fault ends the expression that it is in, whose value becomes unknown; a
 /// halt ends the run.
 #[derive(Debug)]
 pub enum Stop {

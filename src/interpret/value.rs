@@ -293,7 +293,7 @@ impl Value {
         Value::Text(text.as_ref().into())
     }
 
-    /// Returns a number without dimension as a value.
+    /// Returns a number without unit as a value.
     pub fn number(x: f64) -> Value {
         Value::Quantity(x, Dimension::NUMBER)
     }
@@ -313,7 +313,7 @@ impl Value {
         Value::Int(i64::try_from(n).expect("counts are far below 2^63"))
     }
 
-    /// Returns a list as a value, or unknown if an element is unknown.
+    /// Returns a list as a value; [`Value::Unknown`] if an element is unknown.
     pub fn list(elements: Vec<Value>) -> Value {
         if elements.iter().any(Value::is_unknown) { Value::Unknown } else { Value::List(Rc::new(elements)) }
     }
@@ -344,7 +344,7 @@ impl Value {
         value.unwrap_or(Value::Missing)
     }
 
-    /// Returns true if the value is unknown.
+    /// Returns true if the value is [`Value::Unknown`], the result of a fault.
     pub fn is_unknown(&self) -> bool {
         matches!(self, Value::Unknown)
     }

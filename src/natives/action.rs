@@ -17,7 +17,8 @@ use crate::source::{Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for actions, behaviours and conditions, such as `move`, `wait`, `repeat` and `docked`: the key of each
+/// with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure(
         "move",
@@ -120,7 +121,7 @@ impl Extras {
     }
 }
 
-/// Returns an action on a joint with its cause; unknown where the robot can't be assembled. `at`: the argument
+/// Returns an action on a joint with its cause; `Value::Unknown` where the robot can't be assembled. `at`: the argument
 /// that names the joint.
 fn joint_action(
     interpreter: &mut Interpreter,

@@ -15,7 +15,8 @@ use crate::source::{Span, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for arrangements of cells, trusses, meshes and terrain, such as `row`, `octet` and `load_mesh`: the
+/// key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("row", parameters![n: usize], |i, call| {
         block(i, call, [call.count("n", "a number of cells")?, 1, 1])

@@ -14,7 +14,7 @@ use crate::planners::{RequestedProgress, Solution};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-in `fastest`, which retimes a plan: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] =
     &[Native::on_run("fastest", parameters![plan: &Value, reserve: f64], fastest)];
 

@@ -19,22 +19,22 @@ use crate::planners::{RequestedProgress, Solution};
 use std::rc::Rc;
 
 // The names of arguments that diagnostics of `fold` are about.
-/// The name of the parameter for the shape.
+/// The name of `fold`'s parameter for the shape to fold into.
 pub(super) const TARGET: &str = "target";
-/// The name of the parameter for the panel.
+/// The name of `fold`'s parameter for the panel module.
 pub(super) const MODULE: &str = "module";
-/// The name of the parameter for the face at rest.
+/// The name of `fold`'s parameter for the face that stays at rest.
 pub(super) const ROOT: &str = "root";
-/// The name of the parameter for the kind of search.
+/// The name of `fold`'s parameter for the method by which layouts are searched.
 pub(super) const METHOD: &str = "method";
-/// The name of the parameter for the duration of a step.
+/// The name of `fold`'s parameter for the duration of a step.
 pub(super) const STEP: &str = "step";
-/// The name of the parameter for the order of hinges.
+/// The name of `fold`'s parameter for the order in which hinges fold.
 pub(super) const SEQUENCE: &str = "sequence";
-/// The name of the parameter for a given layout.
+/// The name of `fold`'s parameter for a prescribed layout, the hinges that fold.
 pub(super) const HINGES: &str = "hinges";
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins `fold` and `random_orders`: the key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("fold", Arguments::PARAMETERS, fold),
     Native::on_run("random_orders", parameters![of: &Value, orders: usize, seed: usize], random_orders),

@@ -10,7 +10,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// A layout with the designs of its panels, by face.
+/// A layout of a target with the designs of the panels that it joins, by face.
 pub(super) struct Joined<'t> {
     /// The surface that is folded, whose faces are the panels.
     pub target: &'t Target,
@@ -23,8 +23,8 @@ pub(super) struct Joined<'t> {
 }
 
 impl Joined<'_> {
-    /// Returns the configuration and its robot, whose own state is the folded one. `panels`: those that the planner
-    /// was given.
+    /// Returns the panels, joined along the layout, as a configuration and its robot, whose start state is the folded
+    /// one. `panels`: the panels as the planner was given them.
     pub(super) fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
         let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
         let start = sheet.folded(self.target, self.layout);

@@ -10,8 +10,8 @@ use crate::source::{Diagnostic, code};
 use crate::units::number;
 use crate::units::{Dimension, quantity};
 
-/// Returns the fault of a refusal of `fold`, at the arguments that it is about; `causes`: the run's number of each
-/// cause, indexed by the plan's number.
+/// Returns the fault for a refusal of the planner `fold`, labelled at the arguments that it is about; `causes`: the
+/// run's number of each cause, indexed by the plan's number.
 pub(super) fn diagnostic(
     interpreter: &Interpreter,
     call: &Call,
@@ -57,7 +57,7 @@ pub(super) fn diagnostic(
     }
 }
 
-/// Returns the fault of a step, the argument `key`, that is shorter than the slowest hinge needs; `least`: the
+/// Returns the fault for a step time, the argument `key`, that is shorter than the slowest hinge needs; `least`: the
 /// time that it needs, s.
 pub(super) fn too_short(call: &Call, key: &'static str, message: String, least: f64) -> Stop {
     let least = quantity(least, Dimension::TIME);

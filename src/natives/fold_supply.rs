@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The parameter that states a panel's sides.
 const SIDES: &str = "sides";
 
-/// A design of a module that is a panel, with its geometry.
+/// A module design that is a triangular panel, with its geometry in numbers.
 #[derive(Clone)]
 pub(super) struct PanelDesign {
     /// The design of the module of which the panels are made.
@@ -26,7 +26,7 @@ pub(super) struct PanelDesign {
     pub panel: Panel,
 }
 
-/// The module in an argument, and the panels that were made of it.
+/// The source of panels: the module in an argument, and the panels that were made of it so far.
 pub(super) struct Supply<'c> {
     call: &'c Call<'c>,
     /// The argument.
@@ -38,8 +38,8 @@ pub(super) struct Supply<'c> {
 }
 
 impl<'c> Supply<'c> {
-    /// Returns the supply of panels of the module in the argument `module`. A module with a parameter `sides`
-    /// is made for each face by its sides; any other must have three equal sides.
+    /// Returns the source of panels for the module `instance`, given in the argument `module`. A module with a
+    /// parameter `sides` is made for each face by its sides; any other must have three equal sides.
     ///
     /// # Errors
     /// A fault where the module is no such panel, or `sides` is stated.
@@ -111,7 +111,8 @@ impl<'c> Supply<'c> {
         Ok(panel)
     }
 
-    /// Checks that the sides of a face are those of `panel`, which has three equal ones.
+    /// Checks that the sides of a face (an index in the target's faces) are as long as those of `panel`, which are
+    /// equal. `shape`: the argument with the target.
     ///
     /// # Errors
     /// A fault where they differ.
@@ -207,7 +208,7 @@ fn panel_of(
     Ok(PanelDesign { design: design.clone(), panel })
 }
 
-/// The panels of all faces, as designs and as data of the planner.
+/// The panels of all faces of a target, as designs of the language and as data of the planner.
 pub(super) struct Sheet {
     /// The designs of the panels: entry k is that of the panel for face k of the target.
     pub designs: Vec<Rc<Design>>,
@@ -216,7 +217,7 @@ pub(super) struct Sheet {
 }
 
 impl Sheet {
-    /// Returns the sheet of panels that are given by face, in the order of the target's faces; `key`: the argument
+    /// Returns the panels of a target from their designs, by face in the order of the target's; `key`: the argument
     /// that they came from.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::interpret::value::Value;
 use crate::planners::fold::{Target, Unfoldable};
 use crate::source::{Diagnostic, code};
 
-/// Returns the shape in argument `key` as the surface of a folding, m.
+/// Returns the shape in argument `key`, a mesh, as the target of a folding; lengths in m.
 ///
 /// # Errors
 /// A fault where it is no surface of triangles, or one that does not fold.
@@ -16,7 +16,7 @@ pub(super) fn target(call: &Call, key: &'static str, shape: &Value) -> Eval<Targ
     Target::new(vertices, &faces).map_err(|why| unfoldable(call, key, &why).into())
 }
 
-/// Returns the diagnostic for a shape in an argument that does not fold.
+/// Returns the diagnostic for a shape in the argument `key` that does not fold, for the reason `why`.
 pub(super) fn unfoldable(call: &Call, key: &'static str, why: &Unfoldable) -> Diagnostic {
     Diagnostic::error(code::UNFOLDABLE, why.to_string())
         .label(call.at(key), "does not fold")

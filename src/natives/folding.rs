@@ -48,7 +48,7 @@ fn hinges(plan: &PlanValue, report: &Report) -> Value {
     Value::list(owners.map(|owner| Value::Joint(joint(owner))).collect())
 }
 
-/// The value of the record `OrderSample`: the energies that random orders of folding take.
+/// The value of the language's record `OrderSample`: the energies that random orders of folding take.
 #[derive(Debug)]
 pub struct OrderSample(pub Sample);
 
@@ -71,12 +71,12 @@ impl NativeRecord for OrderSample {
     }
 }
 
-/// The value of the record `Layout`: the flat pattern of a plan that folds it.
+/// The value of the language's record `Layout`: the flat pattern in which a folding plan begins.
 #[derive(Debug)]
 pub struct LayoutValue(Rc<PlanValue>);
 
 impl LayoutValue {
-    /// Returns the report of the folding that begins with the pattern.
+    /// Returns the planner's report of the folding that begins with the pattern.
     pub fn report(&self) -> &Report {
         self.0.report().expect("only plans that fold have a layout")
     }

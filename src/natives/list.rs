@@ -9,7 +9,8 @@ use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use std::cmp::Ordering;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for lists and texts, such as `len`, `sorted` and `join`: the key of each with its parameters and its
+/// Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("len", parameters![list: &[Value]], |_, call| {
         Ok(Value::count(call.get::<&[Value]>("list")?.len()))

@@ -15,7 +15,8 @@ use num_traits::{FromPrimitive, Signed, Zero};
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for numbers and vectors, such as `abs`, `atan2` and `cross`: the key of each with its parameters and
+/// its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("abs", parameters![x: &Value], abs),
     Native::pure("sign", parameters![x: f64], sign),

@@ -106,15 +106,15 @@ pub fn all() -> impl Iterator<Item = &'static Native> {
     SUBJECTS.iter().flat_map(|subject| subject.natives)
 }
 
-/// Returns the names of a record's fields, as Rust has them; `None` if no built-in defines such a record. A
-/// test compares them with the declaration.
+/// Returns the names of the fields of a record type that a built-in defines in Rust, in order; `None` if none defines
+/// it. A test compares them with the declaration.
 pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
     let all = SUBJECTS.iter().flat_map(|subject| (subject.records)()).chain(fields());
     all.into_iter().find(|(name, _)| *name == record).map(|(_, fields)| fields)
 }
 
-/// Draws every configuration, lattice and truss of the project's own files, with its defaults, each as a page of its
-/// name. Faults are reported.
+/// Draws every configuration, lattice and truss of the project's own files, with its defaults, each as an HTML page
+/// named after it. Faults are reported.
 ///
 /// # Errors
 /// `Stop::Halt` if a limit is reached or the user cancels.

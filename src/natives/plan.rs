@@ -22,7 +22,8 @@ use crate::view;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for plans, such as `plan`, `verify`, `emit` and `world`: the key of each with its parameters and its
+/// Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("print", parameters![values: &[Value]], print),
     Native::on_run(
@@ -266,7 +267,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the path below the output folder that the argument named `argument` gives, and the path as it is written.
+/// Returns the file named by the argument `argument` as a path below the output folder, and as the program writes it.
 ///
 /// # Errors
 /// A fault where it leads out of the output folder, or names no file.
@@ -278,7 +279,7 @@ pub(super) fn output_path(call: &Call, argument: &str) -> Eval<(String, String)>
     }
 }
 
-/// Writes a file into the output folder, and records it among the written ones. Returns the path to show.
+/// Writes a file to `path`, below the output folder, and records it among the files written. Returns the path to show.
 ///
 /// # Errors
 /// A fault at `at` where it can't be written.

@@ -12,7 +12,7 @@ use crate::units::Dimension;
 use crate::view::plot::{self, Plot, PlotAxis, PlotKind, PlotSeries};
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-in `plot`, which makes a diagram of numbers: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[Native::pure(
     "plot",
     parameters![
@@ -237,7 +237,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The value of a `Plot`: the curves, points or bars that are drawn, without the size of the picture.
+/// The value of the language's type `Plot`: the curves, points or bars of a diagram, without its size.
 #[derive(Debug)]
 pub struct PlotValue(Plot);
 
@@ -247,7 +247,7 @@ impl PlotValue {
         plot::text(&self.0)
     }
 
-    /// Returns the plot.
+    /// Returns the curves, points or bars that are drawn.
     pub(super) fn plot(&self) -> &Plot {
         &self.0
     }

@@ -37,7 +37,7 @@ arguments! {
     }
 }
 
-/// The built-ins of `refold`, whose bodies stand in this file.
+/// The built-in `refold`: its key with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[Native::on_run("refold", Arguments::PARAMETERS, refold)];
 
 impl ReportFields for Report {

@@ -16,7 +16,8 @@ use crate::units::Dimension;
 use std::f64::consts::TAU;
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for robots and their states, such as `mass`, `ports`, `pose` and `State.angle`: the key of each with
+/// its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("order", parameters![of: &Rc<Instance>], |_, call| {
         Ok(Value::count(call.get::<&Rc<Instance>>("of")?.design.order()))
@@ -227,7 +228,7 @@ fn frame(of: &Value) -> (Subject, MovingFrame) {
     }
 }
 
-/// Returns the pose `X_WF` of a frame in the world in a state of its robot, m.
+/// Returns the world pose `X_WF` (m) of a frame that moves with a robot, in a state of that robot.
 pub(super) fn pose_in(state: &StateValue, frame: MovingFrame) -> Pose {
     let kinematics = &state.body.kinematics;
     match frame {

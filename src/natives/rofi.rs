@@ -19,7 +19,8 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins `load`, which reads a RoFI file, and `tangle`, which makes a random configuration: the key of each
+/// with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("load", parameters![file: &str], load),
     Native::pure("tangle", parameters![n: usize, actions: usize, seed: usize], tangle),

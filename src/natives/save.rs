@@ -19,7 +19,7 @@ use crate::planners::fold::{Net, Report};
 use crate::source::{Diagnostic, code};
 use crate::view::Side;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-in `save`, which writes a value to a file: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
 
 /// Runs `save`: writes a value in the format that the ending of the name asks for.

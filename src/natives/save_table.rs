@@ -6,7 +6,8 @@ use crate::interpret::table::{Column, Table, in_unit};
 use crate::interpret::value::Value;
 use crate::units::{base_units, dimension_name};
 
-/// Returns a table as files hold it: its columns with their units, cells by record.
+/// Returns a table in the form in which files hold it: columns with their units, and the cells of each record in those
+/// units.
 pub(super) fn for_file(interpreter: &Interpreter, table: &Table) -> RecordTable {
     let columns = table.columns.iter().map(|column| column_for_file(interpreter, column)).collect();
     RecordTable { columns, rows: table.rows }

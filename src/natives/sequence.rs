@@ -13,7 +13,8 @@ use crate::source::{Diagnostic, code};
 use std::cmp::Ordering;
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins that repeat a function or make lists of numbers, such as `reduce`, `iterate`, `steps` and `random`:
+/// the key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("reduce", parameters![list: &[Value], f: &Rc<Callable>, from: &Value], reduce),
     Native::pure("scan", parameters![list: &[Value], f: &Rc<Callable>, from: &Value], scan),
@@ -27,8 +28,8 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("random", parameters![seed: usize, count: usize], random),
 ];
 
-/// The part of a step by which the last of several steps may pass the end of a range, or fall short of that of a plan, for
-/// rounding.
+/// The fraction of a step by which the last of several steps may pass the end of a range, or fall short of that of a
+/// plan, by rounding.
 pub(super) const STEP_ROUNDING: f64 = 1e-9;
 
 /// Runs `reduce(list, f, from)`: carries a value through a list.

@@ -21,7 +21,8 @@ use std::cell::OnceCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for signals of a robot and for samples of a plan, such as `torque`, `clearance` and `Plan.series`: the
+/// key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("torque", parameters![joint: &JointValue], effort),
     Native::pure("force", parameters![joint: &JointValue], effort),

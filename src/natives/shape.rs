@@ -20,7 +20,8 @@ macro_rules! solid_parameters {
     };
 }
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-ins for shapes and kinds of joints, such as `box`, `hull` and `revolute`: the key of each with its
+/// parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::pure("box", solid_parameters![x: f64, y: f64, z: f64], cuboid),
     Native::pure("cylinder", solid_parameters![radius: f64, length: f64, axis: Vec3], cylinder),

@@ -27,7 +27,8 @@ use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-ins whose bodies stand in this file; their order means nothing.
+/// The built-in `show`, which draws a plan, a robot or a plot into a file: its key with its parameters and its Rust
+/// function.
 pub(super) const TABLE: &[Native] = &[Native::on_run(
     "show",
     parameters![
@@ -86,7 +87,8 @@ pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
     record.downcast_ref::<PlotValue>().map(PlotValue::plot)
 }
 
-/// Returns a plot as a picture, the bytes of a file; `None` in a form that plots do not have ([`Form::Page`]).
+/// Returns a plot as a picture of this form, the bytes of a file; `None` in a form that plots do not have
+/// ([`Form::Page`]).
 pub(super) fn picture_of(interpreter: &Interpreter, plot: &Plot, form: Form) -> Option<Vec<u8>> {
     match form {
         Form::Page => None,
@@ -138,7 +140,8 @@ impl Choice for Side {
 }
 
 impl Interpreter<'_> {
-    /// Writes a drawing of a plan with its verdict under these settings to `path`; returns the path to show.
+    /// Draws a plan with its verdict under these settings, and writes the drawing to `path`, below the output folder;
+    /// returns the path to show.
     ///
     /// # Errors
     /// A fault at `at` where it can't be written.

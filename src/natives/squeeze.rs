@@ -20,7 +20,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-ins of `squeeze`, whose bodies stand in this file.
+/// The built-in `squeeze`: its key with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[Native::on_run("squeeze", SqueezeArguments::PARAMETERS, squeeze)];
 
 arguments! {

@@ -25,7 +25,7 @@ use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 
-/// The built-ins of `tosnake` and `reconfigure`, whose bodies stand in this file.
+/// The built-ins `tosnake` and `reconfigure`: the key of each with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[
     Native::on_run("tosnake", TosnakeArguments::PARAMETERS, native_tosnake),
     Native::on_run("reconfigure", ReconfigureArguments::PARAMETERS, native_reconfigure),

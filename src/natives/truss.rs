@@ -24,7 +24,7 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-ins of `morph` and `locomote`, whose bodies stand in this file.
+/// The built-ins `morph` and `locomote`: the key of each with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[
     Native::on_run("morph", MorphArguments::PARAMETERS, morph),
     Native::on_run("locomote", LocomoteArguments::PARAMETERS, locomote),

@@ -21,7 +21,7 @@ arguments! {
     }
 }
 
-/// Returns the limits of the arguments, with struts by their indices in the truss.
+/// Returns the limits of a truss's shape that the arguments state, with struts by their indices in the truss.
 ///
 /// # Errors
 /// A fault where the truss has no strut of a name, or a strut is named twice.
@@ -41,7 +41,7 @@ pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArgument
     })
 }
 
-/// Returns the shapes of each of the obstacles `around`, in the world's frame.
+/// Returns the shapes of each obstacle in the argument `around`, placed in the world's frame (m).
 ///
 /// # Errors
 /// A fault where one of them is no shape.
