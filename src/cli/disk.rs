@@ -52,12 +52,13 @@ impl Project {
         })
     }
 
-    /// Returns the path of an existing folder or file from the root; `None` if it is not below the root.
+    /// Returns the path of an existing folder or file relative to the project's root; `None` if it is not below the
+    /// root.
     pub(super) fn path_below(&self, path: &Path) -> Option<String> {
         relative_name(fs::canonicalize(path).ok()?.strip_prefix(&self.root).ok()?)
     }
 
-    /// Returns the same project without its program, so that its file is read again when needed.
+    /// Returns the same project without the text of its program, so that its file is read again when needed.
     pub(super) fn unread(self) -> Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }
     }
@@ -170,7 +171,7 @@ fn read_error(fault: ReadFault) -> ReadError {
     }
 }
 
-/// The reason why bytes can't be read. Its text continues "the file `x` ...".
+/// The reason why bytes can't be read; as text it continues the message "the file `x` ...".
 #[derive(Debug)]
 pub(super) enum ReadFault {
     /// Larger than this many bytes.
@@ -214,7 +215,7 @@ fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
 /// Returns the bytes of a file named by the user, at most `bytes_max` of them; `-` is standard input.
 ///
 /// # Errors
-/// A message if it can't be read or is larger.
+/// A message if the file can't be read or is larger.
 pub(super) fn read(file: &Path, bytes_max: usize) -> Result<Vec<u8>, CallError> {
     let bytes = if file == Path::new("-") {
         read_at_most(io::stdin().lock(), bytes_max)

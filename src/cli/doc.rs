@@ -17,7 +17,8 @@ const FOLDER: &str = "doc";
 /// The greatest depth of folders that are searched.
 const DEPTH_MAX: usize = 16;
 
-/// Runs `modl doc`; `library` is true if the standard library is documented, too.
+/// Runs the command `modl doc`, which writes the documentation site of the project in `folder`. `library`: true to
+/// document the standard library, too; `open`: true to open the site in the browser.
 ///
 /// # Errors
 /// A message if there is no program to document, or a file can't be written or opened.

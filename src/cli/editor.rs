@@ -32,7 +32,7 @@ const PROMPT: &str = "modl> ";
 /// The prompt on a new line of an entry that is not complete yet, until something is typed there.
 const MORE: &str = "...";
 
-/// The result of reading one entry.
+/// The result of reading one entry from the terminal.
 pub(super) enum Typed {
     /// The text of an entry: complete, or submitted incomplete by an empty line.
     Entry(String),
@@ -44,17 +44,17 @@ pub(super) enum Typed {
     End,
 }
 
-/// The line editor with its history.
+/// The line editor of a session, with its history.
 pub(super) struct Lines {
     editor: Editor<CompletionHelper, FileHistory>,
     history: Option<PathBuf>,
 }
 
 impl Lines {
-    /// Returns an editor with the history of earlier sessions.
+    /// Returns a line editor with the history of earlier sessions; `color`: true for syntax highlighting.
     ///
     /// # Errors
-    /// A message without a terminal.
+    /// A message if the terminal can't be used.
     pub(super) fn new(color: bool) -> Result<Lines, CallError> {
         let config = Config::builder()
             .max_history_size(HISTORY_MAX)
@@ -75,7 +75,7 @@ impl Lines {
         Ok(Lines { editor, history })
     }
 
-    /// Reads an entry; `knowledge` is the state of the session for completion.
+    /// Reads an entry from the terminal; `knowledge` is the data of the session for completion.
     ///
     /// # Errors
     /// A message if the terminal can't be read.

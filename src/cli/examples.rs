@@ -39,8 +39,8 @@ impl Host for Silent {
     }
 }
 
-/// Runs the examples in the documentation of a program whose names contain the filter, in the order of the text; all
-/// of them for `None`. Returns none if the program can't be read.
+/// Runs the examples in the documentation of a program whose names contain the filter, in the order of the text; all of
+/// them for `None`. Empty if the program can't be read.
 pub(super) fn run(
     project: &Project,
     filter: Option<&str>,

@@ -6,7 +6,8 @@ use super::terminal::{print, print_json};
 use super::{CallError, Ending};
 use crate::source::{code, suggest::suggest};
 
-/// Runs `modl explain`: prints the page of a code in letters of any case, or lists all codes for `None`.
+/// Runs the command `modl explain`: prints the page of a diagnostic code, in letters of any case, or lists all codes
+/// for `None`.
 ///
 /// # Errors
 /// A message for an unknown code.

@@ -10,7 +10,8 @@ use crate::format::format;
 use crate::source::{Diagnostic, Sources, code};
 use std::path::{Path, PathBuf};
 
-/// Runs `modl fmt`; with `check` it writes nothing.
+/// Runs the command `modl fmt`, which formats programs; with `check` it writes nothing, and only tells which are not
+/// formatted.
 ///
 /// # Errors
 /// A message if a file can't be read or written.

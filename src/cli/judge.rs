@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// The greatest size of a plan file, in bytes.
 const PLAN_BYTES_MAX: usize = 1 << 30;
 
-/// Runs `modl verify`.
+/// Runs the command `modl verify`, which judges plan files again, from nothing but the files.
 ///
 /// # Errors
 /// A message if a file can't be read.
@@ -47,7 +47,7 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// Returns the plan that the bytes of the file `name` hold.
+/// Returns the plan that the bytes of a plan file hold; `name`: the file's name in the diagnostic.
 ///
 /// # Errors
 /// A diagnostic at the mistake, with the text that its span refers to.
@@ -74,7 +74,7 @@ pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, D
     })
 }
 
-/// Returns the verdict on a plan file. It includes the check that the plan's program makes its motion.
+/// Returns the judge's verdict on a plan file, which includes the check that the plan's program makes its motion.
 pub(super) fn judged(plan: &Plan) -> Verdict {
     let mut verdict = plan::verify::verify(plan);
     // A plan whose form is wrong has no program that could be scheduled.

@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The name of the manifest in the site.
+/// The name of the manifest file in the folder of a documentation site.
 pub(super) const NAME: &str = ".modl-doc.json";
 
-/// The account of what `modl doc` wrote.
+/// The manifest of a documentation site: the files that `modl doc` wrote, with their digests.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Manifest {
@@ -59,15 +59,16 @@ impl Manifest {
         manifest.files.keys().all(inside).then_some(manifest)
     }
 
-    /// Returns the text of the manifest.
+    /// Returns the manifest as the bytes of a JSON file.
     pub(super) fn text(&self) -> Vec<u8> {
         let mut text = serde_json::to_vec_pretty(self).expect("texts in maps are always JSON");
         text.push(b'\n');
         text
     }
 
-    /// Returns the drawings that need not be made anew, by program: those that `modl`, this program, made of files
-    /// that are still the same, and whose pictures are still there.
+    /// Returns the drawings that need not be made anew, by the text of their program: those that this version of `modl`
+    /// made from files that are still the same, and whose pictures are still in `home`. Empty if another version made
+    /// the site, or `modl` is `None`.
     pub(super) fn known(
         &self,
         home: &Path,
@@ -116,8 +117,8 @@ impl Manifest {
     }
 }
 
-/// Returns the version and the digest of the program that runs, which decide with the sources what a site is; `None`
-/// if its file can't be read.
+/// Returns the version and the SHA-256 digest of the running executable, which decide, with the sources, what a site
+/// is; `None` if its file can't be read.
 pub(super) fn program() -> Option<String> {
     let bytes = std::fs::read(std::env::current_exe().ok()?).ok()?;
     Some(format!("{} {}", env!("CARGO_PKG_VERSION"), digest(&bytes)))

@@ -10,7 +10,7 @@ use std::path::Path;
 /// The program of a new project.
 const PROGRAM: &str = include_str!("new_program.mod");
 
-/// Runs `modl new`.
+/// Runs the command `modl new`, which creates a project folder with a first program.
 ///
 /// # Errors
 /// A message if a file of that name exists, or the project can't be written.

@@ -16,7 +16,7 @@ const PREFIX: &str = ".modl-";
 /// moved.
 ///
 /// # Errors
-/// The path leads out of the folder, or the system refuses.
+/// A [`WriteError`] if the path leads out of the folder, or the operating system refuses.
 pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, WriteError> {
     let path = join("", path).ok_or(WriteError::Outside)?;
     let relative = Path::new(&path);
@@ -36,7 +36,7 @@ pub(super) fn write(folder: &Path, path: &str, bytes: &[u8]) -> Result<String, W
 /// true if it was written.
 ///
 /// # Errors
-/// The path leads out of the folder, or the system refuses.
+/// A [`WriteError`] if the path leads out of the folder, or the operating system refuses.
 pub(super) fn write_changed(folder: &Path, path: &str, bytes: &[u8]) -> Result<bool, WriteError> {
     let there = folder.join(path);
     let found = fs::symlink_metadata(&there);
@@ -48,7 +48,7 @@ pub(super) fn write_changed(folder: &Path, path: &str, bytes: &[u8]) -> Result<b
     write(folder, path, bytes).map(|_| true)
 }
 
-/// The fate of a file that was to be removed.
+/// The outcome of removing a file.
 pub(super) enum Removed {
     /// It is gone.
     Yes,
@@ -58,11 +58,11 @@ pub(super) enum Removed {
     Absent,
 }
 
-/// Removes the file `path` below `folder` if its bytes are `as_written`, and the folders that this leaves empty.
-/// Links are not followed.
+/// Removes the file `path` below `folder` if `as_written` returns true for its bytes, and then the folders that this
+/// leaves empty. Links are not followed.
 ///
 /// # Errors
-/// The system refuses.
+/// A [`WriteError`] if the operating system refuses.
 pub(super) fn remove(
     folder: &Path,
     path: &str,
@@ -87,11 +87,10 @@ pub(super) fn remove(
     Ok(Removed::Yes)
 }
 
-/// Replaces the contents of an existing file, following links; whole or not at all. Its permissions are
-/// kept.
+/// Replaces the contents of an existing file, following links; whole or not at all. Its permissions are kept.
 ///
 /// # Errors
-/// The system's error; that of a refused permission for a read-only file.
+/// The operating system's error; a missing permission for a read-only file.
 pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = fs::canonicalize(file)?;
     let found = fs::metadata(&target)?;

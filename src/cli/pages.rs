@@ -21,7 +21,7 @@ const PAGES: &[(&str, &str)] = embed![
     "W0006", "W0007", "W0008", "W0009", "W0010", "N0001",
 ];
 
-/// Returns the page of a code, such as `E0301`; `None` if there is no such code.
+/// Returns the page of explanation of a diagnostic code, such as `E0301`; `None` if there is no such code.
 pub(super) fn page(code: &str) -> Option<&'static str> {
     PAGES.iter().find(|(known, _)| *known == code).map(|(_, page)| *page)
 }

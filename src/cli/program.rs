@@ -14,7 +14,7 @@ use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The task of running programs.
+/// The task of a command that runs programs: which part is evaluated, and what is done with its plans.
 pub(super) enum Task {
     /// Run the program.
     Run,
@@ -38,7 +38,7 @@ struct Tally {
     cancelled: bool,
 }
 
-/// Runs programs one after the other, in order, each with what the task says.
+/// Runs programs one after the other, in order, each as the task says.
 ///
 /// # Errors
 /// A message if a file can't be read.
@@ -46,7 +46,8 @@ pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<En
     run_all(files, &task, globals, None)
 }
 
-/// Runs programs and records the files they depend on in `watched`. A run that becomes stale ends early.
+/// Runs programs and records the files that they depend on in `watched`. A run ends early once one of these files has
+/// changed.
 ///
 /// # Errors
 /// A message if a file can't be read.

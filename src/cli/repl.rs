@@ -50,10 +50,10 @@ struct Repl<'g> {
     interrupted: bool,
 }
 
-/// Runs `modl repl`.
+/// Runs the command `modl repl`, a session on the terminal, in the project of `file` or of the working folder.
 ///
 /// # Errors
-/// A message if the project, the file or the terminal can't be read, or there is no memory for a session.
+/// A message if the project, the file or the terminal can't be read, or the evaluator thread can't be started.
 pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
     let stdlib = globals.stdlib.as_deref();
     let (project, load) = match file {
@@ -89,7 +89,7 @@ pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, Call
 /// Runs `modl -e`: evaluates texts one after the other, up to the first that fails.
 ///
 /// # Errors
-/// A message if the project can't be read, or there is no memory for a session.
+/// A message if the project can't be read, or the evaluator thread can't be started.
 pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending, CallError> {
     let project = Project::of_folder(globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();

@@ -17,7 +17,7 @@ const WIDTH_DEFAULT: usize = 100;
 /// The most diagnostics in one JSON object; the rest are counted.
 const JSON_DIAGNOSTICS_MAX: usize = 10_000;
 
-/// The report of a command. Its fields are those of the JSON object.
+/// The report of a command. Its fields are those of the JSON object that `--json` prints.
 #[derive(Debug, Default, Serialize)]
 pub(super) struct Report {
     /// True if the exit code is 0.
@@ -55,7 +55,7 @@ pub(super) struct Report {
     seen: HashSet<String>,
 }
 
-/// The result of a test.
+/// The result of a test, as JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonTest {
     /// The file that contains the test.
@@ -66,7 +66,7 @@ pub(super) struct JsonTest {
     pub passed: bool,
 }
 
-/// A link of documentation that leads nowhere.
+/// A broken link in documentation, as JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonLink {
     /// The title of the page that contains the link: `std.smores`, or the path of a program.
@@ -77,7 +77,7 @@ pub(super) struct JsonLink {
     pub link: String,
 }
 
-/// The verdict on a plan file.
+/// The verdict on a plan file, as JSON.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonPlan {
     /// The plan file, as it was named on the command line.
@@ -166,7 +166,7 @@ fn counted(n: usize, word: &str) -> Option<String> {
     (n > 0).then(|| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
 }
 
-/// Reports a wrong call.
+/// Reports a wrong call of a command, as text or, if `globals` say so, as a JSON object.
 pub(super) fn call_error(globals: &Globals, message: &str) {
     if globals.json {
         json_call_error(message);
@@ -175,7 +175,7 @@ pub(super) fn call_error(globals: &Globals, message: &str) {
     }
 }
 
-/// Reports a wrong call as a JSON object.
+/// Reports a wrong call of a command as a JSON object on standard output.
 pub(super) fn json_call_error(message: &str) {
     let object = serde_json::json!({ "ok": false, "call_error": message });
     print_json(&format!("{object:#}"));

@@ -11,7 +11,8 @@ use crate::view::{self, RenderInput};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Runs `modl show`; with `open` the last page is opened, if one was made.
+/// Runs the command `modl show`, which makes pages of the plans of a program or of a plan file; with `open` the last
+/// page is opened in the browser, if one was made.
 ///
 /// # Errors
 /// A message if the file can't be read, or a page can't be written or opened.

@@ -82,7 +82,7 @@ pub(super) fn listen_for_interrupt() {
     drop(ctrlc::set_handler(on_signal));
 }
 
-/// Calls `wait`, which waits for input; a signal meanwhile ends the process.
+/// Calls `wait`, which waits for input; Ctrl-C meanwhile ends the process. Returns the input.
 pub(super) fn idle<T>(wait: impl FnOnce() -> T) -> T {
     BUSY.store(false, Ordering::Relaxed);
     let typed = wait();
@@ -101,8 +101,8 @@ pub(super) fn begin_work() {
     }
 }
 
-/// Waits a grace period for cancelled work to end by `settle`, and returns true if it did. If it did not,
-/// work started from here on has a new cancellation token.
+/// Calls `settle`, which waits for cancelled work to end, and abandons that work after a grace period; returns the
+/// result of `settle`, true if the work ended. If it did not, work started from here on has a new cancellation token.
 pub(super) fn settled(settle: impl FnOnce() -> bool) -> bool {
     let old = cancel_state();
     let overdue = old.clone();
@@ -150,14 +150,15 @@ pub(super) fn print_json(json: &str) {
     print_exact(&format!("{}\n", escaped_json(json)));
 }
 
-/// Writes to standard output what must stay as it is. A failure is kept for [`output_failure`]; a closed
-/// output is none: `modl ... | head` is quiet.
+/// Writes text to standard output as it is, without escaping. A failure is kept for [`output_failure`]; a closed output
+/// is none: `modl ... | head` is quiet.
 pub(super) fn print_exact(text: &str) {
     let mut out = io::stdout().lock();
     note_output(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
 }
 
-/// Keeps the first failure to write to standard output.
+/// Stores the error of a failed write to standard output, unless an earlier one is stored; a pipe that its reader
+/// closed counts as no failure.
 pub(super) fn note_output(written: io::Result<()>) {
     if let Err(e) = written
         && e.kind() != io::ErrorKind::BrokenPipe
@@ -167,7 +168,7 @@ pub(super) fn note_output(written: io::Result<()>) {
     }
 }
 
-/// Returns the reason why standard output could not be written, in the system's words; `None` if it could.
+/// Returns the operating system's message for the first failed write to standard output; `None` if none failed.
 pub(super) fn output_failure() -> Option<String> {
     OUTPUT_FAILURE.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
@@ -177,12 +178,13 @@ pub(super) fn print_error(text: &str) {
     print_styled(&escaped(text));
 }
 
-/// Writes text with escape sequences of our own to standard error. Its quotations have been escaped.
+/// Writes text with its own colour codes to standard error; source text quoted in it must have been escaped. Failures
+/// are ignored.
 pub(super) fn print_styled(text: &str) {
     drop(io::stderr().lock().write_all(text.as_bytes()));
 }
 
-/// A printed value in a JSON object.
+/// A value that a program printed, in the JSON object.
 #[derive(Debug, Serialize)]
 pub(super) struct JsonValue {
     /// The index in `printed` of the line that shows the value, or of the first of its lines, from 0.
@@ -192,7 +194,7 @@ pub(super) struct JsonValue {
     pub printed: PrintedValue,
 }
 
-/// The host of a run on a terminal.
+/// The host of a run: it prints to a terminal, and writes files below the output folder.
 #[derive(Debug)]
 pub(super) struct Terminal {
     folder: PathBuf,

@@ -9,7 +9,7 @@ use crate::units::Dimension;
 use crate::units::{number, quantity};
 use std::fmt::Write;
 
-/// Returns the verdict on a plan as text of several lines; `name` is the file, for the first line.
+/// Returns the verdict on a plan as text of several lines; `name` is the name of the plan file, for the first line.
 pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     let headline = if verdict.ok() { plan::headline(plan, verdict) } else { "NOT verified".to_owned() };
     let mut out = format!("{name}: {headline}\n");
@@ -67,8 +67,8 @@ fn assumption(dynamics: DynamicsModel) -> &'static str {
 /// The most differences of one declaration that are listed; the rest are counted.
 const DIFFERENCES_MAX: usize = 20;
 
-/// Returns the facts that a verdict rests on as text, a line a declaration, with the differences from the standard
-/// library where that has a declaration of the same name.
+/// Returns the facts that a verdict rests on as text, one line for each declaration, with the differences from the
+/// standard library where that has a declaration of the same name.
 pub(super) fn rests_on(declarations: &[Declaration]) -> String {
     let mut out = String::new();
     for Declaration { facts: Facts { kind, name, words, digest }, standard, differences } in declarations {

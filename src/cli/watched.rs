@@ -19,14 +19,14 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    /// Records that the run depends on a file, which need not exist. Called before the file is read, so
-    /// that no change is missed.
+    /// Records that the run depends on a file, which need not exist. It must be called before the file is read, so that
+    /// no change is missed.
     pub(super) fn note(&self, file: &Path) {
         let mut stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         stamps.entry(file.to_owned()).or_insert_with(|| stamp(file));
     }
 
-    /// Returns the number of files.
+    /// Returns the number of files that the run depends on.
     pub(super) fn count(&self) -> usize {
         self.stamps.lock().unwrap_or_else(PoisonError::into_inner).len()
     }
@@ -36,7 +36,8 @@ impl Watched {
         self.stale.load(Ordering::Relaxed)
     }
 
-    /// Polls the files; returns true if one has changed, from when on the run is outdated.
+    /// Compares the files with their state at the beginning of the run; returns true if one has changed, and
+    /// [`stale`](Self::stale) does from then on.
     pub(super) fn poll(&self) -> bool {
         let stamps = self.stamps.lock().unwrap_or_else(PoisonError::into_inner);
         let changed = stamps.iter().any(|(file, before)| stamp(file) != *before);

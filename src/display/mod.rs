@@ -22,8 +22,8 @@ pub fn show(interpreter: &Interpreter, value: &Value) -> String {
     interpreter.show_value(value)
 }
 
-/// Returns a value by its kind, to be written as JSON for programs in other languages. The bytes that it takes are
-/// drawn from `bytes_left`; what goes beyond is left out. `interpreter`: the run that the value belongs to.
+/// Returns a value in the form in which it is written as JSON for programs in other languages. The bytes that it takes
+/// are subtracted from `bytes_left`; what does not fit is left out. `interpreter`: the run that the value belongs to.
 pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -> TypedValue {
     interpreter.typed_value(value, 0, bytes_left)
 }

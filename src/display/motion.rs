@@ -30,7 +30,8 @@ const FAILURES_SHOWN: usize = 3;
 const TOL_INSTANT: f64 = 1e-9;
 
 impl Interpreter<'_> {
-    /// Returns the tree of a behaviour, with its times if it can be planned from the start pose. Reports nothing.
+    /// Returns a behaviour as text: the tree of its actions, with their times if it can be planned from the start pose.
+    /// Reports nothing.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels while it is planned.
@@ -69,10 +70,10 @@ impl Interpreter<'_> {
         }
     }
 
-    /// Returns a sketch of a plan: its duration and verdict, the times at which joints move, and its failures.
+    /// Returns a plan as text: its duration and verdict, a chart of the times at which joints move, and its failures.
     ///
     /// # Errors
-    /// None of its own.
+    /// None: the result is always `Ok`.
     pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();

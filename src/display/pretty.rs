@@ -10,15 +10,15 @@ use crate::natives::folding::LayoutValue;
 use crate::natives::plot::PlotValue;
 use std::any::Any;
 
-/// The greatest number of lines of a tree; the rest are counted.
+/// The greatest number of lines of a displayed tree; the number of those left out is told.
 pub(super) const LINES_MAX: usize = 40;
 
 /// The greatest number of bytes of a display; the rest is cut.
 const BYTES_MAX: usize = 1 << 16;
 
 impl Interpreter<'_> {
-    /// Returns a value over as many lines as it needs, the first of which can stand alone; what is too long for any
-    /// reader is cut.
+    /// Returns a value as text on as many lines as it needs, the first of which can stand alone; text that is too long
+    /// to read is cut.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.
@@ -66,7 +66,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns a text as it could be written in a program: in quotes, with escapes.
+/// Returns a text as a program could write it: in double quotes, with escapes.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -85,7 +85,7 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// A branch of a tree drawn with lines.
+/// A branch of a tree that is displayed with lines: a text, and the branches below it.
 pub(super) struct Branch {
     /// The text on the line of the branch itself.
     pub text: String,
@@ -99,7 +99,8 @@ impl Branch {
         Branch { text: text.into(), below: Vec::new() }
     }
 
-    /// Returns the tree as text: two columns for each level; lines above [`LINES_MAX`] are left out and counted.
+    /// Returns the tree as text, indented by two columns for each level; lines beyond [`LINES_MAX`] are left out and
+    /// counted.
     pub(super) fn drawn(&self) -> String {
         let mut lines = vec![self.text.clone()];
         self.draw_below("", &mut lines);

@@ -16,10 +16,11 @@ use std::rc::Rc;
 const ELEMENTS_DRAWN: usize = 3;
 
 impl Interpreter<'_> {
-    /// Returns an instance by its family: a tree of joints, ports or parts, a picture, or a line of facts.
+    /// Returns an instance as text by its family: a tree of joints, ports or parts, a picture of cells or nodes, or a
+    /// line of facts.
     ///
     /// # Errors
-    /// None of its own.
+    /// None: the result is always `Ok`.
     pub(super) fn display_instance(&mut self, instance: &Rc<Instance>) -> Eval<String> {
         let design = &instance.design;
         Ok(match &design.kind {
@@ -142,7 +143,9 @@ impl Interpreter<'_> {
         config.behaviors.iter().map(|b| b.name.to_string()).collect()
     }
 
-    /// Returns a line about a declaration, with its defaults; without facts where it can't be elaborated.
+    /// Returns a line about a declaration: the signature of a function, the fields of a record, else keyword and name
+    /// with facts about the instance with all defaults, such as its order, modules and mass. The facts are left out
+    /// where it can't be elaborated.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels while its instance with all defaults is elaborated.

@@ -10,7 +10,8 @@ const COLUMNS_MAX: i64 = 120;
 /// The greatest number of rows of a picture, over all layers.
 const ROWS_MAX: i64 = 60;
 
-/// Returns the cells layer by layer from the highest, each as `cells` reads it: y up, x to the right.
+/// Returns an arrangement of cells as text, layer by layer from the highest, in the form that the built-in `cells`
+/// reads: y up, x to the right.
 pub(super) fn cells(cells: &Cells) -> String {
     let count = counted(cells.positions.len(), "cell");
     let ends = |axis: usize| {
@@ -40,8 +41,8 @@ pub(super) fn cells(cells: &Cells) -> String {
 /// The number of columns between the middles of two triangles side by side, half a side apart.
 const PITCH: usize = 4;
 
-/// Returns a picture of a flat pattern of equal triangles, each with its number between its sides; only its
-/// size if the triangles differ or the picture would be too large.
+/// Returns the flat pattern of a folding as a picture of characters: equal triangles, each with the number of its face;
+/// only its size if the triangles differ or the picture would be too large.
 pub(super) fn pattern(pattern: &Report) -> String {
     let count = counted(pattern.target.faces.len(), "panel");
     let flat = Pattern::of(&pattern.target, &pattern.layout);

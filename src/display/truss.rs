@@ -25,7 +25,7 @@ type Side = fn(&Vec3) -> [f64; 2];
 const FRONT: Side = |p| [p.x, p.z];
 const ABOVE: Side = |p| [p.x, p.y];
 
-/// Returns a truss with its facts and two pictures of dots, from the front and from above.
+/// Returns a truss as text: its facts and two pictures made of dots, from the front and from above.
 pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.position).collect();
@@ -56,8 +56,8 @@ pub(super) fn truss(design: &Design, truss: &TrussDesign) -> String {
     lines.join("\n")
 }
 
-/// Returns the planner's figures of its plan and the truss before and after, line by line; empty for a plan without
-/// node paths.
+/// Returns lines of text about a truss plan: the planner's figures, and pictures of the truss before and after; empty
+/// for a plan without node paths.
 pub(super) fn made(planned: &PlanValue) -> Vec<String> {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
     let mut lines = Vec::new();

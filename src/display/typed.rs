@@ -15,7 +15,8 @@ const LEVELS_MAX: usize = 24;
 const VALUE_BYTES: usize = 64;
 
 impl Interpreter<'_> {
-    /// Returns a value by its kind. The bytes that it takes are drawn from `bytes_left`; what goes beyond is left out.
+    /// Returns a value in the form in which it is written as JSON. The bytes that it takes are subtracted from
+    /// `bytes_left`; what does not fit is left out. `level`: the number of values around it.
     pub(super) fn typed_value(&self, value: &Value, level: usize, bytes_left: &mut usize) -> TypedValue {
         let text = if let Value::Text(text) = value { text.len() } else { 0 };
         let Some(left) = bytes_left.checked_sub(VALUE_BYTES + text).filter(|_| level <= LEVELS_MAX) else {

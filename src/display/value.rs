@@ -18,8 +18,8 @@ const LEVELS_SHOWN: usize = 100;
 const COORDINATE_ROUNDING: f64 = 1e-12;
 
 impl Interpreter<'_> {
-    /// Returns a value as `print` shows it, on one line except for a text with line breaks and a report; nothing is
-    /// evaluated.
+    /// Returns a value as text, as `print` shows it: on one line, except for a text with line breaks and a report of
+    /// the judge. Nothing is evaluated.
     pub(super) fn show_value(&self, value: &Value) -> String {
         match value {
             Value::Unknown => "?".into(),
@@ -157,7 +157,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the dimension without radians where that gives one with a name, `2rad/s * 45mm` is a speed; else
+/// Returns the dimension without radians where only that has a name (`2rad/s * 45mm` is a speed); else the dimension
 /// itself.
 pub(super) fn without_radians(dimension: Dimension) -> Dimension {
     let dropped = Dimension { angle: 0, ..dimension };

@@ -3,8 +3,8 @@
 use crate::source::FileId;
 use crate::syntax::{self, ast};
 
-/// An example as a text with the same columns as in its file: blanks replace the marks of the comment. Its
-/// lines count from `first_line`.
+/// An example of a documentation comment as a text with the same lines and columns as in its file: blanks replace the
+/// marks of the comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Example {
     /// The text of the example program.
@@ -15,7 +15,8 @@ pub(crate) struct Example {
     pub only_checked: bool,
 }
 
-/// Returns the examples of a program, in the order of the text; one whose end is missing ends with its comment.
+/// Returns the examples in the documentation comments of a program, in the order of the text; one whose end is missing
+/// ends with its comment.
 pub(crate) fn examples(text: &str) -> Vec<Example> {
     let parsed = syntax::parse(FileId(0), text);
     let docs = parsed.file.comments.iter().filter(|c| is_doc(c.kind)).map(|c| c.span.start as usize);

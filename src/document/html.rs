@@ -4,12 +4,12 @@ use super::outline::{Page, PageEntry};
 use crate::check::summary::{Group, Inside};
 use std::fmt::Write as _;
 
-/// The style sheet of the site.
+/// The style sheet (CSS) of the documentation site.
 pub(super) const STYLE: &str = include_str!("site.css");
-/// The script of its search.
+/// The script (JavaScript) of the documentation site's search.
 pub(super) const SCRIPT: &str = include_str!("search.js");
 
-/// A function that returns a piece of documentation, given as Markdown, as HTML.
+/// A function that converts a piece of documentation from Markdown to HTML.
 pub(super) type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
 
 /// Returns text escaped for HTML, also for attributes in double quotes.
@@ -149,8 +149,8 @@ pub(super) fn index(pages: &[Page]) -> String {
     frame("Documentation", pages, &body)
 }
 
-/// Returns the guide as HTML: all configurations with their behaviours, by ascending order; those without a default
-/// instance last.
+/// Returns the guide as HTML: all configurations with their behaviours, by ascending order (depth of composition);
+/// those without a default instance last.
 pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     let mut body = String::from(
         "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
@@ -196,7 +196,7 @@ pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
     frame("Guide to the robots", pages, &body)
 }
 
-/// Returns the search index as a script, with [name, description, address] of each declaration and member.
+/// Returns the search index as the text of a script, with [name, description, address] of each declaration and member.
 pub(super) fn search_index(pages: &[Page]) -> String {
     let mut rows = Vec::new();
     for page in pages {

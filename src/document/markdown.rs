@@ -2,7 +2,7 @@
 
 use pulldown_cmark::{BrokenLink, CowStr, Event, LinkType, Options, Parser, Tag, html};
 
-/// The targets of links.
+/// The declarations and files that links in documentation can lead to.
 pub(super) trait Targets {
     /// Returns the address of a declaration, or of a member after a dot, relative to the current page; `None`
     /// if there is none.
@@ -12,7 +12,7 @@ pub(super) trait Targets {
     fn file(&self, path: &str) -> Option<String>;
 }
 
-/// Returns the HTML of a Markdown text, and the targets of the broken links in it, as they are written. HTML in the
+/// Converts a Markdown text to HTML; returns it with the targets of its broken links, as they are written. HTML in the
 /// text is shown as text.
 pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();

@@ -6,7 +6,7 @@ use crate::check::typed::{DefId, DefKind};
 use crate::source::FileId;
 use std::sync::Arc;
 
-/// The page of a file.
+/// The page of the documentation site about one file.
 pub(super) struct Page {
     /// The title of the page: `std.smores`, or the file's path.
     pub title: String,
@@ -18,7 +18,7 @@ pub(super) struct Page {
     pub entries: Vec<PageEntry>,
 }
 
-/// The entry of a declaration.
+/// The entry of a page about one declaration.
 pub(super) struct PageEntry {
     /// The name of the declaration that the entry documents.
     pub name: String,
@@ -42,8 +42,8 @@ pub(super) struct PageEntry {
     pub picture: Option<String>,
 }
 
-/// Returns the page of one file of a program, whose documentation is `doc`; `None` for a file without public
-/// declarations.
+/// Returns the page about one file of a program, whose own documentation is `doc` (Markdown); `None` for a file without
+/// public declarations.
 pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Option<Page> {
     let source = checked.sources.file(file);
     let stem = source.name.trim_end_matches(".mod");

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 /// Width and height of a picture in pixels.
 const SIZE: (usize, usize) = (480, 300);
 
-/// A drawing of a declaration: the facts and the picture that its program gave, and all files that they were made
+/// A drawing of a declaration: the facts and the picture that a small program gave, and all files that they were made
 /// from.
 #[derive(Clone, Debug)]
 pub struct Drawing {
@@ -27,8 +27,8 @@ pub struct Drawing {
     pub sources: Sources,
 }
 
-/// The files that a drawing was made from, with the digests of what was read. The same program makes the same drawing
-/// of the same files.
+/// The files that a drawing was made from, with the digests of what was read: while they are unchanged, it needs no
+/// redrawing.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sources {
@@ -99,8 +99,9 @@ impl Host for Answers {
     }
 }
 
-/// Fills in the facts of every entry of a page with a default instance. Adds what was drawn to `drawings`, by program;
-/// a drawing that is known is not made anew, and one that was cancelled is not added.
+/// Fills in the facts and the picture's name of every entry of a page that has a default instance. New drawings are
+/// added to `drawings`, by the text of the program that makes them; a known drawing is not made anew, and one that was
+/// cancelled is not added.
 pub(super) fn draw(page: &mut Page, request: &Request, drawings: &mut BTreeMap<String, Drawing>) {
     let import = match page.title.strip_prefix("std.") {
         Some(_) => page.title.clone(),

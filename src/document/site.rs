@@ -11,7 +11,7 @@ use crate::syntax;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// The input of [`site`]: a project, and what of it and the library to document.
+/// The input of [`site`]: a project, with the choice of what to document.
 pub struct Request<'r> {
     /// The access to the files of the project.
     pub files: &'r dyn Files,
@@ -49,8 +49,8 @@ pub struct LinkFault {
     pub link: String,
 }
 
-/// Returns the site of a project, as files that work without a server: a page for each program and library
-/// file, an index, a guide and a search. Mistakes in programs and links are part of the result. Nothing is
+/// Returns the documentation site of a project, as files that work without a server: a page for each program and
+/// library file, an index, a guide and a search. Mistakes in programs and links are part of the result. Nothing is
 /// written.
 pub fn site(request: &Request) -> Site {
     let mut site =

@@ -20,7 +20,7 @@ const OPERATORS: &[&[&str]] =
     &[&["or"], &["and"], &["==", "!=", "<", "<=", ">", ">="], &["++"], &["+", "-"], &["*", "/", "%"]];
 
 /// Returns the indices in `line`, from 0, of the pieces with which new lines begin, in order, where a line with this
-/// indentation (in columns) is too wide; none if it is not, or if nothing of it can go to another line. The lines that
+/// indentation (in columns) is too wide; empty if it is not, or if nothing of it can go to another line. The lines that
 /// come of it may be too wide themselves, and are then broken in their turn.
 pub(super) fn breaks(line: &[Piece], indent: usize) -> Vec<usize> {
     let behind = line.iter().rposition(|piece| piece.token.kind != TokenKind::LineComment);

@@ -2,7 +2,7 @@
 
 use super::spacing::APART;
 
-/// A formatted line, except for the column of its comment.
+/// A formatted line: its indentation, its text, and the comment behind it, whose column is not fixed yet.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Line {
     /// The indentation of the line in spaces.
@@ -14,7 +14,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Returns a blank line: without text, comment and indentation.
+    /// Returns an empty line, without text, comment and indentation.
     pub(super) fn blank() -> Line {
         Line::default()
     }
@@ -32,8 +32,8 @@ impl Line {
     }
 }
 
-/// Returns the text of lines, in order. Comments behind adjacent lines are aligned; consecutive blank lines become
-/// one, and blank lines at both ends are removed.
+/// Returns the whole text of formatted lines, in order. Comments behind adjacent lines are aligned; consecutive blank
+/// lines become one, and blank lines at both ends are removed.
 pub(super) fn aligned(lines: Vec<Line>) -> String {
     let mut out = String::new();
     let mut blank = false;

@@ -14,8 +14,8 @@ struct OpenBracket {
     line: usize,
 }
 
-/// Returns the formatted lines of a text, in order, whose outline is `outline`; unreadable chunks stay as they are.
-/// Lines that are too wide are broken if `broken` is true.
+/// Returns the formatted lines of a text, in order; chunks that can't be parsed stay as they are. `outline`: that of
+/// the text. Lines that are too wide are broken if `broken` is true.
 pub(super) fn lines(text: &str, outline: &Outline, broken: bool) -> Vec<Line> {
     let mut layout = Layout { open: Vec::new(), lines: Vec::new(), before: None, opened: false, broken };
     let start = outline.chunks.first().map_or(0, |chunk| chunk.range.start);

@@ -2,7 +2,7 @@
 
 use crate::syntax::{Role, Token, TokenKind};
 
-/// A token with its role.
+/// A token of a line with its text and its role in the grammar.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece<'t> {
     /// The token that is laid out.
@@ -18,7 +18,7 @@ pub(super) struct Piece<'t> {
 }
 
 impl Piece<'_> {
-    /// Returns true if it is a comment.
+    /// Returns true if the token is a comment.
     pub(super) fn is_comment(&self) -> bool {
         matches!(
             self.token.kind,
@@ -26,12 +26,12 @@ impl Piece<'_> {
         )
     }
 
-    /// Returns true if it is an opening bracket: `(`, `[` or `{`.
+    /// Returns true if the token is an opening bracket: `(`, `[` or `{`.
     pub(super) fn opens(&self) -> bool {
         self.token.kind == TokenKind::Open
     }
 
-    /// Returns true if it is a closing bracket: `)`, `]` or `}`.
+    /// Returns true if the token is a closing bracket: `)`, `]` or `}`.
     pub(super) fn closes(&self) -> bool {
         self.token.kind == TokenKind::Close
     }
@@ -46,7 +46,7 @@ impl Piece<'_> {
 /// The number of spaces between clauses on one line, and before a comment behind code.
 pub(super) const APART: usize = 2;
 
-/// Returns the number of spaces before the last of the pieces of a line; 0 for a single piece.
+/// Returns the number of spaces that the layout puts before the last token of a line; 0 for a single token.
 pub(super) fn before_last(line: &[Piece]) -> usize {
     let [.., before, after] = line else { return 0 };
     if after.token.kind == TokenKind::LineComment {

@@ -10,8 +10,9 @@ pub struct Content {
     pub faces: Vec<Vec<usize>>,
 }
 
-/// Returns faces as triangles, by the same indices: one with more than three corners as the fan from its first corner,
-/// which is exact for a convex face. Panics for a face without corners, and on an index of 2^32 or more.
+/// Splits faces into triangles over the same indices of vertices: one with more than three corners into the fan from
+/// its first corner, which is exact for a convex face. Panics for a face without corners, and on an index of 2^32 or
+/// more.
 pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");
     let fan = |face: &Vec<usize>| -> Vec<[u32; 3]> {
@@ -20,7 +21,7 @@ pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     faces.iter().flat_map(fan).collect()
 }
 
-/// Returns the number of the line in which `rest`, an end of `bytes`, begins, counted from 1.
+/// Returns the number, from 1, of the line in which `rest` begins; `rest` must be an end of `bytes`.
 pub(super) fn line_of(bytes: &[u8], rest: &[u8]) -> usize {
     1 + bytes[..bytes.len() - rest.len()].iter().filter(|b| **b == b'\n').count()
 }

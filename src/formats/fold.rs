@@ -9,7 +9,8 @@ const MILLIMETRES: f64 = 1e3;
 /// Angles smaller than this are flat creases, in radians.
 const ANGLE_MIN: f64 = 1e-9;
 
-/// A crease pattern: a triangulated sheet with its creases and its folded states.
+/// A crease pattern, as a FOLD file (Demaine, Ku and Lang 2016) holds it: a triangulated sheet with its creases and its
+/// folded states.
 #[derive(Clone, Debug, Default)]
 pub struct CreasePattern {
     /// The title of the FOLD file.
@@ -63,7 +64,8 @@ impl Crease {
     }
 }
 
-/// Returns the text of the FOLD file, with lengths in millimetres and angles in degrees as the format has them.
+/// Returns a crease pattern as the text of a FOLD file, with lengths in millimetres and angles in degrees as the format
+/// has them.
 pub(super) fn write(pattern: &CreasePattern) -> String {
     let edges = &pattern.edges;
     let by_edge = |value: &dyn Fn(&Crease) -> Value| Value::Array(edges.iter().map(value).collect());

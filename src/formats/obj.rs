@@ -8,7 +8,7 @@ use super::content::{Content, line_of};
 use super::fault::FormatFault;
 use tobj::{LoadError, LoadOptions};
 
-/// Reads the faces of a Wavefront OBJ file, and the vertices; those of all its objects as one.
+/// Reads the vertices and faces of a Wavefront OBJ file, all its objects as one, in the file's own unit of length.
 ///
 /// # Errors
 /// The first [`FormatFault`] of the bytes.

@@ -9,7 +9,7 @@ use super::fault::FormatFault;
 /// First words of the variants that are read: plain, and with colours or normals behind the vertices.
 const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 
-/// Reads an OFF file in text.
+/// Reads the vertices and faces of an OFF file in text, in the file's own unit of length.
 ///
 /// # Errors
 /// The first [`FormatFault`] of the bytes.

@@ -8,7 +8,7 @@ use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 /// The greatest number of characters of a message of the crate that is shown: it may quote the file.
 const SHOWN: usize = 120;
 
-/// Reads the vertices and faces of a PLY file, in text or binary.
+/// Reads the vertices and faces of a PLY file, in text or binary, in the file's own unit of length.
 ///
 /// # Errors
 /// The first [`FormatFault`] of the bytes.

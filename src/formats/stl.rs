@@ -12,7 +12,8 @@ const HEADER: usize = 84;
 /// The length of a triangle of a binary file, bytes.
 const TRIANGLE: usize = 50;
 
-/// Reads an STL file, in text or binary. Corners at one position are one vertex.
+/// Reads the triangles of an STL file, in text or binary, in the file's own unit of length. Corners at one position
+/// become one vertex.
 ///
 /// # Errors
 /// The first [`FormatFault`] of the bytes.

@@ -44,8 +44,8 @@ pub enum RecordCell {
     Text(String),
 }
 
-/// Returns a table as CSV in UTF-8: a head with units, a record a line, lines that end in CR LF. Numbers are the
-/// shortest that give themselves back; a missing value is an empty field.
+/// Returns a table as CSV in UTF-8: a header line with units, then one line for each record, ended by CR LF. Numbers
+/// are written with the fewest digits that read back to the same value; a missing value is an empty field.
 pub(super) fn csv(table: &RecordTable) -> String {
     let head = |column: &RecordColumn| match &column.unit {
         Some(unit) => quoted(&format!("{} [{unit}]", column.name)),

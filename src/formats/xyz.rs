@@ -6,7 +6,8 @@
 use super::content::Content;
 use super::fault::FormatFault;
 
-/// Reads an XYZ file: a point a line, by its first three numbers; empty lines are left out.
+/// Reads the points of an XYZ file, in the file's own unit of length: the first three numbers of each line. Empty lines
+/// are left out.
 ///
 /// # Errors
 /// The first [`FormatFault`] of the bytes.

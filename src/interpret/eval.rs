@@ -49,7 +49,7 @@ impl Frame {
 }
 
 impl Interpreter<'_> {
-    /// Returns the value of an expression. A fault is reported and leaves `Value::Unknown`.
+    /// Returns the value of an expression. A fault is reported, and the value is then `Value::Unknown`.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

@@ -120,7 +120,7 @@ fn unquoted(path: &str) -> String {
     path.strip_prefix('"').and_then(|p| p.strip_suffix('"')).unwrap_or(path).to_owned()
 }
 
-/// Returns the text of `:help`.
+/// Returns the text that the command `:help` prints: all commands with their descriptions.
 pub(crate) fn help() -> String {
     let mut out =
         String::from("Type an expression, a declaration or a statement of the language; or one of\n\n");

@@ -17,7 +17,7 @@ use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, 
 use crate::units::UNITS;
 use std::sync::Arc;
 
-/// The knowledge of a session that completion needs. Clones share the files and the checked program.
+/// The data of a session that completion needs: its files and its checked program. Clones share them.
 #[derive(Clone)]
 pub struct Knowledge {
     files: Arc<FileSnapshot>,
@@ -26,7 +26,7 @@ pub struct Knowledge {
     last: Option<Symbol>,
 }
 
-/// The candidates at an offset of a text.
+/// The candidates for completing a text at an offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Completion {
     /// The offset in bytes at which the text to be replaced begins.
@@ -36,7 +36,7 @@ pub(crate) struct Completion {
 }
 
 impl Session {
-    /// Returns the knowledge of the session that completion needs; it does not change with the session.
+    /// Returns a snapshot of the session's data that completion needs; it does not change with the session.
     pub fn knowledge(&self) -> Knowledge {
         Knowledge {
             files: self.files.clone(),
@@ -62,9 +62,8 @@ pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completi
     completion
 }
 
-/// Returns the remaining parameters of the call in which a text ends, as text for a reader that begins at its end: `n:
-/// Int)`. `None` outside of a call, for an unknown function, after a dot, within an argument, and if no parameter
-/// remains.
+/// Returns the remaining parameters of the call in which a text ends, as text to be shown behind it: `n: Int)`. `None`
+/// outside of a call, for an unknown function, after a dot, within an argument, and if no parameter remains.
 pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
     let callee = receiver(&text[..open])?;

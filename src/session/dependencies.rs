@@ -5,7 +5,7 @@ use crate::check::{Checked, Meaning};
 use crate::source::{FileId, Span, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The graph of uses among the declarations of the project and the session.
+/// The dependency graph of the declarations of the project and the session: which of them names which.
 pub(super) struct Dependencies<'c> {
     checked: &'c Checked,
     /// The begin and end of every declaration, in order, by file.
@@ -40,7 +40,7 @@ impl<'c> Dependencies<'c> {
         (span.end <= end).then_some(id)
     }
 
-    /// Returns the declarations that name one of these, directly or indirectly; without these themselves.
+    /// Returns the declarations that name one of `named`, directly or indirectly, without `named` themselves.
     pub(super) fn users_of(&self, named: &[DefId]) -> BTreeSet<DefId> {
         let mut found = BTreeSet::new();
         let mut waiting = named.to_vec();
@@ -70,7 +70,8 @@ impl<'c> Dependencies<'c> {
     }
 }
 
-/// Returns the declarations that the names at the top of the session stand for, by name; names of files are left out.
+/// Returns the declarations that the names visible in the session stand for, by name; names of imported files are left
+/// out.
 pub(super) fn meant(checked: &Checked) -> BTreeMap<Symbol, DefId> {
     let meant = checked.names.iter().filter_map(|(name, meaning)| match meaning {
         Meaning::Def(id) => Some((*name, *id)),

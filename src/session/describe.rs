@@ -12,11 +12,11 @@ use crate::syntax::{self, ast};
 use std::sync::Arc;
 
 impl Session {
-    /// Returns the type of an expression in the language's words; `nothing` for a text without a value. Nothing
-    /// is evaluated.
+    /// Returns the type of an expression in the language's words; `nothing` for a text without a value. Nothing is
+    /// evaluated.
     ///
     /// # Errors
-    /// The errors in the text, with the checked program whose sources their spans refer to.
+    /// The errors in the text, with the checked program in whose sources their spans are.
     pub fn type_of(&self, text: &str) -> Result<String, (Arc<Checked>, Vec<Diagnostic>)> {
         let entry =
             Entry { name: "<type>".into(), text: text.into(), first_line: 1, value: None, last: self.last };
@@ -154,8 +154,8 @@ impl Session {
     }
 }
 
-/// Checks a text as the next entry, without adding it, and returns the program and the type of its last expression;
-/// `None` if that has no value.
+/// Checks `entry` as the next entry of the session, without adding it, and returns the program and the type of its last
+/// expression; `None` if that has no value.
 pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
     let mut entries = session.entries.clone();
     entries.push(entry);

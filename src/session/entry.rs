@@ -14,8 +14,8 @@ pub fn is_incomplete(text: &str) -> bool {
     }
 }
 
-/// Returns true if a user submits an incomplete text, which ends in a line break, all the same: by an empty line at
-/// its end; inside brackets, where empty lines may occur, by two.
+/// Returns true if the user submits an incomplete text, which ends in a line break, as it is: by an empty line at its
+/// end, or by two inside brackets, where empty lines may occur.
 pub fn is_given_up(text: &str) -> bool {
     let open = Outline::of(text).is_some_and(|outline| matches!(openness(&outline), Openness::Open));
     text.ends_with(if open { "\n\n" } else { "\n" })

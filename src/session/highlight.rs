@@ -3,7 +3,7 @@
 use crate::syntax::{CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind};
 use std::ops::Range;
 
-/// The classes of highlighted pieces.
+/// The classes of text that syntax highlighting tells apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Class {
     /// A keyword, or a word that is reserved.

@@ -3,7 +3,7 @@
 
 use crate::syntax::DECLARING;
 
-/// A local name of an unfinished text.
+/// A local name that an unfinished text declares, with its origin.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct LocalName {
     /// The name of the local variable.
@@ -12,7 +12,7 @@ pub(super) struct LocalName {
     pub origin: Origin,
 }
 
-/// The origin of a local name, as it is written.
+/// The clause that declares a local name, with the text from which its type follows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// A name of this type.

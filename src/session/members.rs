@@ -5,7 +5,7 @@ use crate::check::typed::{DefId, DefKind, Member, MemberKind, NativeDef, Param, 
 use crate::check::{Checked, Program, Type};
 use crate::source::Symbol;
 
-/// A name with a short description.
+/// A candidate of completion: a name with a short description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Named {
     /// The name as completion inserts it.
@@ -129,8 +129,8 @@ fn native_text(program: &Program, native: &NativeDef, params: &[Param]) -> Strin
     params_text(program, params, names, &program.type_name_with(&native.result, names))
 }
 
-/// Returns the parameters of a behaviour or method of a type, in order, without its object; empty if there is none of
-/// this name.
+/// Returns the parameters of the behaviour or method `name` of a type, in order, without its object; empty if there is
+/// none of this name.
 pub(super) fn params_of_member(checked: &Checked, ty: &Type, name: Symbol) -> Vec<Param> {
     let program = &checked.program;
     let mut line = match ty {

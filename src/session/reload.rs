@@ -5,11 +5,12 @@ use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{Checked, Type};
 use std::collections::BTreeSet;
 
-/// Returns the declarations whose values must be computed again, sorted by [`DefId`]. `None` if no identity is
-/// preserved, so that no value can be kept.
+/// Returns the declarations whose values must be computed again after the files were read anew, sorted by [`DefId`];
+/// `before` and `after`: the programs before and after. `None` if no identity is preserved, so that no value can be
+/// kept.
 ///
-/// A declaration that moved within its file is computed again, too, unless it is plain data: values of robots and
-/// plans record their positions in the source.
+/// A declaration that moved within its file is computed again, too, unless it is plain data: values of robots and plans
+/// record their positions in the source.
 pub(super) fn stale(before: &Checked, after: &Checked) -> Option<Vec<DefId>> {
     let names = |checked: &Checked| -> Vec<_> {
         checked.sources.files().map(|(_, file)| file.name.to_string()).collect()

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 impl Session {
-    /// Returns the text of a program that does what was entered, formatted: imports first, then the entries
-    /// without what later ones replaced. `_` is replaced by a name.
+    /// Returns the entries of the session as the text of a program, formatted: imports first, then the entries without
+    /// what later ones replaced. `_`, the last value, is replaced by a name.
     pub fn program(&self) -> String {
         let checked = self.checked();
         let saved = Saved::of(checked);

@@ -58,7 +58,7 @@ pub struct Input<'t> {
     pub keep: bool,
 }
 
-/// The outcome of an entry: the program with it, whether it was accepted, and what is to be told.
+/// The outcome of an entry: the program with it, whether it was accepted, and its diagnostics.
 pub struct Reply {
     /// The program that was checked, the entry included, with the texts that the diagnostics refer to.
     pub checked: Arc<Checked>,
@@ -427,8 +427,8 @@ pub(super) fn is_given(name: Symbol) -> bool {
     digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())
 }
 
-/// Returns the type of the expression that ends the newest entry, the text `file`; `None` if the entry does not end
-/// with an expression, or that has no value.
+/// Returns the type of the expression that ends the newest entry, whose text is `file`; `None` if the entry does not
+/// end with an expression, or that has no value.
 pub(super) fn value_type(checked: &Checked, file: FileId) -> Option<Type> {
     let program = &checked.program;
     let value = program.statements.statements.last()?;

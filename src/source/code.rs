@@ -1,6 +1,7 @@
 //! The stable codes of all diagnostics, each with its title and its page in `docs/errors/`.
 
-/// A stable code of a diagnostic, such as `E0201`. Errors begin with `E`, lints with `W`, notes with `N`.
+/// A stable code of a diagnostic, such as `E0201`. Codes of errors begin with `E`, those of lints (warnings) with `W`,
+/// those of notes with `N`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Code(pub &'static str);
 

@@ -16,8 +16,8 @@ const LABEL_LINES_MAX: usize = 6;
 /// The columns between two tab stops.
 const TAB: usize = 4;
 
-/// The least number of columns for a label's text to the right of its middle; otherwise its line is
-/// shifted.
+/// The least number of columns that a label's text gets to the right of the middle of its mark; with fewer, its line is
+/// shown shifted.
 pub(super) const LABEL_ROOM: usize = 14;
 
 /// The mark for text that is cut off.
@@ -36,7 +36,7 @@ pub(super) struct Block {
     pub range: Range<usize>,
 }
 
-/// The position of a label in the excerpt.
+/// The position of a label's mark in an excerpt.
 #[derive(Debug)]
 pub(super) struct Mark {
     /// The range of bytes that the label takes in [`Excerpt::text`]; never empty, never past the last visible
@@ -48,7 +48,7 @@ pub(super) struct Mark {
     pub indent: usize,
 }
 
-/// An excerpt.
+/// The lines of source text around the labels of a diagnostic, with the marks of the labels.
 #[derive(Debug, Default)]
 pub(super) struct Excerpt {
     /// The text of all blocks, one after the other.
@@ -69,7 +69,8 @@ struct LabelPlace {
     end: usize,
 }
 
-/// Returns the excerpt that shows all `labels`, with no line wider than `columns`, at least 8.
+/// Returns the lines of source text that show all `labels`, none wider than `columns` columns, which must be at least
+/// 8.
 pub(super) fn excerpt(sources: &Sources, labels: &[Label], columns: usize) -> Excerpt {
     let places: Vec<LabelPlace> = labels.iter().map(|label| place(sources, label)).collect();
     let mut excerpt = Excerpt::default();
@@ -278,7 +279,8 @@ fn columns_of(c: char) -> usize {
     }
 }
 
-/// Returns a character that a terminal displays; control characters become their pictures.
+/// Returns the character that a terminal shows in place of `c`: control characters become Unicode control pictures,
+/// those that change the order of reading the replacement character; others stay.
 pub(super) fn visible(c: char) -> char {
     match c {
         '\0'..='\u{1f}' => char::from_u32(0x2400 + c as u32).expect("control pictures follow the controls"),

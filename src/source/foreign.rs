@@ -5,12 +5,12 @@ pub(crate) fn instead(word: &str) -> Option<&'static str> {
     INSTEAD.iter().find(|(words, _)| words.contains(&word)).map(|(_, instead)| *instead)
 }
 
-/// Returns the type with this name in another language, in words; `None` for other names.
+/// Returns, in words, the type of modl for the name of a type in another language; `None` for other names.
 pub(crate) fn of_type(name: &str) -> Option<&'static str> {
     TYPES.iter().find(|(names, _)| names.contains(&name)).map(|(_, ty)| *ty)
 }
 
-/// Returns the unit with this longer name: `deg` for `degrees`; `None` for other names.
+/// Returns the unit of modl for a longer name of it, such as `deg` for `degrees`; `None` for other names.
 pub(crate) fn unit(name: &str) -> Option<&'static str> {
     UNITS.iter().find(|(names, _)| names.contains(&name)).map(|(_, unit)| *unit)
 }

@@ -43,8 +43,8 @@ pub struct JsonLabel {
 }
 
 /// Returns the diagnostics in the form of JSON, sorted and without duplicates, as [`render`](super::render::render)
-/// draws them. `sources` holds the texts that they point at; `style` gives the names of files. Panics if a label is
-/// of another run.
+/// draws them. `sources` holds the texts that they point at; `style` gives the names of files. Panics if a label's text
+/// is not among them.
 pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> Vec<JsonDiagnostic> {
     let one = |diagnostic: &&Diagnostic| {
         let Code(code) = diagnostic.code;

@@ -59,8 +59,8 @@ fn key(d: &Diagnostic) -> impl Ord + '_ {
 }
 
 /// Returns the diagnostics as text, [`sorted`] and without duplicates, up to `shown_max` of the style; each ends with
-/// an empty line. Empty if there are none. `sources`: the texts that they point at. Panics if a label is of another
-/// run.
+/// an empty line. Empty if there are none. `sources`: the texts that they point at. Panics if a label's text is not
+/// among them.
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> String {
     let sorted = sorted(diagnostics);
     let mut out = String::new();
@@ -74,9 +74,9 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic], style: &Style) -> S
     out
 }
 
-/// Returns one diagnostic as text that ends with a line end: code, message, a snippet for each label, hints.
-/// Characters that control a terminal are replaced. `sources`: the texts that it points at; `style`: width, colour
-/// and names of files. Panics if a label is of another run.
+/// Returns one diagnostic as text that ends with a line end: code, message, a snippet for each label, hints. Characters
+/// that control a terminal are replaced. `sources`: the texts that it points at; `style`: width, colour and names of
+/// files. Panics if a label's text is not among them.
 pub fn render_one(sources: &Sources, diagnostic: &Diagnostic, style: &Style) -> String {
     let width = style.width.max(WIDTH_MIN);
     let gutter = gutter_width(sources, diagnostic);

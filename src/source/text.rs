@@ -64,7 +64,7 @@ impl SourceFile {
     }
 }
 
-/// All texts of one run. [`FileId`]s are numbered in order of adding.
+/// All source texts of one run. [`FileId`]s are numbered in order of adding.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     files: Vec<SourceFile>,
@@ -88,7 +88,7 @@ impl Sources {
         FileId(self.files.len() as u32 - 1)
     }
 
-    /// Returns a text with its name. Panics if the identity is of another run.
+    /// Returns the text of this identity, with its name. Panics if there is none.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[id.0 as usize]
     }
@@ -98,12 +98,13 @@ impl Sources {
         self.files.iter().enumerate().map(|(i, f)| (FileId(i as u32), f))
     }
 
-    /// Returns the text of a span. Panics if the span is of another run.
+    /// Returns the text of a span. Panics if its file is not among these texts, or the span is beyond the text's end or
+    /// cuts a character.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }
 
-    /// Returns the position at which a span begins. Panics if the span is of another run.
+    /// Returns the line and column (from 1) at which a span begins. Panics if its file is not among these texts.
     pub fn line_column(&self, span: Span) -> LineColumn {
         self.file(span.file).line_column(span.start as usize)
     }

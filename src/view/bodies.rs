@@ -14,7 +14,7 @@ use crate::robot::{Kinematics, Library};
 /// The most cells in one picture; of a larger lattice every second, third, ... cell is drawn.
 const CELLS_MAX: usize = 20_000;
 
-/// A mesh in the world frame, in metres, with its colour.
+/// A triangle mesh in the world frame, in metres, with its colour.
 pub(super) struct Drawn {
     /// The mesh of the body in the world frame, in metres.
     pub mesh: Mesh,

@@ -6,7 +6,7 @@ use crate::robot::Assembly;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rgb(pub [f64; 3]);
 
-/// The colours of groups of modules: group `i`, from 0, has the colour `i` modulo their count.
+/// The colours of groups of modules, sRGB: group `i`, from 0, has the colour at `i` modulo the length of the list.
 pub(super) const PALETTE: [Rgb; 8] = [
     hex(0x3865d4),
     hex(0xf5b116),
@@ -40,12 +40,12 @@ const fn hex(rgb: u32) -> Rgb {
 }
 
 impl Rgb {
-    /// Returns the linear mixture of two colours as they are encoded: this one at `part` 0, `other` at 1.
+    /// Returns the linear mixture of two colours in their sRGB values: this one for `part` 0, `other` for 1.
     pub(super) fn mixed(self, other: Rgb, part: f64) -> Rgb {
         Rgb(std::array::from_fn(|i| self.0[i] + (other.0[i] - self.0[i]) * part))
     }
 
-    /// Returns the shade of this module colour for a link by its index in the module, from 0; shades repeat after
+    /// Returns the shade of this module colour for the link of index `link` (from 0) in the module; shades repeat after
     /// eight.
     pub(super) fn shaded(self, link: usize) -> Rgb {
         let shade = SHADES[link % SHADES.len()];
@@ -57,7 +57,7 @@ impl Rgb {
         Rgb(dulled.0.map(|c| (c * (1.0 + 0.55 * shade)).min(1.0)))
     }
 
-    /// Returns the colour of a number in 0..1 on the scale from cold to warm; clamps others.
+    /// Returns the colour of a number in 0..1 on a scale from cold (blue) to warm (red); numbers outside are clamped.
     pub(super) fn ramp(x: f64) -> Rgb {
         let x = x.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
         let i = (x as usize).min(RAMP.len() - 2);

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 const FONT: &str = "ui-monospace, Menlo, Consolas, 'DejaVu Sans Mono', monospace";
 /// The colour of lines and labels, as SVG writes it.
 pub(super) const INK: &str = "#1d2530";
-/// The colour of minor lines and labels, as SVG writes it.
+/// The colour of minor, paler lines and labels, as SVG writes it.
 pub(super) const SOFT: &str = "#7a828c";
 /// The colour of the background, as SVG writes it.
 pub(super) const PAPER: &str = "#fffefb";
@@ -19,7 +19,7 @@ const HALO: &str = "paint-order=\"stroke\" stroke=\"#fffefb\" stroke-opacity=\"0
 const LAYER: &str =
     "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" inkscape:groupmode=\"layer\"";
 
-/// The width of a letter, in parts of the font size.
+/// The width of a letter of the font as a fraction of the font size, without unit.
 pub(super) const LETTER: f64 = 0.602;
 
 /// An SVG drawing under construction. Points are (x right, y down), all lengths in the unit that [`Drawing::finish`]
@@ -29,37 +29,39 @@ pub(super) struct Drawing {
     text: String,
 }
 
-/// The attributes of lines and surfaces, as in SVG.
+/// The attributes of lines and surfaces as text in the syntax of SVG, such as `stroke="..."`.
 pub(super) type SvgAttributes<'a> = &'a str;
 
 impl Drawing {
-    /// Adds a line from `a` to `b`.
+    /// Adds a line from `a` to `b` (x right, y down); `look`: its attributes.
     pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], look: SvgAttributes) {
         let [x1, y1, x2, y2] = [a[0], a[1], b[0], b[1]].map(short);
         writeln!(self.text, r#"<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" {look}/>"#).expect("text grows");
     }
 
-    /// Adds a rectangle with its upper left corner `at`; `round` is the radius of its corners.
+    /// Adds a rectangle of this size (width, height) with its upper left corner at `at`; `round` is the radius of its
+    /// corners, `look` its attributes.
     pub(super) fn rect(&mut self, at: [f64; 2], size: [f64; 2], round: f64, look: SvgAttributes) {
         let [x, y, w, h, r] = [at[0], at[1], size[0], size[1], round].map(short);
         writeln!(self.text, r#"<rect x="{x}" y="{y}" width="{w}" height="{h}" rx="{r}" {look}/>"#)
             .expect("text grows");
     }
 
-    /// Adds a circle around the point `at`.
+    /// Adds a circle around the point `at` (x right, y down); `look`: its attributes.
     pub(super) fn circle(&mut self, at: [f64; 2], radius: f64, look: SvgAttributes) {
         let [x, y, r] = [at[0], at[1], radius].map(short);
         writeln!(self.text, r#"<circle cx="{x}" cy="{y}" r="{r}" {look}/>"#).expect("text grows");
     }
 
-    /// Adds a closed polygon; the last point is joined with the first.
+    /// Adds a closed polygon through points (x right, y down), the last joined with the first; `look`: its attributes.
     pub(super) fn polygon(&mut self, points: &[[f64; 2]], look: SvgAttributes) {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", short(*x), short(*y))).collect();
         writeln!(self.text, r#"<polygon points="{}" {look}/>"#, points.join(" ")).expect("text grows");
     }
 
-    /// Adds a layer that drawing programs and cutters can switch on and off by its name.
+    /// Adds a layer, which drawing programs and cutters can switch on and off by its name; `draw` adds its content. The
+    /// name is not escaped.
     pub(super) fn layer(&mut self, name: &str, draw: impl FnOnce(&mut Drawing)) {
         writeln!(self.text, r#"<g id="{name}" {LAYER} inkscape:label="{name}">"#).expect("text grows");
         draw(self);
@@ -78,8 +80,8 @@ impl Drawing {
         .expect("text grows");
     }
 
-    /// Returns the whole file with a visible part of this size, whose upper left corner is `from`; `unit` is the unit
-    /// of a length of 1: `px` or `mm`. `title` is escaped.
+    /// Returns the whole SVG file. Its visible part has this size (width, height) and its upper left corner at `from`;
+    /// `unit` is the unit of a length of 1, `px` or `mm`. `title` is escaped.
     pub(super) fn finish(self, title: &str, from: [f64; 2], size: [f64; 2], unit: &str) -> String {
         let ([x, y], [w, h], title) = (from.map(short), size.map(short), escaped(title));
         format!(
@@ -91,7 +93,7 @@ impl Drawing {
     }
 }
 
-/// Rounds to a thousandth; returns 0 for NaN and infinities.
+/// Rounds a length to a thousandth of its unit; returns 0 for NaN and infinities.
 pub(super) fn short(x: f64) -> f64 {
     let x = libm::round(x * 1e3) / 1e3;
     if x.is_finite() { x + 0.0 } else { 0.0 }

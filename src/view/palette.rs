@@ -1,6 +1,6 @@
 //! Colour quantisation by median cut (Heckbert 1982), in integers.
 
-/// The most colours of one picture: few enough that a page stays small.
+/// The greatest number of colours of a picture with a palette: few enough that a page with it stays small.
 pub(super) const COLOURS_MAX: usize = 48;
 
 /// The bits of red, green and blue that are distinguished.

@@ -10,7 +10,7 @@ const NEAR: f64 = 0.02;
 /// Lines are drawn as if nearer by this factor, so that they are visible on the surfaces they lie on.
 const LINE_LIFT: f64 = 1.0015;
 
-/// A camera with orthonormal axes right, up and back.
+/// A camera in the world, perspective or orthographic, with the orthonormal axes right, up and back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
     /// The position of the camera in the world, m.
@@ -30,7 +30,7 @@ pub(super) struct Camera {
     pub distance: f64,
 }
 
-/// An image with its depth buffer.
+/// An image under construction, with its depth buffer.
 pub(super) struct Canvas {
     /// The width of the canvas in pixels.
     pub width: usize,
@@ -43,7 +43,7 @@ pub(super) struct Canvas {
     pub depths: Vec<f32>,
 }
 
-/// A projected point: x and y in pixels, and its depth.
+/// A point projected into a picture: x and y in pixels, and its depth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Projected {
     /// The distance from the left edge, in pixels.

@@ -15,8 +15,9 @@ pub(super) const SEGMENTS_MAX: usize = 60_000;
 /// The least number of samples that a joint keeps when its motion is sampled.
 const POSITIONS_MIN: usize = 16;
 
-/// Returns the body of the plan as JSON; `base` are the base poses as [`ground_pose::base`](super::ground_pose::base)
-/// gives them. Adds the meshes of links, and a note for each thing left out.
+/// Returns the robot and its motion as JSON, with lengths in metres, angles in radians and times in seconds; `base` are
+/// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them. Adds the meshes of links to `meshes`,
+/// and to `notes` a sentence for each thing left out.
 pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
     let robot = &tracks.robot;
     let mut forms = Forms::default();

@@ -12,7 +12,7 @@ const CYLINDER: usize = 1;
 const BALL: usize = 2;
 const FIRST_MESH: usize = 3;
 
-/// The meshes of a page, each once.
+/// The meshes of a page, each stored once for all links that use it.
 #[derive(Default)]
 pub(super) struct Meshes {
     /// The meshes as JSON, in order of index: the first one has the shape index after those of box, cylinder and ball.

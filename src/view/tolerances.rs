@@ -33,7 +33,7 @@ pub(super) struct Tolerances {
     pub coverage: f64,
 }
 
-/// The tolerances with which every picture and page is made.
+/// The values of the tolerances with which every picture and page is made.
 pub(super) const TOLERANCES: Tolerances = Tolerances {
     flat: 1e-6,
     meet: 1e-5,

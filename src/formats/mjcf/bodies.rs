@@ -50,7 +50,8 @@ fn mesh_name(trees: &Trees, link: usize, piece: usize) -> String {
     format!("{}{other}.{}.{piece}", declared.name, declared.links[index].name)
 }
 
-/// Adds the meshes of all hulls and meshes.
+/// Adds the element `asset` with a mesh for each convex hull and mesh among the shapes of the links; nothing if there
+/// is none.
 pub(super) fn assets(xml: &mut Xml, trees: &Trees) {
     let mut known = BTreeSet::new();
     let mut meshes: Vec<(String, &[Vec3])> = Vec::new();
@@ -76,8 +77,8 @@ pub(super) fn assets(xml: &mut Xml, trees: &Trees) {
     xml.close("asset");
 }
 
-/// Adds all bodies. The base is fixed in the world if it is `held`; other trees float. `friction` is the factor on
-/// the friction of links.
+/// Adds the bodies of all links, nested as in the trees. The base is fixed in the world if `held` is true; other trees
+/// float. `friction` is the factor, without unit, on the friction of links.
 pub(super) fn bodies(xml: &mut Xml, trees: &Trees, held: bool, friction: f64) {
     for (index, (root, X_WR)) in trees.roots.iter().enumerate() {
         let mut open = vec![Some(*root)];
@@ -197,8 +198,8 @@ fn sound_inertia(link: &Link) -> [f64; 6] {
     [xx + more, yy + more, zz + more, xy, xz, yz]
 }
 
-/// Returns the names of the sites of a bond's constraint, on its first and second port. A bond that turns has two
-/// pairs, on either side along its axis.
+/// Returns the names of the sites at which a bond (an index in the robot's bonds) is constrained, as pairs of one on
+/// its first and one on its second port. A bond that turns has two pairs, on either side along its axis.
 pub(super) fn site_names(trees: &Trees, bond: usize) -> Vec<[String; 2]> {
     let name = trees.robot.bond_name(bond);
     let ends: &[&str] = if trees.robot.hinge(bond).is_some() { &[", low", ", high"] } else { &[""] };

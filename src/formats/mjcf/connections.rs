@@ -7,8 +7,8 @@ use super::xml::{Attribute, Xml, numbers};
 
 use std::collections::BTreeSet;
 
-/// Adds the pairs of links that do not collide with each other: those that a joint or a bond joins, and those that are
-/// declared to meet by design.
+/// Adds the element `contact` with the pairs of links that do not collide with each other: those that a joint or a bond
+/// joins, and those declared as touching.
 pub(super) fn exclusions(xml: &mut Xml, trees: &Trees) {
     let mut pairs = BTreeSet::new();
     for module in 0..trees.robot.modules.len() {
@@ -31,8 +31,8 @@ pub(super) fn exclusions(xml: &mut Xml, trees: &Trees) {
     xml.close("contact");
 }
 
-/// Adds the constraints: joints that follow others, and bonds that are in no tree. `holds` has a flag for each bond,
-/// true if it holds at the start.
+/// Adds the element `equality` with the constraints: joints that follow others, and bonds that are in no tree. `holds`:
+/// for each bond of the robot, true if it is closed at the start.
 pub(super) fn couplings(xml: &mut Xml, trees: &Trees, holds: &[bool]) {
     let mut sums: Vec<(String, Vec<(String, f64)>)> = Vec::new();
     xml.open("equality", &[]);
@@ -97,7 +97,8 @@ pub(super) fn couplings(xml: &mut Xml, trees: &Trees, holds: &[bool]) {
     xml.close("tendon");
 }
 
-/// Adds the keyframe `start`: positions and commands at the start of the plan.
+/// Adds the keyframe `start`: positions and commands at the start of the plan. `held`: true if the base is fixed in the
+/// world; `joints`: the position of each joint of the robot, rad or m.
 pub(super) fn start(xml: &mut Xml, trees: &Trees, held: bool, joints: &[f64]) {
     let mut positions = Vec::new();
     let mut commands = Vec::new();

@@ -49,7 +49,8 @@ fn servo(trees: &Trees, joint: usize) -> Servo {
     Servo { armature: armature.unwrap_or(assumed.armature), ..assumed }
 }
 
-/// Returns the attributes of a driven joint: its class, and its armature where that is not the class's.
+/// Returns the attributes of a driven joint (an index in the robot's joints): its class, and its armature where that is
+/// not the class's.
 pub(super) fn attributes(trees: &Trees, joint: usize) -> Vec<Attribute<'static>> {
     let servo = servo(trees, joint);
     let mut attributes: Vec<Attribute> = vec![("class", servo.class.into())];
@@ -59,7 +60,8 @@ pub(super) fn attributes(trees: &Trees, joint: usize) -> Vec<Attribute<'static>>
     attributes
 }
 
-/// Adds the classes of servos.
+/// Adds the default classes of servos, one for joints that turn and one for joints that slide: armature, stiffness and
+/// damping.
 pub(super) fn defaults(xml: &mut Xml) {
     for Servo { class, stiffness, damping, armature } in [Servo::of_class(false), Servo::of_class(true)] {
         xml.open("default", &[("class", class.into())]);
@@ -69,7 +71,7 @@ pub(super) fn defaults(xml: &mut Xml) {
     }
 }
 
-/// Adds an actuator for each driven joint of the model, in the order of its joints.
+/// Adds a position actuator for each driven joint of the model, in the order of its joints.
 pub(super) fn actuators(xml: &mut Xml, trees: &Trees) {
     xml.open("actuator", &[]);
     let mut noted = vec![false; trees.robot.library.modules.len()];

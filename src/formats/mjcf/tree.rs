@@ -7,7 +7,8 @@ use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, St
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
 
-/// The trees of a plan's robot over the bonds that hold during the whole plan, and the names of its links and joints.
+/// The kinematic trees of a plan's robot over the bonds that are closed during the whole plan, with the names of its
+/// links and joints. Links and joints are given by their indices among all those of the robot, from 0.
 pub(super) struct Trees<'a> {
     /// The robot.
     pub(super) robot: &'a Assembly,
@@ -35,7 +36,7 @@ pub(super) struct Trees<'a> {
 }
 
 impl<'a> Trees<'a> {
-    /// Returns the trees of a robot whose base has the world pose `X_WB` at the start.
+    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m.
     pub(super) fn new(tracks: &'a Tracks, X_WB: &Pose) -> Trees<'a> {
         let robot = &tracks.robot;
         let links: Vec<(usize, usize)> = (0..robot.modules.len())
@@ -119,8 +120,7 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// Returns the links of all trees in the order of MuJoCo's bodies: tree by tree, depth
-    /// first.
+    /// Returns the indices of the links of all trees in the order of MuJoCo's bodies: tree by tree, depth first.
     pub(super) fn depth_first(&self) -> Vec<usize> {
         let mut order = Vec::new();
         for &(root, _) in &self.roots {
@@ -133,7 +133,7 @@ impl<'a> Trees<'a> {
         order
     }
 
-    /// Returns the number of links in the longest row from a root outwards.
+    /// Returns the depth of the deepest tree: the number of links on the longest path from a root, both ends counted.
     pub(super) fn depth(&self) -> usize {
         let mut depth = vec![1; self.steps.len()];
         for link in self.depth_first() {
@@ -144,24 +144,26 @@ impl<'a> Trees<'a> {
         depth.into_iter().max().unwrap_or(0)
     }
 
-    /// Returns the joints of the model and the links that they move, in the order of MuJoCo's joints.
+    /// Returns the joints of the model with the links that they move, as (index of the joint, index of the link), in
+    /// the order of MuJoCo's joints.
     pub(super) fn moved(&self) -> Vec<(usize, usize)> {
         self.depth_first().into_iter().filter_map(|link| Some((self.joint_of[link]?, link))).collect()
     }
 
-    /// Returns the declaration of a link.
+    /// Returns the link of this index among all links of the robot. Panics if there is none.
     pub(super) fn link(&self, link: usize) -> &'a Link {
         let (module, index) = self.links[link];
         &self.robot.module_type(module).links[index]
     }
 
-    /// Returns the index of the module type of a link, and the link's index there.
+    /// Returns, for the link of this index among all links, the index of its module's type in the library, and its own
+    /// index in that type.
     pub(super) fn kind(&self, link: usize) -> (usize, usize) {
         let (module, index) = self.links[link];
         (self.robot.modules[module].kind, index)
     }
 
-    /// Returns the name of a link in the model: its module's path name and its own.
+    /// Returns the name of a link in the model: its module's path name, a dot, and its own name.
     pub(super) fn link_name(&self, link: usize) -> String {
         format!("{}.{}", self.robot.modules[self.links[link].0].name, self.link(link).name)
     }
@@ -171,14 +173,15 @@ impl<'a> Trees<'a> {
         self.robot.joint_name(self.joints[joint])
     }
 
-    /// Returns the range of a joint, rad or m, as two numbers of which the second is larger, as MuJoCo wants them;
-    /// `None` if it has no end.
+    /// Returns the range of a joint, rad or m, as (least, greatest), the second larger by at least 1e-6 as MuJoCo
+    /// requires; `None` if the joint has no limits of position.
     pub(super) fn range(&self, joint: usize) -> Option<[f64; 2]> {
         let (low, high) = self.limits(joint).range?;
         Some([low, high.max(low + RANGE_MIN)])
     }
 
-    /// Returns the limits of a joint.
+    /// Returns the limits of position, speed, acceleration and effort of the joint of this index; no limits for a bond
+    /// without a hinge.
     pub(super) fn limits(&self, joint: usize) -> Limits {
         match self.joints[joint] {
             JointOwner::Module { module, joint } => self.robot.module_type(module).joints[joint].limits,
@@ -186,18 +189,19 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// Returns the stiffness of a joint's servo, N·m/rad or N/m, and its armature, kg·m² or kg, if one is stated.
+    /// Returns the stiffness of a joint's servo (N·m/rad, or N/m if it slides) and its armature (kg·m² or kg); `None`
+    /// if none is stated.
     pub(super) fn servo(&self, joint: usize) -> (f64, Option<f64>) {
         let owner = self.joints[joint];
         (self.robot.servo_stiffness(owner), self.robot.servo(owner).armature)
     }
 
-    /// Returns true if a joint slides; its positions are then in m.
+    /// Returns true if a joint is prismatic, so that its positions are in m; false if they are in rad.
     pub(super) fn slides(&self, joint: usize) -> bool {
         self.robot.slides(self.joints[joint])
     }
 
-    /// Returns true if a joint has a motor that takes commands.
+    /// Returns true if a joint has a motor of its own: it is not passive, not fixed, and follows no other joint.
     pub(super) fn is_driven(&self, joint: usize) -> bool {
         match self.joints[joint] {
             JointOwner::Module { module, joint } => {

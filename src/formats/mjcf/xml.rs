@@ -2,7 +2,7 @@
 
 use crate::geometry::{Pose, Vec3};
 
-/// An XML document that grows from its start to its end.
+/// An XML document that is written from its start to its end.
 pub(super) struct Xml {
     text: String,
     /// The number of elements that are open.
@@ -22,30 +22,30 @@ impl Xml {
         Xml { text: String::new(), depth: 0 }
     }
 
-    /// Returns the text.
+    /// Returns the text of the document.
     pub(super) fn into_text(self) -> String {
         self.text
     }
 
-    /// Adds the start of an element that has others inside.
+    /// Adds the start tag of an element that will contain others; [`close`](Self::close) ends it.
     pub(super) fn open(&mut self, name: &str, attributes: &[Attribute]) {
         self.tag(name, attributes, ">");
         self.depth += 1;
     }
 
-    /// Ends the element that was opened last, whose name is `name`.
+    /// Adds the end tag of the element that was opened last, which must have this name.
     pub(super) fn close(&mut self, name: &str) {
         self.depth -= 1;
         self.indent();
         self.text.push_str(&format!("</{name}>\n"));
     }
 
-    /// Adds an element without others inside.
+    /// Adds an element that contains no others.
     pub(super) fn leaf(&mut self, name: &str, attributes: &[Attribute]) {
         self.tag(name, attributes, "/>");
     }
 
-    /// Adds a line of comment. Two hyphens in a row, which end a comment, are set apart.
+    /// Adds a comment on a line of its own. Two hyphens in a row, which end a comment, are set apart.
     pub(super) fn comment(&mut self, words: &str) {
         let mut plain = words.replace("--", "- -").replace("--", "- -");
         if plain.ends_with('-') {
@@ -86,7 +86,7 @@ fn escaped(text: &str) -> String {
     plain
 }
 
-/// Returns the shortest text of a number that reads back to it; one text for both zeros.
+/// Returns a number as the shortest decimal text that reads back to it; `0` for both zeros.
 pub(super) fn number(x: f64) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),
@@ -95,17 +95,17 @@ pub(super) fn number(x: f64) -> String {
     }
 }
 
-/// Returns numbers with blanks between them.
+/// Returns numbers as text, with one blank between any two, each as by [`number`].
 pub(super) fn numbers(all: impl IntoIterator<Item = f64>) -> String {
     all.into_iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the three numbers of a vector.
+/// Returns a vector as text: x, y and z with blanks between.
 pub(super) fn vector(v: &Vec3) -> String {
     numbers(v.iter().copied())
 }
 
-/// Returns the quaternion of a pose in MuJoCo's order: w x y z.
+/// Returns the rotation of a pose as text: the unit quaternion in MuJoCo's order w x y z.
 pub(super) fn quaternion(X: &Pose) -> String {
     let q = &X.rotation;
     numbers([q.w, q.i, q.j, q.k])

@@ -140,13 +140,13 @@ impl std::error::Error for Refusal {}
 /// ```
 /// use modl::geometry::Vec3;
 /// use modl::planners::{NoProgress, fold, refold};
-/// 
+///
 /// let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
 /// let vertices = corners.map(|p| Vec3::from(p) * (0.08 / 8.0_f64.sqrt())).to_vec();
 /// let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]].map(|face| face.to_vec());
 /// let from = fold::Target::new(vertices, &faces)?;
 /// let panels = fold::Plate::default().panels(&from)?;
-/// 
+///
 /// let problem = refold::Problem { to: from.clone(), from, panels };
 /// let settings = refold::Settings { budget: 100_000, ..refold::Settings::default() };
 /// let solution = refold::plan(&problem, &settings, &mut NoProgress)?;

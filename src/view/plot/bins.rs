@@ -6,7 +6,7 @@ use super::{Plot, PlotSeries};
 /// The greatest number of bins where the plot states none.
 const BINS_MAX: usize = 60;
 
-/// The bins of a histogram.
+/// The bins of a histogram, with the number of values in each.
 pub(super) struct Bins {
     /// The edges, ascending, one more than there are bins, in SI units. A value on an edge belongs to the bin above it;
     /// one on the last edge to the last bin.
@@ -17,8 +17,8 @@ pub(super) struct Bins {
 
 impl Bins {
     /// Returns the bins of a plot's values: as many as it asks for, from the least value to the greatest; else, at
-    /// round edges, about as many as the rule of Rice gives for the mean length of a series: twice the cube root of
-    /// the number of values.
+    /// round edges, about as many as the Rice rule gives for the mean length of a series: twice the cube root of the
+    /// number of values.
     pub(super) fn of(plot: &Plot) -> Bins {
         let values: Vec<f64> = plot.points().map(|point| point[1]).collect();
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -38,7 +38,7 @@ impl Bins {
         Bins { edges, counts }
     }
 
-    /// Returns the greatest number of values of one series in a bin.
+    /// Returns the greatest number of values of one series in one bin; 0 without values.
     pub(super) fn most(&self) -> usize {
         self.counts.iter().flatten().copied().max().unwrap_or(0)
     }

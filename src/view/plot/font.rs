@@ -10,13 +10,13 @@ static FACE: LazyLock<Face<'static>> =
 /// The number of straight pieces that a curve of an outline is drawn as.
 const PIECES: usize = 6;
 
-/// Returns the width of a line of text, in parts of the size of its letters.
+/// Returns the width of a line of text as a multiple of the font size.
 pub(super) fn width(text: &str) -> f64 {
     text.chars().map(|letter| advance(glyph(letter))).sum()
 }
 
-/// Returns the closed outlines of a line of text of size 1 that begins at the origin, x right and y up, each as its
-/// points in order.
+/// Returns the closed outlines of the letters of a line of text, for a font size of 1, beginning at the origin, with x
+/// right and y up; each as its points in order.
 pub(super) fn outlines(text: &str) -> Vec<Vec<[f64; 2]>> {
     let mut all = Vec::new();
     let mut from = 0.0;

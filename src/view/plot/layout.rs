@@ -57,7 +57,7 @@ impl Frame {
     }
 }
 
-/// Lays a plot out: returns its marks in pixels, with the size of the whole.
+/// Lays a plot out: returns its marks (lines, texts, areas) in pixels, with the size of the whole.
 pub(super) fn lay_out(plot: &Plot) -> Sheet {
     let bins = (plot.kind == PlotKind::Histogram).then(|| Bins::of(plot));
     let (x, y) = scales(plot, bins.as_ref());

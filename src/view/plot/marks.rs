@@ -3,7 +3,7 @@
 /// A colour as red, green and blue, 0 to 255, sRGB encoded.
 pub(super) type Colour = [u8; 3];
 
-/// A mark. Later ones cover earlier ones.
+/// An element of a drawn plot, in pixels. Later ones cover earlier ones.
 #[derive(Clone, Debug)]
 pub(super) enum Mark {
     /// A line through points, with round joints; dashed where `dash` says how many pixels are drawn and left out.
@@ -16,7 +16,7 @@ pub(super) enum Mark {
     Text { at: [f64; 2], size: f64, colour: Colour, anchor: Anchor, upwards: bool, text: String },
 }
 
-/// The part of a text that stands at its place.
+/// The point of a text that is put at the text's position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     /// Its beginning.
@@ -27,7 +27,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// A plot laid out.
+/// A plot laid out: its elements, and its size in pixels.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     /// The width and height of the drawing, in pixels.

@@ -16,7 +16,7 @@ const STEPS: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 /// Steps between ticks of angles in degrees that divide a turn well.
 const STEPS_DEGREES: [f64; 9] = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, 720.0];
 
-/// A scale that maps values in SI units to positions.
+/// A linear scale of an axis, which maps values in SI units to positions along it.
 #[derive(Clone, Debug)]
 pub(super) struct Scale {
     /// The label of the axis with the unit: `torque [N·m]`.
@@ -62,8 +62,8 @@ impl Scale {
         scale
     }
 
-    /// Returns the position of a value in SI units: 0 at the lower end, 1 at the upper; outside of these beyond the
-    /// ends.
+    /// Returns the position along the axis of a value in SI units: 0 at the lower end, 1 at the upper; below 0 or above
+    /// 1 for values outside.
     pub(super) fn position(&self, value: f64) -> f64 {
         (value / self.factor - self.low) / (self.high - self.low)
     }
