@@ -29,7 +29,7 @@ enum Callee {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a call, and returns it typed, as an error node after a report. `want` is the type expected of its result,
+    /// Checks a call, and returns it typed; an error node after a report. `want` is the type expected of its result,
     /// `None` if any will do.
     pub(super) fn call(
         &mut self,

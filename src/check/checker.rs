@@ -120,7 +120,7 @@ pub(super) enum Bound {
     Family(Family),
 }
 
-/// A parameter of a signature.
+/// A parameter of a function, record or declaration with instances: its name, its type, and if it has a default.
 #[derive(Clone, Debug)]
 pub(super) struct ParamInfo {
     /// The name of the parameter, by which calls may name the argument.
@@ -142,7 +142,7 @@ impl ParamInfo {
     }
 }
 
-/// The names inside a declaration with instances.
+/// The names inside a declaration with instances: members, joints, ports, parts and behaviours.
 #[derive(Default)]
 pub(super) struct Members<'a> {
     /// All members: a [`MemberId`] is an index into them.

@@ -6,7 +6,7 @@ use super::types::Type;
 use crate::source::Symbol;
 use crate::units::{Dimension, base_units, usual_unit};
 
-/// Returns the phrase for a quantity of a dimension: `an angular speed`.
+/// Returns the noun phrase for a quantity of a dimension in messages, such as `an angular speed`.
 pub(super) fn dimension_words(d: Dimension) -> String {
     let words = match d.name() {
         Some("Number") => "a number",
@@ -30,7 +30,7 @@ pub(super) fn dimension_words(d: Dimension) -> String {
     words.to_string()
 }
 
-/// Returns the phrase with the usual unit: `an angular speed (rad/s)`.
+/// Returns the noun phrase for a quantity of a dimension with the usual unit, such as `an angular speed (rad/s)`.
 pub(super) fn dimension_with_unit(d: Dimension) -> String {
     let unit = usual_unit(d);
     let words = dimension_words(d);
@@ -38,7 +38,7 @@ pub(super) fn dimension_with_unit(d: Dimension) -> String {
 }
 
 impl Checker<'_> {
-    /// Returns the phrase for a type: `an angle`, `a list of lengths`, ``a `Smores` ``.
+    /// Returns the noun phrase for a value of a type in messages: `an angle`, `a list of lengths`, ``a `Smores` ``.
     pub(super) fn words(&self, ty: &Type) -> String {
         match ty {
             Type::Quantity(d) => dimension_words(*d),
@@ -57,7 +57,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Returns a type as it is written.
+    /// Returns a type as programs write it, such as `List<Length>`.
     pub(super) fn name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name, &[])
     }

@@ -40,7 +40,8 @@ pub(crate) enum Group {
 }
 
 impl Group {
-    /// Returns the keyword of the language, or a plain word where it has none.
+    /// Returns the singular noun for an item of the group: the keyword that declares it, or a plain word where there is
+    /// none.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Group::Parameter => "parameter",

@@ -472,7 +472,7 @@ impl Instance {
         })
     }
 
-    /// Gives the robot a name. A part is given none: it goes by the names of its robot.
+    /// Adds a name to the robot, if the instance is a whole robot. A part gets none: it goes by the names of its robot.
     pub fn bind(&self, name: Name) {
         if self.path.is_empty() {
             self.robot.identity.bind(name);

@@ -11,7 +11,7 @@ use std::rc::Rc;
 /// Most names that are remembered of one robot; a program that binds it more often means one.
 const NAMES_MAX: usize = 64;
 
-/// A name of a robot: the code that binds it, and the index if it is bound as one of a list.
+/// A name of a robot: the code that binds it (as a `let` does), and the index if it is bound as one of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Name {
     /// The span of the code that binds the name: the value of a `let`, the declaration of a parameter, or the list

@@ -143,9 +143,9 @@ impl PlanValue {
         self.judged.borrow_mut().push(Judged { settings, worlds, verdict: Rc::new(verdict) });
     }
 
-    /// Returns the judge's quantities at these times (s, ascending), one instant for each; fewer where it took all
-    /// samples that are allowed before the last. Kept for the next call with the same times. `detail`: the quantities
-    /// that are computed.
+    /// Returns the judge's quantities at these times (s, ascending), one instant for each; fewer if the limit of
+    /// samples is reached before the last. Kept for the next call with the same times. `detail`: the quantities that
+    /// are computed.
     pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
         let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
         if kept.0 != *times {

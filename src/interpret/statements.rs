@@ -9,8 +9,8 @@ use crate::check::typed::{Body, Expr, Stmt, StmtKind};
 use crate::source::{Diagnostic, code};
 
 impl Interpreter<'_> {
-    /// Executes the statements of a body; a statement that fails leaves its names unknown, and the
-    /// others go on.
+    /// Executes the statements of a body in order; the names that a failed statement declares are unknown, and the
+    /// statements after it are executed all the same.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

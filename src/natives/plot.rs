@@ -247,7 +247,7 @@ impl PlotValue {
         plot::text(&self.0)
     }
 
-    /// Returns the curves, points or bars that are drawn.
+    /// Returns the plot in the form that the renderers read.
     pub(super) fn plot(&self) -> &Plot {
         &self.0
     }

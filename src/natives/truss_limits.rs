@@ -11,7 +11,7 @@ use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 
 arguments! {
-    /// The values of the arguments about limits, which `morph` and `locomote` share.
+    /// The values of the arguments about limits of a truss's shape, which `morph` and `locomote` share.
     pub(super) struct LimitArguments<'c> {
         angle: f64,
         rigidity: f64,

@@ -57,7 +57,8 @@ impl Rgb {
         Rgb(dulled.0.map(|c| (c * (1.0 + 0.55 * shade)).min(1.0)))
     }
 
-    /// Returns the colour of a number in 0..1 on a scale from cold (blue) to warm (red); numbers outside are clamped.
+    /// Returns the colour of a number in 0..1 on a scale from cold (blue) to warm (yellow); numbers outside are
+    /// clamped.
     pub(super) fn ramp(x: f64) -> Rgb {
         let x = x.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
         let i = (x as usize).min(RAMP.len() - 2);

@@ -44,7 +44,7 @@ pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
     laid_out(input, panels, instants.len() - shown)
 }
 
-/// Returns the SVG of a truss plan, one panel per keyframe, as many as fit.
+/// Returns the SVG of a truss plan: a panel for each keyframe, as many as fit.
 pub(super) fn truss(input: &RenderInput, paths: &NodePaths) -> String {
     let shown = paths.keyframes.len().min(PANELS_MAX);
     let panels = paths.keyframes[..shown].iter().enumerate().map(|(i, keyframe)| {

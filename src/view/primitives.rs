@@ -5,7 +5,7 @@
 use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
-/// A primitive around the origin of its own frame; lengths in metres.
+/// A primitive shape (box, cylinder, ball or triangle surface) around the origin of its own frame; lengths in metres.
 pub(super) enum Primitive<'a> {
     /// A box; `size` holds its edge lengths along x, y and z.
     Box { size: Vec3 },

@@ -71,7 +71,7 @@ pub(super) fn defaults(xml: &mut Xml) {
     }
 }
 
-/// Adds a position actuator for each driven joint of the model, in the order of its joints.
+/// Adds the element `actuator` with a position actuator for each driven joint of the model, in the order of its joints.
 pub(super) fn actuators(xml: &mut Xml, trees: &Trees) {
     xml.open("actuator", &[]);
     let mut noted = vec![false; trees.robot.library.modules.len()];

@@ -13,7 +13,7 @@ use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
-/// The greatest number of faces of a target that is enumerated: sets of faces are bits of a word.
+/// The greatest number of faces of a target that is enumerated: a set of faces is held in the bits of a 64-bit word.
 pub const FACES_MAX: usize = 64;
 
 /// The number of faces whose sums are read from a table at a time.

@@ -15,7 +15,8 @@ pub enum Inertia {
     Point,
 }
 
-/// A panel as a rigid body, in its pose in the target.
+/// A panel as a rigid body: its mass, centre of mass and inertia in the frame of the target, for its pose in the
+/// target.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
     /// The mass of the panel, kg.

@@ -74,8 +74,8 @@ pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("paths that agree form a tree")
 }
 
-/// The search for shortest paths between the faces of one target, with its working memory. What an arc costs depends on
-/// the goal: each face to be carried has its own costs of hinges.
+/// The search for shortest paths between the faces of one target, with its working memory. The cost of an arc depends
+/// on the goal: each face to be carried has its own costs of hinges.
 pub struct ShortestPaths<'t> {
     target: &'t Target,
     weights: &'t Weights,

@@ -39,7 +39,7 @@ pub struct PlotAxis {
     pub dimension: Dimension,
 }
 
-/// A series of a plot: values with a name.
+/// A series of a plot: points (x, y) with a name, drawn as one curve, point cloud or histogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlotSeries {
     /// The name of the series in the legend; may be empty.
