@@ -101,9 +101,9 @@ let p = plan(Odds().go(), world: world(ground: off, gravity: off))",
 ];
 
 /// A plan and its model.
-struct Case {
+pub(super) struct Case {
     name: String,
-    plan: Plan,
+    pub(super) plan: Plan,
     model: String,
 }
 
@@ -114,7 +114,7 @@ impl Case {
     }
 
     /// The plan of a program that leaves it in `p`, and the model that `save` writes.
-    fn of(program: &str) -> Case {
+    pub(super) fn of(program: &str) -> Case {
         let written = run_clean(&format!("{program}\nemit(p, \"p.json\")\nsave(p, \"p.mjcf.xml\")\n"));
         let plan = file::read(written.text("p.json")).expect("a plan that was written is read");
         Case { name: program.to_owned(), plan, model: written.text("p.mjcf.xml").to_owned() }
@@ -151,7 +151,7 @@ impl Case {
         (state.bonds, poses)
     }
 
-    fn task(&self) -> Value {
+    pub(super) fn task(&self) -> Value {
         let text = file::write(&self.plan).expect("the plan can be written");
         let links = self.links();
         let moment = |t: f64| {

@@ -4,3 +4,4 @@ mod gait_programs;
 mod library_reserves;
 mod mjcf;
 mod random_gaits;
+mod structures;

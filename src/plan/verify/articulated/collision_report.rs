@@ -3,13 +3,16 @@
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::{Bodies, UnsoundLink};
 use super::collision::{self, Collision, Findings};
+use super::docking;
 use super::dynamics::{self, DeflectedMotion};
+use super::polyline::Polyline;
 use super::rollout::Rollout;
+use super::tolerances::Tolerances;
 use super::work_budget::work_max;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
-use crate::robot::{JointId, Kinematics};
+use crate::robot::{Bond, JointId, Kinematics};
 
 /// The collisions as planned, with the compiled bodies of the robot.
 pub(super) struct PlannedCollisions {
@@ -86,13 +89,15 @@ fn judge_deflected(
     ledger: &mut Ledger,
 ) {
     let (tracks, DeflectedMotion { along, instants }) = (rollout.tracks, deflected);
-    let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along);
+    let tolerances = rollout.tolerances;
+    let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along.clone());
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Deflection);
     }
     let meets = |c: &&Collision| {
-        let deep = c.depth > c.allowed + rollout.tolerances.deflected_depth;
-        deep && !c.exempt && planned.iter().all(|p| p.modules != c.modules)
+        let deep = c.depth > c.allowed + tolerances.deflected_depth;
+        let planned = planned.iter().any(|p| p.modules == c.modules);
+        deep && !c.exempt && !planned && parts(tracks, bodies, c, &along, tolerances)
     };
     for meeting in found.collisions.iter().filter(meets) {
         let mut failure = meeting.failure(&tracks.robot);
@@ -130,20 +135,8 @@ fn blamed(
     needed: impl Fn(f64) -> f64,
 ) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);
-    let kinematics = Kinematics::new(&tracks.robot, &state.bonds, 0);
-    let links = (
-        kinematics.link(meeting.modules.0, meeting.links.0),
-        kinematics.link(meeting.modules.1, meeting.links.1),
-    );
-    let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    let distance = |poses: &[Pose]| {
-        let [a, b] = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
-        let enclosed = bodies.enclosed_depth(a, b, &(poses[links.0].inverse() * poses[links.1]));
-        let apart = bodies.distance(links.0, links.1, poses, f64::MAX);
-        if enclosed > 0.0 { apart.min(-enclosed) } else { apart }
-    };
-    kinematics.link_poses(&state.joints, &Pose::identity(), &mut poses);
-    let needed = needed(distance(&poses));
+    let mut links = MeetingLinks::new(tracks, bodies, meeting, &state.bonds);
+    let needed = needed(links.distance(&state.joints));
     let mut blamed = vec![];
     for suspect in blame::suspects(tracks, meeting.deepest) {
         if blamed.len() == BLAMED_MAX || blamed.contains(&suspect.cause) {
@@ -152,10 +145,79 @@ fn blamed(
         let mut joints = state.joints.clone();
         let track = tracks.track(JointId(suspect.joint as u32)).expect("a suspect moves on a track");
         joints[suspect.joint] = track.position(tracks.start.joints[suspect.joint], suspect.start);
-        kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
-        if distance(&poses) >= needed {
+        if links.distance(&joints) >= needed {
             blamed.push(suspect.cause);
         }
     }
     blamed
+}
+
+/// Returns true if two links meet with the joints `along` at an instant at which their modules are not face to face as
+/// planned. Modules whose ports are within capture of each other, about to dock or just undocked, may press on each other.
+fn parts(
+    tracks: &Tracks,
+    bodies: &Bodies,
+    meeting: &Collision,
+    along: &Polyline,
+    tolerances: &Tolerances,
+) -> bool {
+    let mut known: Option<(Vec<bool>, MeetingLinks)> = None;
+    let allowed = meeting.allowed + tolerances.deflected_depth;
+    along.instants().any(|(time, deflected)| {
+        let state = tracks.state(time);
+        if known.as_ref().is_none_or(|(bonds, _)| *bonds != state.bonds) {
+            let links = MeetingLinks::new(tracks, bodies, meeting, &state.bonds);
+            known = Some((state.bonds.clone(), links));
+        }
+        let Some((_, links)) = &mut known else { return true };
+        links.distance(deflected) < -allowed && !links.face(&state.joints, &state.bonds, tolerances)
+    })
+}
+
+/// The two links of a collision, with the kinematics of the robot.
+struct MeetingLinks<'a> {
+    tracks: &'a Tracks,
+    bodies: &'a Bodies,
+    kinematics: Kinematics,
+    /// The links, each by its module's index in the assembly and its own in the module.
+    links: [(usize, usize); 2],
+    /// A buffer for the poses of all links.
+    poses: Vec<Pose>,
+}
+
+impl<'a> MeetingLinks<'a> {
+    /// Returns the links of a collision of the plan's robot with these bonds, a flag for each, true if it holds.
+    fn new(tracks: &'a Tracks, bodies: &'a Bodies, meeting: &Collision, bonds: &[bool]) -> MeetingLinks<'a> {
+        let kinematics = Kinematics::new(&tracks.robot, bonds, 0);
+        let links = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
+        let poses = vec![Pose::identity(); kinematics.link_count()];
+        MeetingLinks { tracks, bodies, kinematics, links, poses }
+    }
+
+    /// Returns the signed distance of the links (m) with the joints at these positions (rad or m), by the number in their
+    /// [`JointId`].
+    fn distance(&mut self, joints: &[f64]) -> f64 {
+        self.kinematics.link_poses(joints, &Pose::identity(), &mut self.poses);
+        self.between(self.links[0], self.links[1])
+    }
+
+    /// Returns true if the modules have ports face to face that an open bond could join: within capture of each other with
+    /// the joints at these positions, as in [`distance`](Self::distance). `bonds`: a flag for each bond, true if it
+    /// holds.
+    fn face(&mut self, joints: &[f64], bonds: &[bool], tolerances: &Tolerances) -> bool {
+        self.kinematics.link_poses(joints, &Pose::identity(), &mut self.poses);
+        let (robot, [a, b]) = (&self.tracks.robot, self.links);
+        let join = |bond: &Bond| [(a.0, b.0), (b.0, a.0)].contains(&(bond.a.module, bond.b.module));
+        let open = (0..bonds.len()).filter(|&bond| !bonds[bond] && join(&robot.bonds[bond]));
+        let residual = |bond| self.kinematics.residual(robot, bond, joints, &self.poses);
+        open.map(residual).any(|residual| docking::within(robot, &residual, tolerances))
+    }
+
+    /// Returns the signed distance of two links (m) at the present poses, each given by its module's index and its own.
+    fn between(&self, a: (usize, usize), b: (usize, usize)) -> f64 {
+        let [i, j] = [a, b].map(|(module, link)| self.kinematics.link(module, link));
+        let enclosed = self.bodies.enclosed_depth(a, b, &(self.poses[i].inverse() * self.poses[j]));
+        let apart = self.bodies.distance(i, j, &self.poses, f64::MAX);
+        if enclosed > 0.0 { apart.min(-enclosed) } else { apart }
+    }
 }

@@ -169,7 +169,7 @@ fn residuals(sample: &Sample) -> Vec<Residual> {
 }
 
 /// Returns true if a residual is within the error that its bond tolerates.
-fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> bool {
+pub(super) fn within(robot: &Assembly, residual: &Residual, tolerances: &Tolerances) -> bool {
     let error = tolerated(robot, residual.bond, tolerances);
     residual.distance <= error.distance && residual.angle <= error.angle
 }

@@ -30,6 +30,11 @@ impl Polyline {
         &self.times
     }
 
+    /// Returns the instants in order of time, each as (time in s, positions of all joints in rad or m).
+    pub(super) fn instants(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        self.times.iter().copied().zip(self.positions.chunks_exact(self.joints.max(1)))
+    }
+
     /// Returns the number of joints; 0 before the first instant.
     pub(super) fn joint_count(&self) -> usize {
         self.joints
