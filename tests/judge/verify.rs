@@ -270,6 +270,18 @@ fn a_held_base_may_not_go_underground() {
     assert!(matches!(status(&verdict, CheckKind::Torque), Status::NotChecked(_)));
 }
 
+#[test]
+fn stability_that_is_not_checked_says_why() {
+    let why = |ground, gravity| {
+        let world = World { ground, gravity, ..STATICS };
+        let verdict = verify(&Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 2.0).plan(world));
+        status(&verdict, CheckKind::Stability).to_string()
+    };
+    assert_eq!(why(Ground::Fixed, 0.0), "not checked: there is no gravity");
+    assert_eq!(why(Ground::Off, 0.0), "not checked: there is no ground");
+    assert_eq!(why(Ground::Held, STATICS.gravity), "not checked: what is held fast does not fall");
+}
+
 /// The paper's rule rejects a straight chain and takes a car.
 #[test]
 fn the_rule_of_centres_is_kept_by_name() {

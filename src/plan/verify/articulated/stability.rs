@@ -22,6 +22,8 @@ pub(super) struct Monitor<'a> {
     standing: bool,
     /// True if any part of the plan has a ground and weight.
     ground: bool,
+    /// True if any part of the plan has a ground without gravity.
+    weightless: bool,
     /// True if the base is held by a fixture in any part of the plan.
     fixed_base: bool,
 }
@@ -54,6 +56,7 @@ impl<'a> Monitor<'a> {
             proved: true,
             standing: false,
             ground: false,
+            weightless: false,
             fixed_base: false,
         }
     }
@@ -62,6 +65,7 @@ impl<'a> Monitor<'a> {
     /// settings allow (`unstable_for`); `None` otherwise. Keeps the least margin in the verdict.
     pub(super) fn observe(&mut self, sample: &Sample, ledger: &mut Ledger) -> Option<SupportLoss> {
         self.fixed_base |= sample.world.ground == Ground::Held;
+        self.weightless |= sample.world.has_floor() && sample.world.gravity == 0.0;
         if matches!(sample.world.ground, Ground::Off | Ground::Held) || sample.world.gravity == 0.0 {
             self.standing = false;
             return self.ended(sample.time);
@@ -111,10 +115,16 @@ impl<'a> Monitor<'a> {
         self.loss.take().map(|loss| SupportLoss { until: t, ..loss })
     }
 
-    /// Records the status of the check of stability: proved, if no step could tip the robot over; sampled; or not
-    /// checked, without a ground to stand on.
+    /// Records the status of the check of stability, unless it has failed or was excused. Proved: no step could tip
+    /// the robot over. Sampled: stability was judged at the samples, whose number it gives, and not between them. Not
+    /// checked: the robot never had weight on a ground, as there is no ground, gravity is off, or the base is held
+    /// fast.
     pub(super) fn finish(&self, ledger: &mut Ledger) {
-        let why = if self.fixed_base { "what is held fast does not fall" } else { "there is no ground" };
+        let why = match (self.fixed_base, self.weightless) {
+            (true, _) => "what is held fast does not fall",
+            (false, true) => "there is no gravity",
+            (false, false) => "there is no ground",
+        };
         let none = || Status::NotChecked(why.to_owned());
         let status = match (self.ground, self.proved) {
             (false, _) => none(),
