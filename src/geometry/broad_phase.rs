@@ -100,7 +100,7 @@ pub fn near_points(
 /// 0, m) of each other along every axis, up to rounding: a superset of those that are nearer than `reach`. The method
 /// is a uniform grid (compare Ericson, *Real-Time Collision Detection*, 2005, sec. 7.1). The calls are ordered by j,
 /// then by cell and i. `cell` (> 0, m) is the least size of a cell, best about that of a box; grids of more than
-/// eight cells for each box are made coarser.
+/// `CELLS_PER_BOX` cells for each box are made coarser.
 pub fn near_boxes(boxes: &[Aabb], reach: f64, cell: f64, mut found: impl FnMut(usize, usize)) {
     let margin = Vec3::repeat(reach / 2.0);
     let low = boxes.iter().fold(Vec3::repeat(f64::INFINITY), |low, b| low.inf(&b.low)) - margin;

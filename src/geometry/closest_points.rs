@@ -15,8 +15,9 @@ use super::pose::{Pose, Vec3};
 /// point.
 pub type Segment = (Vec3, Vec3);
 
-/// The squared sine of the angle of two segments below which they count as parallel in [`segment_segment`].
-const PARALLEL_SINE_SQUARED: f64 = 1e-9;
+/// Threshold: segments count as parallel in [`segment_segment`] if the squared sine of their angle, without unit, is
+/// below this: at lesser angles, 3.2e-5 rad, rounding decides where the lines are nearest.
+const TOL_PARALLEL_SINE_SQUARED: f64 = 1e-9;
 
 /// The closest points of two segments, by their positions along them, with their distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,15 +36,15 @@ pub struct SegmentPair {
 /// Detection*, 2005, sec. 5.1.9). `p` and `q`: the segments, each by its two ends.
 ///
 /// Of parallel segments, which have many closest pairs, one pair is returned; it may jump while the segments move a
-/// little. Segments at an angle of less than 3.2e-5 rad count as parallel; the distance is then too great by at most
-/// that angle times the length of the shorter segment. If that matters, [`segment_segment_distance`] is exact at any
-/// angle.
+/// little. Segments count as parallel if the squared sine of their angle is less than `TOL_PARALLEL_SINE_SQUARED`; the
+/// distance is then too great by at most that angle times the length of the shorter segment. If that matters,
+/// [`segment_segment_distance`] is exact at any angle.
 pub fn segment_segment(p: Segment, q: Segment) -> SegmentPair {
     let (u, v, w) = (p.1 - p.0, q.1 - q.0, p.0 - q.0);
     let (a, b, c, d, e) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
     let determinant = a * c - b * b;
     // The closest points of the two lines, then clamped to the one segment and to the other by turns.
-    let along_p = if determinant > PARALLEL_SINE_SQUARED * a * c {
+    let along_p = if determinant > TOL_PARALLEL_SINE_SQUARED * a * c {
         ((b * e - c * d) / determinant).clamp(0.0, 1.0)
     } else {
         0.0

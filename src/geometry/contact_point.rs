@@ -11,9 +11,9 @@ const ROUNDS_MAX: usize = 64;
 const TOL_STEP: f64 = 1e-7;
 
 /// Returns a point that is in both parts, or midway between their nearest points where they are apart, in a's frame
-/// (m); `X_AB` is the pose of b's frame in a's. The method is alternating projections onto the one and the other
-/// (von Neumann 1933), from the middle between the parts, until a step is less than 1e-7 m, or 64 rounds are done:
-/// then the point is approximate.
+/// (m); `X_AB` is the pose of b's frame in a's. The method is alternating projections onto the one and the other (von
+/// Neumann 1933), from the middle between the parts, until a step is less than `TOL_STEP`, or `ROUNDS_MAX` rounds are
+/// done: then the point is approximate.
 pub fn contact_point(a: &Part, b: &Part, X_AB: &Pose) -> Vec3 {
     let X_BA = X_AB.inverse();
     let into = |X: &Pose, p: &Vec3| X.transform_point(&(*p).into()).coords;

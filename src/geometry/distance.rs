@@ -152,14 +152,17 @@ pub fn distance_of_solids(a: &Solid, X_WA: &Pose, b: &Solid, X_WB: &Pose) -> f64
     if enclosed > 0.0 { -enclosed.max(least.abs()) } else { least }
 }
 
-/// Returns the depth, m, to which one of two solids is inside the meshes of the other that are not convex (see
-/// [`Solid::enclosed_point`]): a lower bound, not negative; 0 if neither is. `X_AB` is the pose of b's frame in a's.
+/// Returns a lower bound, m, on the depth to which one of two solids is inside the meshes of the other that are not
+/// convex (see [`Solid::enclosed_point`]): not negative; 0 if no probe point of either is inside the other. `X_AB` is
+/// the pose of b's frame in a's.
 pub fn enclosed_depth(a: &Solid, b: &Solid, X_AB: &Pose) -> f64 {
     enclosed_point(a, b, X_AB).map_or(0.0, |(depth, _)| depth)
 }
 
-/// Returns the depth (m) as [`enclosed_depth`] does, with a point that is as deep, in a's frame (m); `None` if
-/// neither solid is inside the other's meshes. `X_AB` is the pose of b's frame in a's.
+/// Returns a lower bound on the depth to which one of two solids is inside the meshes of the other that are not
+/// convex, as [`enclosed_depth`] does, with a point that is as deep: as (depth, point), m, the point in a's frame.
+/// `None` if no probe point of either solid is inside the other's meshes ([`Solid::enclosed_point`]). `X_AB` is the
+/// pose of b's frame in a's.
 pub fn enclosed_point(a: &Solid, b: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
     let in_a = a.enclosed_point(b, X_AB);
     let in_b = b.enclosed_point(a, &X_AB.inverse());

@@ -105,8 +105,9 @@ impl HeightField {
         }
     }
 
-    /// Returns the point of the segment from `p` to `q` (in the world, m) that is lowest above the ground: its
-    /// position as a fraction of the length, 0 to 1, and its height above the ground, m; negative below it.
+    /// Returns the point of the segment from `p` to `q` (in the world, m) that is lowest above the ground, as
+    /// (position, height): its position as a fraction of the segment's length, 0 to 1, and its height above the
+    /// ground, m, negative below it.
     pub fn lowest(&self, p: Vec3, q: Vec3) -> (f64, f64) {
         let mut least = (0.0, f64::INFINITY);
         self.profile(p, q, |part, height| {

@@ -16,9 +16,9 @@ pub(crate) struct PoseText {
     q: [f64; 4],
 }
 
-/// The greatest difference from 1 of the norm of a written quaternion: what rounding can explain after many products,
-/// and nothing more.
-const NORM_TOLERANCE: f64 = 1e-6;
+/// Threshold: the norm of a written quaternion, without unit, may differ from 1 by at most this: as much as rounding
+/// can explain after many products, and no more.
+const TOL_NORM: f64 = 1e-6;
 
 /// Writes a pose, its numbers as they are.
 ///
@@ -32,11 +32,11 @@ pub(crate) fn serialize<S: Serializer>(pose: &Pose, to: S) -> Result<S::Ok, S::E
 /// Reads a pose, its numbers as they are.
 ///
 /// # Errors
-/// The deserializer's error, also for a quaternion whose norm differs from 1 by more than 1e-6.
+/// The deserializer's error, also for a quaternion whose norm differs from 1 by more than `TOL_NORM`.
 pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Pose, D::Error> {
     let PoseText { p, q } = PoseText::deserialize(from)?;
     let q = Quaternion::new(q[0], q[1], q[2], q[3]);
-    if (q.norm() - 1.0).abs() > NORM_TOLERANCE {
+    if (q.norm() - 1.0).abs() > TOL_NORM {
         return Err(D::Error::custom("a pose's quaternion `q` must be of unit length"));
     }
     let rotation = UnitQuaternion::new_unchecked(q);

@@ -4,7 +4,7 @@ use super::pose::Vec3;
 
 /// Returns the triangles of a plane polygon, convex or not, whose `corners` (m) are given in order: three indices of
 /// its corners each, from 0, with the same orientation; none for fewer than three corners. The method is ear clipping
-/// (Meisters 1975), in cubic time. A polygon that crosses itself gives triangles all the same, which overlap.
+/// (Meisters 1975), in cubic time. A polygon that crosses itself gives triangles, too, but they overlap.
 pub fn triangulate(corners: &[Vec3]) -> Vec<[usize; 3]> {
     // Newell's normal, of twice the area.
     let n = corners.len();

@@ -16,20 +16,22 @@ use std::collections::BinaryHeap;
 /// The greatest number of divisions of triangles of one part. The bound then stands as it is, too large rather than
 /// too small.
 const DIVISIONS_MAX: usize = 2000;
-/// The fraction of the drawn part's radius within which a bound is near enough.
-const NEAR_ENOUGH: f64 = 1e-4;
+/// Threshold: a bound is near enough if it is too large by at most this fraction of the drawn part's radius, without
+/// unit: a ten-thousandth, which no drawing shows.
+const TOL_NEAR: f64 = 1e-4;
 
 /// Returns an upper bound, m, on the greatest distance of a point on the surfaces of `shapes` from the union of
 /// `cover`, both in one frame. A bound of 0 means that all surfaces are covered; a bound above 0 does not mean the
 /// opposite. The inside of a closed mesh of `cover` counts as covered. The bound is infinite if `cover` is empty and
 /// `shapes` is not.
 ///
-/// For a part that is a polytope the bound is too large by at most 1e-4 of the radius of its bounding sphere, unless
-/// 2000 divisions of its surface do not suffice. A cylinder is judged as the prism around it, which adds up to 7.5e-5
-/// of the cylinder's radius. For a ball or capsule that no single part of the cover holds there is no such limit.
+/// For a part that is a polytope the bound is too large by at most the fraction `TOL_NEAR` of the radius of its
+/// bounding sphere, unless `DIVISIONS_MAX` divisions of its surface do not suffice. A cylinder is judged as the prism
+/// around it, which adds up to 7.5e-5 of the cylinder's radius. For a ball or capsule that no single part of the cover
+/// holds there is no such limit.
 ///
 /// # Errors
-/// The fault of a shape of `shapes` or `cover` that is no solid; none is looked for if every shape is itself in
+/// The fault of a shape of `shapes` or `cover` that is not a solid; none is looked for if every shape is itself in
 /// `cover`.
 pub fn protrusion(shapes: &[Placed], cover: &[Placed]) -> Result<f64, Unsound> {
     let open: Vec<Placed> = shapes.iter().filter(|placed| !cover.contains(placed)).cloned().collect();
@@ -46,7 +48,7 @@ fn of_part(part: &Part, cover: &Solid) -> f64 {
     if whole == 0.0 || part.rounding() > 0.0 || cover.parts.len() == 1 {
         return whole;
     }
-    let near = NEAR_ENOUGH * part.radius;
+    let near = TOL_NEAR * part.radius;
     let mut open: BinaryHeap<Face> = faces(&corners).into_iter().map(|face| Face::new(face, cover)).collect();
     let mut reached = open.iter().map(|face| face.reached).fold(0.0, f64::max);
     for _ in 0..DIVISIONS_MAX {

@@ -99,7 +99,7 @@ pub fn rotation_vector(r: &Matrix3<f64>) -> Vec3 {
     let twice_sine = Vec3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12);
     let (s, c) = (0.5 * twice_sine.norm(), 0.5 * (r.trace() - 1.0));
     let angle = libm::atan2(s, c);
-    if s > HALF_TURN_SINE {
+    if s > TOL_HALF_TURN_SINE {
         return twice_sine * (0.5 * angle / s);
     }
     if c > 0.0 {
@@ -111,5 +111,6 @@ pub fn rotation_vector(r: &Matrix3<f64>) -> Vec3 {
     both.column(column).normalize() * angle
 }
 
-/// The sine below which a rotation counts as none or as a half turn, where its antisymmetric part has lost the axis.
-const HALF_TURN_SINE: f64 = 1e-9;
+/// Threshold: a rotation counts as none or as a half turn if the sine of its angle, without unit, is at most this,
+/// because rounding has then erased the axis from the antisymmetric part.
+const TOL_HALF_TURN_SINE: f64 = 1e-9;

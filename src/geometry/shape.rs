@@ -66,8 +66,9 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Returns the least extent of the shape, m: of a union that of its thinnest part, infinite if it has none; of a
-    /// hull or mesh the height of its points over three of them that are far apart, 0 if all are in one plane.
+    /// Returns the least extent of the shape, m, or of a hull or mesh an estimate of it: the height of its points over
+    /// three of them that are far apart, 0 if all are in one plane. For a union it is that of its thinnest part,
+    /// infinite if it has none.
     pub fn thickness(&self) -> f64 {
         match self {
             Shape::Box { size } => size.min(),

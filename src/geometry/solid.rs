@@ -70,11 +70,13 @@ impl Solid {
         !self.shells.is_empty()
     }
 
-    /// Returns the point (m, in this solid's frame) of another solid at the pose `X_AB` that is deepest inside the
-    /// meshes of this one that are not convex, with its distance from their surface: a lower bound, m, on the depth
-    /// to which the other is inside. One point inside each convex part of the other and inside each connected surface
-    /// of its meshes is tried; `None` if none is inside, as in a hollow. A solid that is wholly inside is found if no
-    /// surfaces cross.
+    /// Returns the probe point of another solid that is deepest inside the meshes of this one that are not convex, as
+    /// (distance, point): its distance from their surface, m, and the point in this solid's frame, m. `None` if no
+    /// probe point is inside, as in a hollow. `X_AB`: the pose of the other solid's frame (B) in this one's (A).
+    ///
+    /// Only a few points are tried: one inside each convex part of the other solid and one inside each connected
+    /// surface of its meshes. So the distance is a lower bound on the depth to which the other solid is inside. A
+    /// solid that is wholly inside is found if no surfaces cross.
     pub fn enclosed_point(&self, other: &Solid, X_AB: &Pose) -> Option<(f64, Vec3)> {
         let (low, high) = self.bounds;
         let found = |probe: &Vec3| {
@@ -92,8 +94,9 @@ impl Solid {
         deepest.filter(|(depth, _)| *depth > 0.0)
     }
 
-    /// Returns the penetration depth, m, of a point (m, in the link's frame): that in the part in which it is
-    /// deepest; 0 outside of all parts, and in the hollow of a mesh that is not convex.
+    /// Returns the penetration depth of a point (in the link's frame, m) in the convex parts, m: that in the part in
+    /// which it is deepest, a lower bound on its depth in their union. 0 outside of all parts, and inside a mesh that
+    /// is not convex, of which only the surface consists of parts.
     pub fn depth_of(&self, point: &Vec3) -> f64 {
         let point = Part::sphere(*point, 0.0);
         let depth = |part: &Part| -signed_distance(part, &point, &Pose::identity()).distance;

@@ -6,9 +6,9 @@ use super::shape::{Placed, Shape};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// The least extent of a solid, m. Thinner ones have no inside that distances in double precision could
+/// Threshold: the least extent of a solid, m. Thinner ones have no inside that distances in double precision could
 /// resolve.
-pub const THICKNESS_MIN: f64 = 1e-6;
+pub const TOL_THICKNESS: f64 = 1e-6;
 
 /// The greatest length, coordinate or distance of what is declared, m: 1 km. Double precision resolves positions at
 /// that distance to 1e-13 m, and squares of such distances to 1e-10 m², so that the tolerances of 1e-9 m hold there
@@ -18,21 +18,21 @@ pub const EXTENT_MAX: f64 = 1e3;
 /// Threshold: the most by which the norm of a direction or of a rotation may differ from 1, without unit: rounding.
 pub const TOL_UNIT: f64 = 1e-6;
 
-/// The fault by which a shape is no solid.
+/// The fault by which a shape is not a solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unsound {
     /// A number of a shape or pose that is not finite, or whose absolute value is larger than [`EXTENT_MAX`].
     NotFinite,
-    /// A size of a shape, given by its name, that is zero, negative or less than [`THICKNESS_MIN`].
+    /// A size of a shape, given by its name, that is zero, negative or less than [`TOL_THICKNESS`].
     TooThin {
         /// The name of the size, such as `radius`.
         what: &'static str,
         /// The size that was found, m.
         value: f64,
     },
-    /// A cylinder or capsule whose axis has no direction: the vector is shorter than [`THICKNESS_MIN`].
+    /// A cylinder or capsule whose axis has no direction: the vector is shorter than [`TOL_THICKNESS`].
     NoAxis,
-    /// A hull or mesh of fewer than four points, or of points that all lie in one plane to [`THICKNESS_MIN`].
+    /// A hull or mesh of fewer than four points, or of points that all lie in one plane to [`TOL_THICKNESS`].
     Flat,
     /// A triangle of a mesh with a corner whose index is too large for the list of vertices.
     NoVertex {
@@ -46,7 +46,7 @@ pub enum Unsound {
         /// The greater index, from 0, of the edge's two vertices in the mesh.
         b: u32,
     },
-    /// A mesh whose triangles enclose less than the cube of [`THICKNESS_MIN`], or are turned inside out.
+    /// A mesh whose triangles enclose less than the cube of [`TOL_THICKNESS`], or are turned inside out.
     NoInside,
     /// An empty list of shapes, or of vertices.
     Empty,
@@ -140,18 +140,18 @@ fn finite(value: f64) -> Result<(), Unsound> {
 
 fn extent(what: &'static str, value: f64) -> Result<(), Unsound> {
     finite(value)?;
-    if value < THICKNESS_MIN { Err(Unsound::TooThin { what, value }) } else { Ok(()) }
+    if value < TOL_THICKNESS { Err(Unsound::TooThin { what, value }) } else { Ok(()) }
 }
 
 fn direction(axis: &Vec3) -> Result<(), Unsound> {
     axis.iter().try_for_each(|v| finite(*v))?;
-    if axis.norm() < THICKNESS_MIN { Err(Unsound::NoAxis) } else { Ok(()) }
+    if axis.norm() < TOL_THICKNESS { Err(Unsound::NoAxis) } else { Ok(()) }
 }
 
 /// Checks that the points' extent across their flattest direction is more than rounding.
 fn hull(points: &[Vec3]) -> Result<(), Unsound> {
     points.iter().flat_map(|p| p.iter()).try_for_each(|v| finite(*v))?;
-    extents(points, THICKNESS_MIN).map(|_| ()).ok_or(Unsound::Flat)
+    extents(points, TOL_THICKNESS).map(|_| ()).ok_or(Unsound::Flat)
 }
 
 /// Checks that a mesh is closed and oriented: every directed edge has its opposite, as often.
@@ -175,6 +175,6 @@ fn mesh(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Unsound> {
         let [a, b, c] = t.map(|i| vertices[i as usize] - origin);
         a.dot(&b.cross(&c)) / 6.0
     });
-    let least = THICKNESS_MIN * THICKNESS_MIN * THICKNESS_MIN;
+    let least = TOL_THICKNESS * TOL_THICKNESS * TOL_THICKNESS;
     if inside.sum::<f64>() < least { Err(Unsound::NoInside) } else { hull(vertices) }
 }

@@ -18,7 +18,7 @@ enum VertexKey {
 
 /// Returns the vertices (m, in the frame of those given) and faces (three indices of vertices each, from 0) of a mesh
 /// in which every triangle is cut into `parts`² similar ones, in the order of the triangles and of the same
-/// orientation. `parts` is at least 1. Panics if an entry of `faces` has an index that is no vertex.
+/// orientation. `parts` is at least 1. Panics if an entry of `faces` has an index that is not a vertex.
 pub fn subdivide(vertices: &[Vec3], faces: &[[usize; 3]], parts: usize) -> Surface {
     let mut found: BTreeMap<VertexKey, usize> = BTreeMap::new();
     let mut points: Vec<Vec3> = Vec::new();

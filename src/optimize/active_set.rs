@@ -9,8 +9,9 @@
 use super::linear::{Row, Unsolved};
 use super::sparse_cholesky::SparseCholesky;
 
-/// The part of a row's squared length across the active rows below which it counts as a linear combination of them.
-const DEPENDENT: f64 = 1e-11;
+/// Threshold: a row counts as a linear combination of the active rows if the part of its squared length across them is
+/// at most this fraction of the whole, without unit: what is less is rounding.
+const TOL_DEPENDENT: f64 = 1e-11;
 /// The number of rows that may enter the active set, for each row of the program, before the method gives up.
 const CHANGES_MAX: usize = 20;
 
@@ -210,7 +211,7 @@ impl ActiveSet {
             let first = blocks
                 .map(|(i, ((fall, multiplier), _))| (i, (multiplier / (sign * fall)).max(0.0)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
-            let independent = left > DEPENDENT * square;
+            let independent = left > TOL_DEPENDENT * square;
             if equal && !independent && over.abs() <= self.tolerance {
                 return Ok(());
             }

@@ -104,7 +104,8 @@ impl SymmetricMatrix {
         (0..self.size()).map(|row| self.values[self.start[row + 1] - 1]).sum()
     }
 
-    /// Returns the number of multiplications that a Cholesky decomposition of the matrix takes, to the leading order.
+    /// Returns an upper bound on the number of multiplications that a Cholesky decomposition of the matrix takes, to
+    /// the leading order. It is reached where the first columns of the rows never decrease.
     pub fn work(&self) -> usize {
         self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
     }

@@ -9,12 +9,13 @@ use clarabel::solver::{
 /// The greatest number of iterations of the solver.
 const ITERATIONS_MAX: u32 = 200;
 
-/// Solves `min ½ xᵀ H x + c·x` subject to the rows by clarabel's primal-dual interior-point method. `hessian` holds
-/// the entries of H on and above the diagonal, `costs` c; `equal` are equalities, `at_most` inequalities, in whose
-/// order the multipliers of the result are.
+/// Solves `min ½ xᵀ H x + c·x` subject to the rows by clarabel's primal-dual interior-point method, in at most
+/// `ITERATIONS_MAX` iterations. `hessian` holds the entries of H on and above the diagonal, `costs` c; `equal` are
+/// equalities, `at_most` inequalities, in whose order the multipliers of the result are.
 ///
 /// # Errors
-/// The status of the solver where it found no solution, also no approximate one.
+/// [`Unsolved::Infeasible`] or [`Unsolved::Unbounded`] if the solver found that, [`Unsolved::Numerical`] if it found
+/// neither that nor a solution, not even an approximate one.
 pub(super) fn solve(
     hessian: &CscMatrix,
     costs: &[f64],

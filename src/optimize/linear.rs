@@ -43,7 +43,7 @@ pub enum Unsolved {
     Numerical,
 }
 
-/// Solves a linear program by clarabel's primal-dual interior-point method, in at most 200 iterations.
+/// Solves a linear program by clarabel's primal-dual interior-point method.
 ///
 /// # Errors
 /// The status of the solver, as [`Unsolved`], where it found no solution. A status, and a solution, holds to the

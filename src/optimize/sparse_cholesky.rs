@@ -3,9 +3,9 @@
 use super::cholesky::{Cholesky, PivotRule, SymmetricMatrix};
 use super::cuthill_mckee;
 
-/// A pivot below this fraction of the diagonal's entry means that the matrix is not positive definite: rounding is
-/// 1e-16.
-const PIVOT_MIN: f64 = 1e-14;
+/// Threshold: a matrix counts as not positive definite if a pivot is not above this fraction, without unit, of its
+/// diagonal entry, a hundred times the rounding of double precision.
+const TOL_PIVOT: f64 = 1e-14;
 
 /// The Cholesky decomposition `L Lᵀ = P A Pᵀ` of a sparse matrix A, where the permutation P (reverse Cuthill-McKee)
 /// keeps the envelope of L small.
@@ -19,7 +19,7 @@ pub(crate) struct SparseCholesky {
 impl SparseCholesky {
     /// Returns the decomposition of an n × n matrix given by its entries (row, column, value) on and above the
     /// diagonal, or below, with indices from 0; those with equal indices are summed. `None` if it is not positive
-    /// definite, or would take more multiplications than `work_max`.
+    /// definite, or if the bound on its multiplications ([`SymmetricMatrix::work`]) is above `work_max`.
     pub(crate) fn new(n: usize, entries: &[(usize, usize, f64)], work_max: usize) -> Option<SparseCholesky> {
         let order = cuthill_mckee::reverse_order(n, entries.iter().map(|&(i, j, _)| (i, j)));
         let mut position = vec![0; n];
@@ -39,7 +39,7 @@ impl SparseCholesky {
         for (row, column, value) in entries.iter().map(lower) {
             matrix.add(row, column, value);
         }
-        let factor = matrix.cholesky(PivotRule::Refuse(PIVOT_MIN))?;
+        let factor = matrix.cholesky(PivotRule::Refuse(TOL_PIVOT))?;
         Some(SparseCholesky { position, order, factor })
     }
 

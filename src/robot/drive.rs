@@ -22,8 +22,8 @@ pub struct Drive {
     pub driven: bool,
 }
 
-/// Returns the joints that are not fixed, in the order of [`Assembly::joints`], and after them the motors, of all
-/// modules and bonds.
+/// Returns the drives of a robot: its joints that are not fixed, those of modules and hinges of bonds, in the order of
+/// [`Assembly::joints`], and after them the motors of all modules, module by module.
 pub fn drives(robot: &Assembly) -> Vec<Drive> {
     let mut first = 0;
     let mut firsts = Vec::with_capacity(robot.modules.len());

@@ -95,7 +95,7 @@ pub struct Dynamics {
 
 impl Dynamics {
     /// Returns the dynamics of a robot, whose links are numbered as in its [`Kinematics`]. Panics if a module names a
-    /// type that the library has not.
+    /// type that is not in the library.
     pub fn new(robot: &Assembly) -> Dynamics {
         let mut bodies = Vec::new();
         for module in 0..robot.modules.len() {

@@ -40,14 +40,14 @@ pub enum LibraryFault {
         /// The value that was found, in SI units.
         value: f64,
     },
-    /// A quantity that must not be negative, and is so or is no number.
+    /// A quantity that must not be negative, and is so or is not a number.
     Negative {
         /// The name of the quantity in words, such as `mass`.
         what: &'static str,
         /// The value that was found, in SI units.
         value: f64,
     },
-    /// A quantity whose absolute value is above its limit, or that is no number.
+    /// A quantity whose absolute value is above its limit, or that is not a number.
     Bound {
         /// The name of the quantity in words, such as `speed`.
         what: &'static str,
@@ -75,7 +75,7 @@ pub enum LibraryFault {
     },
     /// A module without any link, so that it has no body.
     NoLink,
-    /// A shape that is no solid, or a pose that is not rigid.
+    /// A shape that is not a solid, or a pose that is not rigid.
     Shape(Unsound),
     /// A drawn shape that sticks out of the shape that is judged, farther than the link states.
     LeftOut {
@@ -112,7 +112,7 @@ pub enum LibraryFault {
     SharedLink,
     /// A link that no joints connect with the body.
     LooseLink,
-    /// An axis that is no unit vector: its norm differs from 1 by more than 1e-6.
+    /// An axis that is not a unit vector: its norm differs from 1 by more than 1e-6.
     Axis,
     /// A range that ends before it begins.
     RangeOrder,

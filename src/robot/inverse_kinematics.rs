@@ -141,15 +141,16 @@ pub enum StopReason {
     NotConnected,
 }
 
-/// The least pivot of `J Jᵀ + λ`: lesser ones, which rounding has made so small, are raised to it.
-const PIVOT_MIN: f64 = 1e-12;
+/// Threshold: the least pivot of the decomposition of `J Jᵀ + λ`, in the unit of the matrix; lesser ones, which are
+/// nothing but rounding, are raised to it.
+const TOL_PIVOT: f64 = 1e-12;
 
-/// Solves a problem of inverse kinematics: changes `q` by damped least squares (Buss 2005) until the problem is
-/// solved, or not. `limits` are the least and greatest position of every joint (rad or m; infinite ones are allowed),
-/// to which every step clamps `q`; a start outside of them that already solves the problem is returned as it is.
-/// Returns the reason that it ended, and the number of steps taken; `q` holds the last positions in any case.
-/// `settings`: the limits and weights of the descent. Panics if `q` and `limits` differ in length, or a least
-/// position is above the greatest.
+/// Solves a problem of inverse kinematics: changes `q` by damped least squares (Buss 2005), a local search, until the
+/// problem is solved, or not. Returns (reason, steps): the reason that it ended, and the number of steps taken; `q`
+/// holds the last positions in any case. `limits` are the (least, greatest) position of every joint, rad or m, of
+/// which infinite ones are allowed; every step clamps `q` to them, but a start outside of them that already solves the
+/// problem is returned as it is. `settings`: the limits and weights of the descent. Panics if `q` and `limits` differ
+/// in length, or a least position is above the greatest.
 pub fn solve(
     problem: &mut dyn IkProblem,
     q: &mut [f64],
@@ -266,12 +267,12 @@ fn damped_least_squares(
         let done = row.terms.iter().map(|&(joint, _)| dense[i * count + joint] * preferred[joint]);
         right[i] = row.goal - done.sum::<f64>();
     }
-    let trace = gram.trace().max(TRACE_MIN);
+    let trace = gram.trace().max(TOL_TRACE);
     for i in 0..rows.len() {
         let damped = damping + settings.damping_of_trace * trace;
         gram.add(i, i, if i < task { damped } else { settings.damping_inequality });
     }
-    if let Some(factor) = gram.cholesky(PivotRule::Raise(PIVOT_MIN)) {
+    if let Some(factor) = gram.cholesky(PivotRule::Raise(TOL_PIVOT)) {
         factor.solve(&mut right);
     }
     let mut change: Vec<f64> =
@@ -284,8 +285,9 @@ fn damped_least_squares(
     (change, right)
 }
 
-/// The least trace of `J Jᵀ` that damping is computed from, so that a task that no joint moves is damped, too.
-const TRACE_MIN: f64 = 1e-9;
+/// Threshold: the least trace of `J Jᵀ` that damping is computed from, in the unit of the matrix, so that a task that
+/// no joint moves is damped, too.
+const TOL_TRACE: f64 = 1e-9;
 
 /// The part of a pose that is to be reached: the pose, or the position of its origin alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -345,11 +347,11 @@ const REST_GAIN: f64 = 0.1;
 /// The greatest angle that one step corrects, rad.
 const ANGLE_STEP_MAX: f64 = 0.4;
 
-/// Solves the inverse kinematics of a frame of an assembly: finds joint positions (rad or m) that bring it to a pose,
-/// by damped least squares (Buss 2005) from those of `start`, one for every joint of the assembly, by the number in
-/// its `JointId`. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints are not
-/// regarded, nor collisions, nor bonds that close loops. `task`: the robot, the frame and its goal; `settings`: the
-/// limits and weights of the descent. Panics if `start` has too few positions.
+/// Searches for joint positions (rad or m) that bring a frame of an assembly to a pose, by damped least squares (Buss
+/// 2005) from those of `start`, one for every joint of the assembly, by the number in its `JointId`. Being local, the
+/// search may miss a solution. Fixed, passive and mimicking joints are not commanded; the limits of mimicking joints
+/// are not regarded, nor collisions, nor bonds that close loops. `task`: the robot, the frame and its goal;
+/// `settings`: the limits and weights of the descent. Panics if `start` has too few positions.
 pub fn reach(task: &Reach, start: &[f64], settings: &Settings) -> Reached {
     let mut joints = start.to_vec();
     let held = task.kinematics.link(task.base.0, 0);

@@ -54,8 +54,8 @@ pub enum JointAxis {
 }
 
 impl JointAxis {
-    /// Returns the linear velocity (m/s) and the angular velocity (rad/s), in the world, of a carried frame with its
-    /// origin at `p` (m), for a joint velocity of 1 rad/s or 1 m/s.
+    /// Returns the velocity, in the world, of a carried frame with its origin at `p` (m) for a joint velocity of 1
+    /// rad/s or 1 m/s, as (linear, angular): in m/s and rad/s.
     pub fn velocity(&self, p: &Vec3) -> (Vec3, Vec3) {
         match self {
             JointAxis::Revolute { axis, point } => (axis.cross(&(p - point)), *axis),

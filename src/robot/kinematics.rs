@@ -128,9 +128,9 @@ impl Kinematics {
         std::iter::successors(self.step(link), |step| self.step(step.parent))
     }
 
-    /// Returns the step between two links, given by their numbers, that are neighbours in the tree, such as those that
-    /// follow each other on a [`path`](Self::path), and +1 where it leads from the first to the second, -1 where it
-    /// leads back. Panics if the links are not neighbours.
+    /// Returns (step, sign) of two links, given by their numbers, that are neighbours in the tree, such as those that
+    /// follow each other on a [`path`](Self::path): the step between them, and +1 where it leads from the first to the
+    /// second, -1 where it leads back. Panics if the links are not neighbours.
     pub fn step_between(&self, from: usize, to: usize) -> (&Step, f64) {
         let down = self.step(to).filter(|step| step.parent == from).map(|step| (step, 1.0));
         let up = || self.step(from).filter(|step| step.parent == to).map(|step| (step, -1.0));
@@ -199,9 +199,9 @@ impl Kinematics {
         Some(up)
     }
 
-    /// Returns the centre of mass of the links that are connected with the root, in the world (m), and their mass
-    /// (kg); if they have no mass, the world's origin and 0. `poses` are the world poses of all links, by their
-    /// numbers. `robot`: the assembly that was compiled.
+    /// Returns (centre, mass) of the links that are connected with the root: their centre of mass in the world, m, and
+    /// their mass, kg; if they have no mass, the world's origin and 0. `poses` are the world poses of all links, by
+    /// their numbers. `robot`: the assembly that was compiled.
     pub fn centre_of_mass(&self, robot: &Assembly, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
         for &(module, _) in &self.tree.order {

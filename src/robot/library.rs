@@ -210,8 +210,9 @@ impl Servo {
         *self == Servo::default()
     }
 
-    /// Returns the stiffness, N·m/rad or N/m: as stated, or such that the servo yields by 1° under its greatest effort
-    /// (N·m or N), or the default. `slides`: the joint slides.
+    /// Returns the stiffness, N·m/rad or N/m: as stated, or such that the servo yields by
+    /// [`TURN_YIELD_DEFAULT`](Servo::TURN_YIELD_DEFAULT) or [`SLIDE_YIELD_DEFAULT`](Servo::SLIDE_YIELD_DEFAULT) under
+    /// its greatest effort (N·m or N), or the default. `slides`: the joint slides.
     pub fn stiffness(&self, slides: bool, effort: Option<f64>) -> f64 {
         let (yields, unknown) = match slides {
             true => (Servo::SLIDE_YIELD_DEFAULT, Servo::SLIDE_STIFFNESS_DEFAULT),
@@ -287,11 +288,11 @@ pub struct Cell {
 pub struct Strut {
     /// The declared name of the strut.
     pub name: String,
-    /// The least and the greatest length, m.
+    /// The least and the greatest length, m: the distance between the nodes at its ends.
     pub length: (f64, f64),
     /// The greatest speed of lengthening and shortening, m/s.
     pub speed: f64,
-    /// The greatest force along the strut, N.
+    /// The greatest magnitude of the force along the strut, N, as declared: the judge computes no forces of struts.
     pub force: f64,
     /// The mass of the strut, kg.
     pub mass: f64,

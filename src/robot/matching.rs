@@ -34,8 +34,8 @@ impl Matching {
         PortRef { module: self.modules[port.module], port: turned.ports[port.port] }
     }
 
-    /// Returns the image in A of a joint of a module of B, given by their indices: the index of the module in A, and
-    /// that of the joint in its type. Panics if B has no such module or joint.
+    /// Returns the image in A of a joint of a module of B, given by their indices, as (module, joint): the index of
+    /// the module in A, and that of the joint in its type. Panics if B has no such module or joint.
     pub fn joint(&self, module: usize, joint: usize) -> (usize, usize) {
         (self.modules[module], self.turned[module].joints[joint])
     }

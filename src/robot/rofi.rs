@@ -143,7 +143,7 @@ pub fn read(text: &str) -> Result<World, FileError> {
 }
 
 /// Returns a configuration in RoFI's text format. A configuration as [`read`] returns it reads back to the same but
-/// for the line numbers. Panics if a connection has an index that is no module.
+/// for the line numbers. Panics if a connection has an index that is not a module.
 pub fn write(world: &World) -> String {
     let mut text = String::from("C\n");
     for Module { id, joints: [alpha, beta, gamma], .. } in &world.modules {
@@ -214,7 +214,7 @@ impl Reader {
     /// is ignored.
     ///
     /// # Errors
-    /// The end that is wrong, 0 for `a` or 1 for `b`, and a message in words.
+    /// (end, message): the end that is wrong, 0 for `a` or 1 for `b`, and the reason in words.
     pub(super) fn add_edge(&mut self, edge: Edge) -> Result<(), (usize, String)> {
         let Edge { a, b, .. } = edge;
         for (end, dock) in [a, b].into_iter().enumerate() {

@@ -56,9 +56,9 @@ pub fn module_type(pitch: f64) -> ModuleType {
     }
 }
 
-/// Returns a configuration as an assembly of modules of the given `pitch` (m) and its start state: joints at the
-/// file's positions (converted to rad), all bonds closed, shoe A of the first module at the origin of the world. The
-/// module of id 7 is named `m[7]`.
+/// Returns a configuration as (assembly, start state), of modules of the given `pitch` (m): joints at the file's
+/// positions (converted to rad), all bonds closed, shoe A of the first module at the origin of the world. The module
+/// of id 7 is named `m[7]`.
 pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
     let dock = Connector {
         name: "Dock".into(),

@@ -153,8 +153,8 @@ fn edge(reader: &Reader, connection: &Connection, line: usize) -> Result<Edge, S
 }
 
 /// Returns a configuration in RoFI's JSON format, in which shoe A of the first module is fixed at the origin. A
-/// configuration as [`read`] returns it reads back to the same but for the line numbers. Panics if a connection has
-/// an index that is no module.
+/// configuration as [`read`] returns it reads back to the same but for the line numbers. Panics if a connection has an
+/// index that is not a module.
 pub fn write(world: &World) -> String {
     let module = |m: &Module| {
         let [alpha, beta, gamma] = m.joints;

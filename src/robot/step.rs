@@ -7,8 +7,9 @@ use super::library::{JointKind, ModuleType};
 use crate::geometry::{Pose, Vec3, sin_cos};
 use nalgebra::{Quaternion, UnitQuaternion};
 
-/// The absolute value below which a component of an axis or offset is taken for the rounding of a declared zero.
-const ROUNDING: f64 = 1e-15;
+/// Threshold: a component of a unit axis (without unit) or of an offset (m), or an angle (rad), counts as zero if its
+/// absolute value is below this, because it is then the rounding of a declared zero.
+const TOL_ZERO: f64 = 1e-15;
 
 /// The greatest number of steps over which joints follow joints that follow others.
 pub(super) const MIMIC_DEPTH_MAX: usize = 16;
@@ -74,9 +75,9 @@ impl Motion {
     }
 
     /// Returns the rotation about `axis`, in the frame in which `axis` is given. The axis need not be of unit length
-    /// but must not be zero; components below 1e-15 of its length count as zero.
+    /// but must not be zero; components below the fraction `TOL_ZERO` of its length count as zero.
     pub fn revolute(axis: Vec3) -> Motion {
-        let axis = axis.normalize().map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
+        let axis = axis.normalize().map(|c| if c.abs() < TOL_ZERO { 0.0 } else { c });
         match (axis.x != 0.0, axis.y != 0.0, axis.z != 0.0) {
             (true, false, false) => Motion::X(axis.x.signum()),
             (false, true, false) => Motion::Y(axis.y.signum()),
@@ -122,7 +123,7 @@ impl Step {
             }
             (motion, None) => (motion, Vec3::zeros()),
         };
-        let offset = offset.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
+        let offset = offset.map(|c| if c.abs() < TOL_ZERO { 0.0 } else { c });
         Step {
             parent,
             link,
@@ -134,7 +135,7 @@ impl Step {
                 [one] => Drive::One(one),
                 _ => Drive::Sum(terms.into_boxed_slice()),
             },
-            turned: turn.angle() > ROUNDING,
+            turned: turn.angle() > TOL_ZERO,
             offset_from_axis: offset != Vec3::zeros(),
         }
     }

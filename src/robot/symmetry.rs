@@ -36,7 +36,7 @@ impl Symmetry {
 
 /// Returns the symmetries of a module under which equal joint positions stay equal joint positions, the identity
 /// first. Left out are those that leave the first port in place, and all but the identity for modules with motors.
-/// Lengths (m) and directions agree to 1e-9.
+/// Positions agree to `TOL_SAME`, directions to `TOL_SAME_ANGLE`.
 pub fn symmetries(kind: &ModuleType) -> Vec<Symmetry> {
     let mut all = vec![Symmetry::identity(kind)];
     if let Some(first) = kind.ports.first().filter(|_| kind.motors.is_empty()) {
@@ -201,9 +201,9 @@ fn tensor(i: &[f64; 6]) -> nalgebra::Matrix3<f64> {
 
 fn near(a: &Pose, b: &Pose) -> bool {
     let error = a.inverse() * b;
-    error.translation.vector.norm() < TOL_SAME && error.rotation.angle() < ANGLE_SAME
+    error.translation.vector.norm() < TOL_SAME && error.rotation.angle() < TOL_SAME_ANGLE
 }
 
-/// The angle (rad) below which two orientations are the same: the angle of a rotation has half the digits of its
-/// entries.
-const ANGLE_SAME: f64 = 1e-7;
+/// Threshold: two orientations are the same if they differ by less than this angle, rad: more than [`TOL_SAME`], for
+/// the angle of a small rotation has half as many correct digits as the entries of its matrix.
+const TOL_SAME_ANGLE: f64 = 1e-7;

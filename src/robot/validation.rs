@@ -8,7 +8,7 @@ use super::library::{
     Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Servo, Strut,
 };
 use super::step::MIMIC_DEPTH_MAX;
-use crate::geometry::soundness::{EXTENT_MAX, THICKNESS_MIN, TOL_UNIT, check_placed, check_pose};
+use crate::geometry::soundness::{EXTENT_MAX, TOL_THICKNESS, TOL_UNIT, check_placed, check_pose};
 use crate::geometry::{Placed, Solid, Unsound, Vec3, protrusion};
 use nalgebra::Matrix3;
 use std::collections::BTreeSet;
@@ -24,7 +24,7 @@ pub const POSITION_MAX: f64 = 1e6;
 /// with levers longer than this the judge, which follows contacts by the smallest steps that a tip could make, takes
 /// minutes for seconds of motion.
 pub const MODULE_EXTENT_MAX: f64 = 10.0;
-/// The greatest `touch` of a module, m: a deeper penetration is no tolerance of shapes any more.
+/// The greatest `touch` of a module, m: a deeper penetration is more than a tolerance of shapes.
 pub const TOUCH_MAX: f64 = 5e-3;
 /// The greatest `contact` of a module, m: links farther above the ground do not stand on it.
 pub const CONTACT_MAX: f64 = 2e-2;
@@ -156,7 +156,9 @@ pub fn check_connector(all: &[Connector], index: usize) -> Checked {
     Ok(())
 }
 
-/// Checks a module type, with `connectors` the number of connectors that the indices in its ports may name.
+/// Checks a module type: its indices, that the joints carry the links as a tree, `touch` and `contact`, shapes and
+/// masses of the links, joints, motors and ports. `connectors`: the number of connectors that the indices in its ports
+/// may name.
 ///
 /// # Errors
 /// Its first fault; if it is that of a link, joint, motor or port, inside that part.
@@ -204,7 +206,7 @@ fn check_link(link: &Link) -> Checked {
 }
 
 /// Returns an upper bound on the distance by which the drawn shapes `shape` stick out of `collides`, those that are
-/// judged, m, both in the link's frame: 0 up to the 1e-5 m that tolerances of shapes explain; infinite if only
+/// judged, m, both in the link's frame: 0 up to the `TOL_LEFT_OUT` that tolerances of shapes explain; infinite if only
 /// `collides` is empty.
 ///
 /// # Errors
@@ -363,11 +365,11 @@ fn unit(axis: &Vec3) -> Checked {
 ///
 /// # Errors
 /// Its first fault: a size, mass, force or speed that is not positive or too large, an edge thinner than
-/// [`THICKNESS_MIN`], or one that does not shrink.
+/// [`TOL_THICKNESS`], or one that does not shrink.
 pub fn check_cell(cell: &Cell) -> Checked {
     need_positive(cell.size, EXTENT_MAX, "`size`")?;
     need_positive(cell.shrinks_to, EXTENT_MAX, "`shrinks_to`")?;
-    let thick = cell.shrinks_to >= THICKNESS_MIN;
+    let thick = cell.shrinks_to >= TOL_THICKNESS;
     need(thick, || LibraryFault::Shape(Unsound::TooThin { what: "edge", value: cell.shrinks_to }))?;
     need(cell.shrinks_to < cell.size, || LibraryFault::NoShrinking)?;
     need_positive(cell.mass, QUANTITY_MAX, "`mass`")?;
