@@ -32,8 +32,9 @@ pub(super) struct Bindings {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a lambda given for a parameter whose type has type parameters, binds these, and returns the typed lambda;
-    /// an error node after a report.
+    /// Returns the typed lambda of an argument written as `e`, in `scope`, for the parameter `param` whose type has
+    /// type parameters, which it binds in `bindings`; an error node, after a report, if the lambda has a mistake or
+    /// does not fit.
     ///
     /// Its result may not fit what the arguments before it have bound, as in `reduce(list, (a, x) => a + x, from: 0)`
     /// over numbers: then the parameter is bound anew to what both fit, and the lambda is checked again with it.

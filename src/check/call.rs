@@ -29,8 +29,10 @@ enum Callee {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks a call, and returns it typed; an error node after a report. `want` is the type expected of its result,
-    /// `None` if any will do.
+    /// Returns the typed expression of a call, written at `span` in `scope`; an error node, after a report, if the
+    /// callee is unknown or can't be called. Arguments that are wrong are reported, and are error nodes in the call.
+    /// `want`: the type expected of its result, `None` if any will do; it decides between the readings of a built-in
+    /// ([`reading`](Self::reading)).
     pub(super) fn call(
         &mut self,
         scope: &mut Scope,
@@ -157,8 +159,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the entity of an item of an imported file, as in `gaits.caterpillar`; [`Entity::Error`] if the file has
-    /// no such item (reported). `None` if the object is no name of an imported file.
+    /// Returns the entity of an item of an imported file, as in `gaits.caterpillar`; [`Entity::Error`], after a
+    /// report, if the file has no such item. `None` if `object`, in `scope`, is not a name of an imported file.
     pub(super) fn file_item(
         &mut self,
         scope: &mut Scope,
@@ -303,8 +305,9 @@ impl<'a> Checker<'a> {
         expr_of(span, f.result.clone(), ExprKind::SetDimension(Box::new(call)))
     }
 
-    /// Returns checked arguments in the order of the parameters of `signature`; `None` for one that is left out.
-    /// Reports mistakes under the name of the function, `name`.
+    /// Returns the typed arguments of a call at `span`, in the order of the parameters of `signature`, `None` for one
+    /// that is left out. An argument that is wrong or missing is reported, and is an error node; one too many, given
+    /// twice or under an unknown name is reported and left out. `name`: that of the function, for messages.
     pub(super) fn arguments_of(
         &mut self,
         scope: &mut Scope,
@@ -483,8 +486,8 @@ impl<'a> Checker<'a> {
         self.bind_argument(got, &param.ty, param.name, bindings)
     }
 
-    /// Checks that an argument `got` fits the type `pattern` of the parameter `name`, and binds the type parameters in
-    /// it. Returns the argument; an error node if it does not fit (reported).
+    /// Returns the argument `got` in the dimensions of the type `pattern` of the parameter `name`, and binds the type
+    /// parameters in it; an error node, after a report, if it does not fit.
     pub(super) fn bind_argument(
         &mut self,
         got: Expr,

@@ -92,7 +92,7 @@ pub(super) struct Signature {
     /// The declared result, [`Type::Nothing`] for an `extern fn` without one; `None` if it is inferred from the
     /// body.
     pub result: Option<Type>,
-    /// The type parameters, in order; empty for what is no function.
+    /// The type parameters, in order; empty for what is not a function.
     pub type_params: Vec<TypeParam>,
     /// True if the parameters are the fields of a record, which are given by name.
     pub fields: bool,
@@ -299,8 +299,8 @@ impl<'a> Checker<'a> {
         own.or_else(|| self.loaded.prelude.and_then(|p| self.top(p).get(&name).copied()))
     }
 
-    /// Returns the entity of a name at the top of a file, and records the use at `span`; `None` for an unknown
-    /// name.
+    /// Returns the entity of a name at the top of a file (an index into the loaded files), the prelude included, and
+    /// records its use at `span`; `None` for an unknown name.
     pub(super) fn named_entity(&self, file: usize, name: Symbol, span: Span) -> Option<Entity> {
         let found = self.entity(file, name);
         if let Some(Entity::Def(id)) = found {
@@ -518,7 +518,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Returns the family (module, configuration, cell and so on) of a declaration with instances; `None` for other
-    /// declarations.
+    /// declarations. Panics if there is none of this identity.
     pub(super) fn family(&self, id: DefId) -> Option<Family> {
         Some(match self.def(id).item {
             DefItem::Module(_) => Family::Module,

@@ -15,8 +15,8 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
-    /// Checks a `config`, and returns it typed; reports parts, ports and clauses that are wrong, for which error nodes
-    /// stand.
+    /// Returns the typed body of the `config` of a declaration. Parts, ports and clauses that are wrong are reported,
+    /// and error nodes stand for their expressions.
     pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, Some(id));
@@ -91,7 +91,7 @@ impl<'a> Checker<'a> {
         PartDef { member, name: part.name.text, span: part.name.span, of, count, args, ty_span: part.ty_span }
     }
 
-    /// Returns the declaration that a part is an instance of; `None` (and a diagnostic) if it is no module or
+    /// Returns the declaration that a part is an instance of; `None` (and a diagnostic) if it is not a module or
     /// configuration.
     fn part_type(&mut self, scope: &Scope, part: &'a ast::Part) -> Option<DefId> {
         let path = &part.ty;
@@ -301,8 +301,9 @@ impl<'a> Checker<'a> {
         self.coerce(port, &Type::Port, Role::Place("`connect`"))
     }
 
-    /// Checks a path such as `body.side[i]`, and returns it as a typed expression in which every prefix has its own
-    /// span; an error node after a report. `want` is the type expected of the whole, `None` if any will do.
+    /// Returns the typed expression of a path such as `body.side[i]`, in which every prefix has its own span; an error
+    /// node, after a report, if a name or member of it is unknown. `want`: the type expected of the whole, `None` if
+    /// any will do; it decides between a joint and a port of one name.
     pub(super) fn path(&mut self, scope: &mut Scope, path: &'a ast::Path, want: Option<&Type>) -> Expr {
         let last = path.steps.len();
         let root_want = if last == 0 { want } else { None };
@@ -350,8 +351,9 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, name, chosen.as_ref().or(want))
     }
 
-    /// Checks a `port` clause of a configuration, and returns it as a member. `array`: true if the clause declares an
-    /// array of ports. Panics on another clause.
+    /// Returns the `port` clause of a configuration as a member with typed expressions; error nodes, after a report,
+    /// stand for those that are wrong. `array`: true if the clause declares an array of ports. Panics on another
+    /// clause.
     pub(super) fn config_port(&mut self, id: DefId, clause: &'a ConfigClauseKind, array: bool) -> MemberKind {
         let ConfigClauseKind::Port { name, count, value } = clause else {
             unreachable!("only port clauses are ports")

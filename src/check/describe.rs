@@ -64,7 +64,7 @@ impl Checker<'_> {
 }
 
 impl Program {
-    /// Returns a type as programs write it, such as `List<Length>`; `?` for an error, `nothing` for no value.
+    /// Returns a type as programs write it, such as `List<Length>`; `?` for [`Type::Error`], `nothing` for no value.
     pub fn type_name(&self, ty: &Type) -> String {
         type_name(ty, &|id| self.def(id).name, &[])
     }

@@ -31,7 +31,7 @@ impl std::fmt::Display for Role {
     }
 }
 
-/// Returns an expression of a type, as nodes of the typed tree are made.
+/// Returns the node of the typed tree for an expression of kind `kind` and type `ty`, written at `span`.
 pub(super) fn expr_of(span: Span, ty: Type, kind: ExprKind) -> Expr {
     Expr { span, ty, kind }
 }
@@ -45,22 +45,23 @@ pub(super) fn in_dimensions(got: Expr, want: &Type) -> Expr {
     }
 }
 
-/// Returns the error node that stands for an expression with a reported mistake.
+/// Returns the error node, which stands at `span` for an expression with a reported mistake. Its type fits any other,
+/// so that no further mistake follows from it.
 pub(super) fn error_expr(span: Span) -> Expr {
     expr_of(span, Type::Error, ExprKind::Error)
 }
 
 impl<'a> Checker<'a> {
-    /// Checks an expression that must fit the type `want`, in a context that messages name by `role`, and returns it
-    /// typed; an error node after a report.
+    /// Returns the typed expression `e`, in `scope`, converted to the type `want` as by [`coerce`](Self::coerce); an
+    /// error node, after a report, if it has a mistake or does not fit. `role`: the context, as messages name it.
     pub(super) fn expect(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: &Type, role: Role) -> Expr {
         let got = self.expr(scope, e, Some(want));
         self.coerce(got, want, role)
     }
 
-    /// Converts a checked expression to the type `want`, in a context that messages name by `role`: drops the radians
-    /// of a quantity where `want` has none, and names energies and torques as `want` does. Reports a mismatch, and
-    /// returns an error node.
+    /// Returns the typed expression `got` converted to the type `want`: without the radians of a quantity where `want`
+    /// has none, and with energies and torques named as in `want`; an error node, after a report, if it does not fit.
+    /// `role`: the context, as messages name it.
     pub(super) fn coerce(&mut self, got: Expr, want: &Type, role: Role) -> Expr {
         if !self.fits(&got.ty, want) {
             self.mismatch(&got, want, role);
@@ -110,8 +111,9 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks an expression, and returns it typed; an error node after a report. `want` is the expected type, which
-    /// decides what words of choices, `_` and `[...]` mean; `None` if any will do.
+    /// Returns the typed expression `e`, in `scope`; an error node, after a report, if it has a mistake that leaves
+    /// nothing of it to understand; mistakes inside give error nodes there. `want`: the expected type, which decides
+    /// the meaning of words of choices, `_` and `[...]`, but is not enforced; `None` if any will do.
     pub(super) fn expr(&mut self, scope: &mut Scope, e: &'a ast::Expr, want: Option<&Type>) -> Expr {
         use ast::ExprKind as K;
         let span = e.span;

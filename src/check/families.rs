@@ -13,8 +13,8 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a `cell` or `strut`, and returns it typed; reports facts of its family that are missing, given twice or
-    /// of another dimension.
+    /// Returns the typed body of a `cell` or `strut`. Facts of its family that are missing, given twice or of another
+    /// dimension are reported.
     pub(super) fn check_facts(&mut self, id: DefId, facts: &'a ast::Facts) -> DefKind {
         let known = Family::from(facts.family).facts();
         let signature = self.signature(id);
@@ -93,7 +93,7 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// Checks a `lattice`, and returns it typed; [`DefKind::Error`] after a report if its cell is unknown.
+    /// Returns the typed body of a `lattice`; [`DefKind::Error`], after a report, if its cell is unknown.
     pub(super) fn check_lattice(&mut self, id: DefId, lattice: &'a ast::Lattice) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;
@@ -106,7 +106,7 @@ impl<'a> Checker<'a> {
         DefKind::Lattice(LatticeDef { params, members, of, value, frame: scope.frame() })
     }
 
-    /// Checks a `truss`, and returns it typed; [`DefKind::Error`] after a report if its strut is unknown.
+    /// Returns the typed body of a `truss`; [`DefKind::Error`], after a report, if its strut is unknown.
     pub(super) fn check_truss(&mut self, id: DefId, truss: &'a ast::Truss) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;

@@ -122,7 +122,8 @@ impl From<FactsFamily> for Family {
     }
 }
 
-/// The parts that the declarations of all families of instances have: parameters, members, size of the frame of locals.
+/// The parts that the declarations of all families of instances have in common: parameters, members, and the size of
+/// the frame of locals.
 pub struct Instantiable<'p> {
     /// The family of the declaration.
     pub family: Family,

@@ -13,8 +13,9 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Returns the member, joint or port that a bare name stands for in the body of `this`; `want` decides between a
-    /// joint and a port of one name. `None` if it names none.
+    /// Returns the typed expression of the member, joint or port that a bare name at `span` stands for in the body of
+    /// `this`; `None` if it names none. `want`: the expected type, which decides between a joint and a port of one
+    /// name.
     pub(super) fn own_member(
         &mut self,
         this: DefId,
@@ -33,8 +34,9 @@ impl<'a> Checker<'a> {
         Some(self.field_of(span, object, ast::Name { text: name, span }, want))
     }
 
-    /// Checks `object.name`, and returns it typed; an error node after a report. `want`, the expected type, decides
-    /// between a joint and a port of one name.
+    /// Returns the typed expression of `object.name`, written at `span` in `scope`; an error node, after a report, if
+    /// the object is unknown or has no such field, or an imported file no such item. `want`: the expected type, which
+    /// decides between a joint and a port of one name.
     pub(super) fn field(
         &mut self,
         scope: &mut Scope,
@@ -68,8 +70,9 @@ impl<'a> Checker<'a> {
         self.field_of(span, object, field, want)
     }
 
-    /// Resolves `.joint` or `.port` behind `object`: the object itself, if it is already the one or the other, else its
-    /// field of this name; reports an unknown field, and returns an error node.
+    /// Returns the typed expression of `.joint` or `.port` after `object`, which choose between a joint and a port of
+    /// one name: the object itself, if it is already the one or the other, else its field of this name; an error node,
+    /// after a report, if it has no such field.
     pub(super) fn chosen(&mut self, span: Span, object: Expr, field: ast::Name) -> Expr {
         match (field.text.as_str(), object.kind) {
             ("joint", kind @ ExprKind::Joint { .. }) | ("port", kind @ ExprKind::Port { .. }) => {
@@ -79,8 +82,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the field of a checked object, by the type of the object; reports a field that it does not have, and
-    /// returns an error node. `want`, the expected type, decides between a joint and a port of one name.
+    /// Returns the typed expression of a field of a typed object, by the object's type; an error node, after a report,
+    /// if it has no such field. `want`: the expected type, which decides between a joint and a port of one name.
     pub(super) fn field_of(
         &mut self,
         span: Span,

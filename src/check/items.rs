@@ -23,7 +23,8 @@ const STACK_LEFT_MIN: usize = 1 << 20;
 const STACK_PIECE: usize = 8 << 20;
 
 impl<'a> Checker<'a> {
-    /// Returns the signature of a declaration; computes it at the first call, and reports its mistakes then.
+    /// Returns the signature of a declaration, computed at the first call. Mistakes in it are reported then, with
+    /// [`Type::Error`] for a type that is wrong.
     pub(super) fn signature(&mut self, id: DefId) -> Rc<Signature> {
         if let Some(signature) = &self.def(id).signature {
             return signature.clone();
@@ -89,7 +90,8 @@ impl<'a> Checker<'a> {
         Signature { params, result: Some(result), type_params, fields: false }
     }
 
-    /// Returns the parameters of a signature; reports names given twice.
+    /// Returns the parameters of a signature, whose types are resolved in `scope`. Names given twice are reported, and
+    /// so are unknown types, which become [`Type::Error`].
     pub(super) fn params(&mut self, scope: &Scope, params: &'a [ast::Param]) -> Vec<ParamInfo> {
         let mut seen: Vec<(Symbol, Span)> = Vec::new();
         params
@@ -111,9 +113,10 @@ impl<'a> Checker<'a> {
             .collect()
     }
 
-    /// Checks the defaults of parameters, written in `asts`, and returns the parameters `infos` with them. `infos` may
-    /// begin with others that have no default, as a method's does with its object. If `bind` is true, each parameter is
-    /// bound as a local, for a body without members.
+    /// Returns the parameters `infos` with their defaults, written in `asts`, as typed expressions; an error node,
+    /// after a report, for a default that is wrong. `infos` may begin with others that have no default, as a method's
+    /// does with its object. If `bind` is true, each parameter is bound as a local in `scope`, for a body without
+    /// members.
     pub(super) fn typed_params(
         &mut self,
         scope: &mut Scope,
@@ -244,8 +247,8 @@ impl<'a> Checker<'a> {
         DefKind::Let(LetDef { ty, value, frame: scope.frame() })
     }
 
-    /// Checks the value of a `let` against its declared type, if it has one, and returns it typed; an error node after
-    /// a report.
+    /// Returns the typed value of a `let`, converted to its declared type if it has one; an error node, after a
+    /// report, if the value has a mistake or does not fit.
     pub(super) fn let_value(&mut self, scope: &mut Scope, x: &'a ast::Let) -> Expr {
         let written = x.ty.as_ref().map(|ty| self.type_expr(scope, ty));
         self.value_of_type(scope, x, written)
@@ -348,7 +351,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks statements in the current scope, and returns those that can be run, in order.
+    /// Returns the typed statements that can be run, in order, checked in the current scope; mistakes are reported,
+    /// and error nodes stand for expressions that are wrong.
     pub(super) fn statements(&mut self, scope: &mut Scope, statements: &'a [ast::Stmt]) -> Vec<Stmt> {
         let mark = scope.open();
         statements.iter().filter_map(|s| self.statement(scope, mark, s)).collect()
@@ -409,7 +413,8 @@ impl<'a> Checker<'a> {
         out
     }
 
-    /// Checks a `require` clause, whose condition must be a truth value and whose message a text, and returns it typed.
+    /// Returns the typed `require` clause; error nodes, after a report, stand for a condition that is not a truth
+    /// value and a message that is not a text.
     pub(super) fn require(&mut self, scope: &mut Scope, r: &'a ast::Require) -> super::typed::Require {
         super::typed::Require {
             span: r.span,
@@ -421,8 +426,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks the statements and tests of the file that is run (an index into the loaded files), and returns both in
-    /// order.
+    /// Returns the typed statements and tests of the file that is run (an index into the loaded files), both in order;
+    /// mistakes are reported.
     pub(super) fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
         let mut scope = Scope::new(file, None);
         let mut statements = Vec::new();

@@ -10,8 +10,9 @@ use crate::syntax::ast;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a list `[a, b]`, or a vector where `want` expects one, which must have three elements, and returns it
-    /// typed; an error node after a report.
+    /// Returns the typed expression of a list `[a, b]`, or of a vector if `want` expects one and there are three
+    /// elements; an error node, after a report, if the elements have no common type. Elements that do not fit the
+    /// expected type are reported, and are error nodes. `want`: the type expected of the list, `None` if any will do.
     pub(super) fn list(
         &mut self,
         scope: &mut Scope,
@@ -71,8 +72,8 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::list(common), ExprKind::List(out))
     }
 
-    /// Checks a list comprehension, and returns it typed; `want` is the type expected of the list, `None` if any will
-    /// do.
+    /// Returns the typed expression of a list comprehension, written at `span` in `scope`; error nodes, after a
+    /// report, stand for a part that is wrong. `want`: the type expected of the list, `None` if any will do.
     pub(super) fn comprehension(
         &mut self,
         scope: &mut Scope,
@@ -104,8 +105,8 @@ impl<'a> Checker<'a> {
         expr_of(span, ty, ExprKind::Comprehension { body: Box::new(body), clauses: typed })
     }
 
-    /// Checks the expression that a `for` loops over, and returns it with the type of its elements, [`Type::Error`]
-    /// after a report.
+    /// Returns (expression, type of its elements) of what a `for` loops over: the type is [`Type::Error`], after a
+    /// report, if it is neither a list nor a range of whole numbers.
     pub(super) fn iterable(&mut self, scope: &mut Scope, e: &'a ast::Expr) -> (Expr, Type) {
         let got = self.expr(scope, e, None);
         let element = match &got.ty {
@@ -128,8 +129,8 @@ impl<'a> Checker<'a> {
         (got, element)
     }
 
-    /// Checks a range, whose ends must be two whole numbers or two quantities of one dimension, and returns it typed;
-    /// an error node after a report.
+    /// Returns the typed expression of a range; an error node, after a report, unless its ends are two whole numbers
+    /// or two quantities of one dimension.
     pub(super) fn range(
         &mut self,
         scope: &mut Scope,
@@ -159,8 +160,9 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Range(Arc::new(element)), kind)
     }
 
-    /// Checks `object[index]`, and returns it typed; an error node after a report. `want` is the type expected of the
-    /// element, `None` if any will do.
+    /// Returns the typed expression of `object[index]`; of type [`Type::Error`], after a report, if the object has no
+    /// elements. An index that is not a whole number is reported, and is an error node. `want`: the type expected of
+    /// the element, `None` if any will do.
     pub(super) fn index(
         &mut self,
         scope: &mut Scope,
@@ -175,7 +177,8 @@ impl<'a> Checker<'a> {
         self.index_of(span, object, index)
     }
 
-    /// Returns `object[index]` for checked operands; reports an object without elements, and returns an error node.
+    /// Returns the typed expression of `object[index]` for typed operands; of type [`Type::Error`], after a report, if
+    /// the object has no elements.
     pub(super) fn index_of(&mut self, span: Span, object: Expr, index: Expr) -> Expr {
         let element = match &object.ty {
             Type::List(t) => (**t).clone(),
@@ -194,12 +197,13 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Returns the type of the three elements if an expected type is a vector; `None` otherwise.
+/// Returns the type of the three elements of the vector among the alternatives of an expected type; `None` if there is
+/// none.
 pub(super) fn vec3_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::Vec3(e) = t { Some(&**e) } else { None })
 }
 
-/// Returns the type of the elements if an expected type is a list; `None` otherwise.
+/// Returns the type of the elements of the list among the alternatives of an expected type; `None` if there is none.
 pub(super) fn list_element(want: &Type) -> Option<&Type> {
     alternatives(want).into_iter().find_map(|t| if let Type::List(e) = t { Some(&**e) } else { None })
 }

@@ -11,7 +11,9 @@ use crate::units::Dimension;
 use crate::units::to_si;
 
 impl<'a> Checker<'a> {
-    /// Checks a number with its unit, if it has one, and returns it in SI units; an error node after a report.
+    /// Returns the typed expression of a number with its unit, if it has one, in SI units; an error node, after a
+    /// report, if it is too large or the unit is unknown. A later factor of the unit that is also the name of a
+    /// variable in `scope` is warned of.
     pub(super) fn number(
         &mut self,
         scope: &Scope,
@@ -66,8 +68,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns a number without unit from its text: an `Int` without point and exponent, else a `Number`. Reports one
-    /// that is too large, and returns an error node.
+    /// Returns the typed expression of a number without unit from its text: an `Int` without point and exponent, else
+    /// a `Number`; an error node, after a report, if a `Number` is too large.
     pub(super) fn plain_number(&mut self, span: Span, text: &str) -> Expr {
         if !text.contains(['.', 'e', 'E']) {
             return match text.parse::<i64>() {
@@ -81,7 +83,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a number that is too large, and returns an error node.
+    /// Reports that the number at `span` is too large, and returns the error node for it.
     pub(super) fn bad_number(&mut self, span: Span) -> Expr {
         self.report(
             Diagnostic::error(code::BAD_NUMBER, "this number is too large")
@@ -90,7 +92,8 @@ impl<'a> Checker<'a> {
         error_expr(span)
     }
 
-    /// Checks a text with its interpolated expressions, which may be of any type, and returns it typed.
+    /// Returns the typed expression of a text with its interpolated expressions, which may be of any type; error
+    /// nodes, after a report, stand for those that are wrong.
     pub(super) fn text(&mut self, scope: &mut Scope, span: Span, parts: &'a [ast::TextPart]) -> Expr {
         if let [] | [ast::TextPart::Literal(_)] = parts {
             let text = parts.first().map_or("", |p| match p {

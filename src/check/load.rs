@@ -31,13 +31,20 @@ pub(super) struct Import {
     pub target: ImportTarget,
 }
 
-/// The target of an import.
+/// The target of an import: a file, or one item of a file.
 #[derive(Clone, Copy)]
 pub(super) enum ImportTarget {
     /// Everything in a file, by `name.item`: an index into [`Loaded::files`].
     File(usize),
-    /// One item of a file, an index into [`Loaded::files`]; the span is that of the item's name in the `use`.
-    Item { file: usize, item: Symbol, span: Span },
+    /// One item of a file, as in `use gaits.{wave}`.
+    Item {
+        /// The file that declares the item, as an index into [`Loaded::files`].
+        file: usize,
+        /// The name of the item in that file.
+        item: Symbol,
+        /// The span of the item's name in the `use` clause.
+        span: Span,
+    },
     /// A failed import that has been reported.
     Error,
 }
@@ -110,8 +117,9 @@ impl FilePlace {
     }
 }
 
-/// Loads `root`, a path of the project, with all that it imports, and the prelude. Returns the files with their texts
-/// and the diagnostics; what cannot be read is reported.
+/// Loads `root`, a path of the project, with all that it imports, and the prelude. Returns (files, texts,
+/// diagnostics): the parsed files, the texts by which spans are resolved, and the mistakes found, such as files that
+/// can't be read and imports in a cycle.
 pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();
@@ -125,8 +133,8 @@ pub(super) fn load(files: &dyn Files, root: &str) -> (Loaded, Sources, Vec<Diagn
     loader.finish(root, prelude)
 }
 
-/// Loads the entries of a session, in order, with all that they import, and the prelude. Returns the files with their
-/// texts and the diagnostics; what cannot be read is reported.
+/// Loads the entries of a session, in order, with all that they import, and the prelude. Returns (files, texts,
+/// diagnostics), as [`load`] does.
 pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sources, Vec<Diagnostic>) {
     let mut loader = Loader::new(files);
     let prelude = loader.load(FilePlace::Library("prelude.mod".into())).ok();
@@ -134,8 +142,7 @@ pub(super) fn load_session(files: &dyn Files, entries: &[Entry]) -> (Loaded, Sou
     loader.finish(root, prelude)
 }
 
-/// Returns the sentence that the file at `path` can't be read, with the reason: ``can't read `a.mod`: ...``. `error`:
-/// the reason why.
+/// Returns the sentence that the file at `path` can't be read, with the reason `error`: ``can't read `a.mod`: ...``.
 pub fn why_unreadable(path: &str, error: &ReadError) -> String {
     format!("can't read `{path}`: {}", describe(error))
 }
@@ -458,7 +465,7 @@ fn block_of(span: Span, statements: &[ast::Stmt]) -> Option<ast::Expr> {
     Some(ast::Expr { span, kind: ast::ExprKind::Block { statements: before.to_vec(), value } })
 }
 
-/// Returns the name under which `use "path"` brings in a file: that of the file without `.mod`; `None` if it is no
+/// Returns the name under which `use "path"` brings in a file: that of the file without `.mod`; `None` if it is not a
 /// name of the language.
 fn namespace(path: &str) -> Option<Symbol> {
     let name = path.rsplit('/').next().unwrap_or(path).strip_suffix(".mod")?;

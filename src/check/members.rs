@@ -33,8 +33,8 @@ impl<'a> Members<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Returns the names inside a declaration with instances; collects them at the first call, and reports duplicates
-    /// then.
+    /// Returns the names inside a declaration with instances, collected at the first call. Names declared twice are
+    /// reported then.
     pub(super) fn members(&mut self, id: DefId) -> Rc<Members<'a>> {
         if let Some(members) = &self.def(id).members {
             return members.clone();
@@ -252,7 +252,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the type of a member as seen from outside its declaration; `at` is the span that needs it, `None` if no
+    /// Returns the type of a member as seen from outside its declaration; [`Type::Error`] if it has a mistake or needs
+    /// itself, which is reported there or where its declaration is checked. `at`: the span that needs it, `None` if no
     /// other declaration does.
     pub(super) fn member_type(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Type {
         let members = self.members(id);
@@ -288,9 +289,9 @@ impl<'a> Checker<'a> {
         matches!(self.family(id), Some(Family::Module | Family::Config))
     }
 
-    /// Returns the value of a `let` in a body, checked once, in a scope of its own; `at` is the span that needs it,
-    /// `None` if no other declaration does. A value that needs itself is reported and is an error node. Panics if the
-    /// member is no `let`.
+    /// Returns the typed value of a `let` in a body, checked once, in a scope of its own; an error node, after a
+    /// report, if it has a mistake or needs itself. `at`: the span that needs it, `None` if no other declaration does.
+    /// Panics if the member is no `let`.
     pub(super) fn member_let(&mut self, id: DefId, member: MemberId, at: Option<Span>) -> Expr {
         let members = self.members(id);
         let info = &members.list[member.0 as usize];

@@ -71,8 +71,9 @@ impl Checked {
     }
 }
 
-/// Checks the file `root` with all that it imports, both read from `files`. Never fails: the program holds
-/// what could be understood, and error nodes and diagnostics for the rest.
+/// Checks the file `root` with all that it imports, both read from `files`, and returns the typed program with the
+/// diagnostics. Never fails: the program holds as much as could be understood, with error nodes and diagnostics for
+/// the rest; a file that can't be read is a diagnostic.
 pub fn check(files: &dyn Files, root: &str) -> Checked {
     check_loaded(load::load(files, root))
 }

@@ -15,8 +15,8 @@ use crate::units::Dimension;
 use std::collections::HashMap;
 
 impl<'a> Checker<'a> {
-    /// Checks a `connector`, and returns it typed; reports unknown connectors among those it mates with, and clauses of
-    /// a wrong type.
+    /// Returns the typed body of a `connector`. Unknown connectors among those it mates with are reported and left
+    /// out; a clause of a wrong type is reported, and is an error node.
     pub(super) fn check_connector(&mut self, id: DefId, connector: &'a ast::Connector) -> DefKind {
         let mut scope = Scope::new(self.def(id).file, None);
         let mut def = ConnectorDef {
@@ -114,8 +114,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a `module`, and returns it typed: its links, joints, ports and motors refer to each other by index.
-    /// Reports what is unknown, missing or given twice.
+    /// Returns the typed body of a `module`, in which links, joints, ports and motors refer to each other by index.
+    /// Names that are unknown and clauses that are missing or given twice are reported.
     pub(super) fn check_module(&mut self, id: DefId, module: &'a ast::Module) -> DefKind {
         let signature = self.signature(id);
         let file = self.def(id).file;

@@ -12,8 +12,10 @@ use crate::units::is_unit;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a name used as a value: a word of the choice `want`, a local, a member of the body, or a declaration, in
-    /// this order. Reports an unknown name, and returns an error node.
+    /// Returns the typed expression of a name used as a value, written at `span`; an error node, after a report, if
+    /// the name is unknown or that of a file, or the declaration that it names is not a value. The name stands for the
+    /// first of: a word of the choice `want`, a local of `scope`, a member of the body in `scope`, a declaration that
+    /// the file sees. `want` is the expected type, `None` if any will do.
     pub(super) fn name_expr(
         &mut self,
         scope: &mut Scope,
@@ -54,8 +56,8 @@ impl<'a> Checker<'a> {
         self.loaded.files[scope.file].last.filter(|_| !may_miss)
     }
 
-    /// Checks `_`: the last value of a session, or the missing value where `want` is an optional type. Reports `_`
-    /// without either, and returns an error node.
+    /// Returns the typed expression of `_`, written at `span`: the last value of a session, or the missing value if
+    /// `want`, the expected type, is optional; an error node, after a report, if it is neither.
     pub(super) fn hole(&mut self, scope: &mut Scope, span: Span, want: Option<&Type>) -> Expr {
         if let Some(name) = self.last_value(scope, want) {
             return self.name_expr(scope, span, name, want);
@@ -79,8 +81,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports an unknown name with suggestions, as an unknown word if `want` is a choice with words, and returns an
-    /// error node.
+    /// Reports an unknown name, with suggestions, and returns the error node for it: as an unknown word if `want`, the
+    /// expected type, is a choice with words; without a report if `want` is [`Type::Error`], since the name may then
+    /// be a word.
     pub(super) fn unknown_name(
         &mut self,
         scope: &Scope,
@@ -142,8 +145,8 @@ impl<'a> Checker<'a> {
         others.find_map(|other| own(other).then(|| path(other)).flatten().filter(beside))
     }
 
-    /// Returns a declaration used as a value; `span` is that of its name. Reports a declaration that is no value, and
-    /// returns an error node.
+    /// Returns the typed expression of a declaration used as a value, by its name at `span`; an error node, after a
+    /// report, if the declaration is not a value, must be called, or has parameters without default.
     pub(super) fn def_value(&mut self, id: DefId, span: Span) -> Expr {
         match self.def(id).item {
             DefItem::Let(_) => {
@@ -181,8 +184,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the instance with all defaults, for a type name where an instance is expected. Reports parameters that
-    /// have no default, and returns an error node.
+    /// Returns the typed expression of the instance with all defaults, for the name of a type at `span`; an error
+    /// node, after a report, if a parameter has no default.
     pub(super) fn default_instance(&mut self, id: DefId, span: Span) -> Expr {
         let signature = self.signature(id);
         let missing: Vec<String> = signature

@@ -12,8 +12,8 @@ use crate::units::Dimension;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a unary operator and its operand, and returns the expression typed; reports an operand that it does not
-    /// take, and returns an error node. `want` is the type expected of the result, `None` if any will do.
+    /// Returns the typed expression of a unary operator with its operand; an error node, after a report, if the
+    /// operator does not take it. `want`: the type expected of the result, `None` if any will do.
     pub(super) fn unary(
         &mut self,
         scope: &mut Scope,
@@ -51,9 +51,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Checks a binary operator, at `op_span`, and its operands (left, right), and returns the expression typed;
-    /// reports operands that it does not take, and returns an error node. `want` is the type expected of the result,
-    /// `None` if any will do.
+    /// Returns the typed expression of a binary operator, written at `op_span`, with its operands (left, right); an
+    /// error node, after a report, if the operator does not take them. `want`: the type expected of the result, `None`
+    /// if any will do.
     pub(super) fn binary(
         &mut self,
         scope: &mut Scope,

@@ -12,7 +12,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 impl<'a> Checker<'a> {
-    /// Checks a `record`, and returns it typed, with its fields in order and their defaults.
+    /// Returns the typed body of a `record`, with its fields in order and their defaults; mistakes in them are
+    /// reported.
     pub(super) fn check_record(&mut self, id: DefId, record: &'a ast::Record) -> DefKind {
         let signature = self.signature(id);
         let mut scope = Scope::new(self.def(id).file, None);
@@ -66,8 +67,8 @@ impl<'a> Checker<'a> {
         self.report(diagnostic);
     }
 
-    /// Checks a call that builds the record `id`, such as `Design(bend: 30deg)`, and returns it typed. Reports fields
-    /// that are not given by name.
+    /// Returns the typed expression of a call that builds the record `id`, such as `Design(bend: 30deg)`; an error
+    /// node of the record's type, after a report, if a field is not given by name.
     pub(super) fn build_record(
         &mut self,
         scope: &mut Scope,
@@ -110,8 +111,9 @@ impl<'a> Checker<'a> {
         format!("{}({})", self.def(id).name, fields.join(", "))
     }
 
-    /// Checks `object with { field: value }`, and returns it typed. Reports an object that is no record, and fields
-    /// that it does not have.
+    /// Returns the typed expression of `object with { field: value }`; an error node, after a report, if the object is
+    /// not a record. A field that the record does not have, or that is given twice, is reported; one that it does not
+    /// have is left out.
     pub(super) fn with(
         &mut self,
         scope: &mut Scope,
@@ -152,7 +154,7 @@ impl<'a> Checker<'a> {
         expr_of(span, Type::Record(id), ExprKind::With { object: Box::new(object), fields: changed })
     }
 
-    /// Reports `with` behind something that no `record` declares.
+    /// Reports `with` after something that no `record` declares.
     fn no_record(&mut self, object: &Expr) {
         let hint = match &object.ty {
             Type::Error => return,
@@ -205,8 +207,8 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns a hint that names the field for which records of two types can't be compared for equality; `None` if the
-    /// reason is no field, or there is none.
+    /// Returns a hint that names the field for which records of two types can't be compared for equality; `None` if
+    /// the reason is not a field, or there is none.
     pub(super) fn incomparable_field(&mut self, a: &Type, b: &Type) -> Option<String> {
         let (path, ty) = self.join(a, b).and_then(|ty| self.incomparable(&ty))?;
         let words = self.words(&ty);

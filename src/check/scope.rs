@@ -76,8 +76,8 @@ impl Scope {
         local
     }
 
-    /// Opens an inner scope, and returns the mark with which [`Scope::close`] closes it: the number of locals and the
-    /// next free slot.
+    /// Opens an inner scope, and returns the mark (locals, slot) with which [`Scope::close`] closes it: the number of
+    /// locals, and the next free slot.
     pub(super) fn open(&self) -> (usize, u32) {
         (self.frame.locals.len(), self.frame.next)
     }

@@ -43,7 +43,8 @@ fn plain(name: &str) -> Option<Type> {
 const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
 
 impl<'a> Checker<'a> {
-    /// Resolves a type as written; reports an unknown one, for which it returns [`Type::Error`].
+    /// Returns the type that a type expression stands for in `scope`; [`Type::Error`], after a report, if it is
+    /// unknown.
     pub(super) fn type_expr(&mut self, scope: &Scope, ty: &ast::TypeExpr) -> Type {
         match &ty.kind {
             TypeKind::Error => Type::Error,
@@ -102,8 +103,8 @@ impl<'a> Checker<'a> {
         if scope.in_body { Bindings::opaque(&scope.type_params).apply(&ty) } else { ty }
     }
 
-    /// Returns the dimension of a unit and its factors as (factor to SI, exponent), in the order of the text; `None`,
-    /// after a report, for an unknown unit or too large a power.
+    /// Returns (dimension, factors) of a unit: its dimension, and its factors as (factor to SI, exponent), in the
+    /// order of the text; `None`, after a report, if the unit is unknown or a power too large.
     pub(super) fn unit(&mut self, unit: &ast::UnitExpr) -> Option<(Dimension, Vec<(f64, i32)>)> {
         let mut dimension = Dimension::NUMBER;
         let mut factors = Vec::new();
@@ -175,7 +176,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a path that is no type.
+    /// Reports a path that is not a type.
     fn no_type(&mut self, scope: &Scope, path: &[ast::Name], why: &str) -> Type {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);

@@ -7,7 +7,7 @@ use crate::source::{Diagnostic, code};
 use crate::syntax::ast;
 
 impl Checker<'_> {
-    /// Returns type parameters with their bounds, in order; reports an unknown bound.
+    /// Returns type parameters with their bounds, in order; an unknown bound is reported.
     pub(super) fn type_params(&mut self, params: &[ast::TypeParam]) -> Vec<TypeParam> {
         let bound = |checker: &mut Self, name: ast::Name| match name.text.as_str() {
             "Dimension" => Bound::Dimension,
@@ -29,9 +29,9 @@ impl Checker<'_> {
         params.iter().map(param).collect()
     }
 
-    /// Checks the type parameters of a function that has a body, in which nothing is known of them: names given twice,
-    /// bounds that only built-ins have, parameters that no argument binds, and a result that is not written are
-    /// reported.
+    /// Reports mistakes in the type parameters of a function that has a body, in which nothing is known of them: names
+    /// given twice, bounds that only built-ins have, parameters that no argument binds, and a result type that is not
+    /// written.
     pub(super) fn check_type_params(&mut self, f: &ast::Fn, signature: &Signature) {
         let mut dimension: Option<ast::Name> = None;
         for (index, (written, param)) in f.type_params.iter().zip(&signature.type_params).enumerate() {

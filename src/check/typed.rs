@@ -49,7 +49,7 @@ impl Program {
     }
 }
 
-/// A checked declaration of a program, or a method of a record; [`DefKind`] has what is behind its name.
+/// A checked declaration of a program, or a method of a record; [`DefKind`] holds its body.
 #[derive(Clone, Debug)]
 pub struct Def {
     /// The name that is declared.

@@ -139,12 +139,15 @@ pub struct Placement {
     pub span: Span,
 }
 
-/// A clause of a module that depends on values.
+/// A clause of a module that is elaborated in order, for each instance of the module: ports and pairs of links that
+/// may touch can depend on values, so these clauses may stand in conditions and loops. Links, joints and motors may
+/// not, and are listed in [`ModuleDef`].
 #[derive(Clone, Debug)]
 pub enum ModuleClause {
     /// A port, or one element of a port array.
     Port(Box<PortClause>),
-    /// Two links (indices into [`ModuleDef::links`]) that may touch, and the span of the clause.
+    /// Two links (indices into [`ModuleDef::links`]) that are built to touch, so that the judge does not check them
+    /// for collision with each other, and the span of the clause.
     Touching(usize, usize, Span),
     /// A local definition: `let name = value`.
     Let {
