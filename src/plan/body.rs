@@ -102,7 +102,8 @@ impl Body {
         if let Body::NodePaths(paths) = self { Some(paths) } else { None }
     }
 
-    /// Returns the number of units that the robot is made of, and the name of one: `module`, `cell` or `strut`.
+    /// Returns (count, unit): the number of units that the robot is made of, and the name of one, `module`, `cell` or
+    /// `strut`.
     pub fn units(&self) -> (u64, &'static str) {
         match self {
             Body::Tracks(tracks) => (tracks.robot.modules.len() as u64, "module"),
@@ -146,8 +147,8 @@ impl Body {
     /// library that its indices refer to.
     ///
     /// # Errors
-    /// The [`OperationError`] that keeps the two from following each other: of another family, another robot, or
-    /// another state where they meet.
+    /// The [`OperationError`] that keeps the two from following each other: of another family, another robot, kind of
+    /// cells or truss, or another state where they meet; or a number of a lattice's motion that 64 bits do not hold.
     pub(super) fn joined(
         &self,
         library: &Library,
@@ -183,8 +184,15 @@ impl Body {
         self.tracks().map_or(Err(OperationError::NoJoints), tracks::timeline)
     }
 
-    /// Checks that every index of the body is within its list, and that its times are in order. `library`: that of
-    /// the plan; `causes`: the number of causes of the plan.
+    /// Checks that the body is well formed, by the rules of its family. `library`: that of the plan; `causes`: the
+    /// number of causes of the plan.
+    ///
+    /// In every family indices must be within their lists and times in order. Of tracks also: modules have different
+    /// names, the start has a position for every joint and a state for every bond, segments have 2 to
+    /// [`DEGREE_MAX`](super::polynomial::DEGREE_MAX) + 1 control points and begin where the joint is, and a bond is
+    /// closed before it opens and open before it closes. Of stages: there are not too many cells, runs name cells
+    /// there are, and ratios, limits and ramps are in their ranges. Of node paths: keyframes begin at 0 s and place
+    /// every node, and a roll is about two different nodes.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -196,7 +204,9 @@ impl Body {
         }
     }
 
-    /// Checks that all numbers are finite, before the references are checked.
+    /// Checks that all numbers of the motion of an articulated robot are finite, before the references are checked.
+    /// Does nothing for the other families: the numbers of stages are whole, those of node paths are checked by
+    /// [`check_ranges`](Self::check_ranges).
     ///
     /// # Errors
     /// [`PlanFault::Unwritable`] for the first number that is not finite.
@@ -204,8 +214,10 @@ impl Body {
         self.tracks().map_or(Ok(()), Tracks::check_numbers)
     }
 
-    /// Checks that the numbers of the body are in their ranges; its references must have been checked, or it panics.
-    /// `library`: that of the plan.
+    /// Checks that the numbers of the body are in their ranges, and what depends on them: of tracks that joints can be
+    /// moved and stay in their bounds and that docked ports mate, of node paths that numbers are finite, obstacles are
+    /// solids, and struts and rolls have a length; of stages nothing is left to check. The references must have been
+    /// checked, or it panics. `library`: that of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.

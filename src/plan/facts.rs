@@ -113,7 +113,7 @@ fn of_joint(joint: &Joint) -> String {
     format!("{} [{range}, {speed}, {acceleration}{effort}{servo}]", joint.name)
 }
 
-/// Returns what is stated of a servo in words, each fact behind a comma; `slides`: that of a joint that slides.
+/// Returns what is stated of a servo in words, each fact after a comma; `slides`: that of a joint that slides.
 fn of_servo(servo: &Servo, slides: bool) -> String {
     let (stiffness, inertia) = if slides { ("N/m", "kg") } else { ("N*m/rad", "kg*m^2") };
     let stated = [(servo.stiffness, stiffness), (servo.armature, inertia)];

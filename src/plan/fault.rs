@@ -1,6 +1,6 @@
 //! Faults in the form of a plan: the reasons why a plan cannot be read, or cannot be judged at all.
 //!
-//! A fault is no verdict on the motion. It says that an index is too large for its list, that times are out of
+//! A fault is not a verdict on the motion. It says that an index is too large for its list, that times are out of
 //! order, or that a number has no meaning, so that whoever comes after may index without asking. Times are in s,
 //! positions in rad or m.
 
@@ -41,7 +41,7 @@ pub enum PlanFault {
         /// The value that no file can hold.
         value: Unwritable,
     },
-    /// A value that a planner minimised, or its bound, that is no number from 0 on.
+    /// A value that a planner minimised, or its bound, that is not a number from 0 on.
     ObjectiveValue {
         /// The value that was found, in the unit of what was minimised.
         value: f64,
@@ -57,9 +57,9 @@ pub enum PlanFault {
     FirstWorld,
     /// An exemption that ends before it begins.
     ExemptionOrder,
-    /// A gravity that points upwards (is negative), or is no number.
+    /// A gravity that points upwards (is negative), or is not a number.
     Gravity,
-    /// A negative coefficient of friction in a world, or one that is no number.
+    /// A negative coefficient of friction in a world, or one that is not a number.
     Friction,
     /// A world that holds the base fast, for a robot that has none.
     NoBaseToHold,
@@ -68,7 +68,7 @@ pub enum PlanFault {
         /// The sampling interval that was found, s.
         interval: f64,
     },
-    /// A negative longest time without support, or one that is no number.
+    /// A negative longest time without support, or one that is not a number.
     UnstableFor,
     /// A reserve that is not between 0 and 1.
     Reserve {
@@ -145,7 +145,7 @@ pub enum PlanFault {
         /// The fault that the pose has.
         fault: Unsound,
     },
-    /// A number whose absolute value is above its limit, or that is no number.
+    /// A number whose absolute value is above its limit, or that is not a number.
     Bound {
         /// The name of the quantity in words.
         what: &'static str,
@@ -308,7 +308,7 @@ pub enum NodePathsFault {
     },
     /// A strut between a node and itself.
     StrutEnds,
-    /// An obstacle that is no solid, with the fault of its shape.
+    /// An obstacle that is not a solid, with the fault of its shape.
     Obstacle(Unsound),
     /// A height field that is no ground; the fault is given in words.
     Terrain(&'static str),

@@ -25,8 +25,9 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     points[0]
 }
 
-/// Returns the Bernstein control points of the parts before and after the argument `u` (0 to 1), by de Casteljau's
-/// algorithm, each over 0..1 and of the same degree. They share the value at `u` to the bit.
+/// Returns (before, after): the parts of a polynomial before and after the argument `u` (0 to 1) as Bernstein control
+/// points, by de Casteljau's algorithm, each over 0..1 and of the same degree. They share the value at `u` to the bit.
+/// `control`: the polynomial's control points.
 pub fn split(control: &[f64], u: f64) -> (Vec<f64>, Vec<f64>) {
     let mut right = control.to_vec();
     let mut left = Vec::with_capacity(control.len());
@@ -63,7 +64,7 @@ pub fn derivative(control: &[f64]) -> Vec<f64> {
     control.windows(2).map(|w| degree as f64 * (w[1] - w[0])).collect()
 }
 
-/// Returns the lowest and the highest control point, which bound every value over 0..1 (the convex hull property of
+/// Returns (lowest, highest) of the control points, which bound every value over 0..1 (the convex hull property of
 /// Bernstein polynomials); infinity and minus infinity without any.
 pub fn hull(control: &[f64]) -> (f64, f64) {
     control.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &c| (low.min(c), high.max(c)))
@@ -122,10 +123,10 @@ fn binomials(degree: usize) -> Vec<f64> {
 /// The greatest number of pieces that are examined before the bound is taken instead of the value.
 const PIECES_MAX: usize = 4096;
 
-/// Returns the greatest value over 0..1 of a polynomial, given by its Bernstein control points (at least one), and the
-/// argument where it is reached, by subdivision (the convex hull property). The value is below the true one by no more
-/// than the fraction `tolerance` of the largest control point, and above it by no more than rounding, unless a
-/// polynomial is so oscillatory that the pieces run out.
+/// Returns (value, argument) of the greatest value over 0..1 of a polynomial, found to a tolerance by subdivision (the
+/// convex hull property). The value is below the true one by no more than the fraction `tolerance` of the largest
+/// control point, and above it by no more than rounding, unless a polynomial is so oscillatory that the pieces run
+/// out. `control`: its Bernstein control points, at least one.
 pub fn greatest(control: &[f64], tolerance: f64) -> (f64, f64) {
     let size = control.iter().fold(0.0_f64, |s, c| s.max(c.abs()));
     let (first, last) = (control[0], control[control.len() - 1]);
@@ -148,7 +149,7 @@ pub fn greatest(control: &[f64], tolerance: f64) -> (f64, f64) {
     bound.fold(best, |best, piece| if piece.0 > best.0 { piece } else { best })
 }
 
-/// Returns the greatest absolute value over 0..1 of a polynomial and its argument, as [`greatest`] finds it.
+/// Returns (value, argument) of the greatest absolute value over 0..1 of a polynomial, found as by [`greatest`].
 /// `control`: its Bernstein control points; `tolerance`: as for [`greatest`].
 pub fn greatest_size(control: &[f64], tolerance: f64) -> (f64, f64) {
     let up = greatest(control, tolerance);
@@ -160,9 +161,9 @@ pub fn greatest_size(control: &[f64], tolerance: f64) -> (f64, f64) {
 /// The greatest number of bisections of an interval for a root: to the last bit of the argument.
 const HALVINGS_MAX: usize = 60;
 
-/// Returns the arguments in 0..1 at which the polynomial passes through zero, ascending: the control points are
-/// halved until they change sign once or not at all. Roots at the ends, and arguments at which it touches zero
-/// without passing through, may be missing; roots nearer to each other than 2⁻⁶⁰ may be found as one.
+/// Returns the arguments in 0..1 at which the polynomial passes through zero, ascending: the control points are halved
+/// until they change sign once or not at all. Roots at the ends, and arguments at which it touches zero without
+/// passing through, may be missing; roots that `HALVINGS_MAX` halvings do not part may be found as one.
 pub fn roots(control: &[f64]) -> Vec<f64> {
     let mut found = Vec::new();
     // The part furthest left is on top.

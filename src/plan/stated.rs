@@ -27,8 +27,8 @@ impl Stated {
     /// Checks that the names are the same, in the same order, as those of `of_indices`, which the indices stand for.
     ///
     /// # Errors
-    /// [`PlanFault::Name`] for the first name that is another, [`PlanFault::Names`] where there are too few of them
-    /// or too many.
+    /// [`PlanFault::Name`] for the first name that differs, [`PlanFault::Names`] where there are too few of them or
+    /// too many.
     pub(super) fn check(&self, of_indices: &Stated) -> Result<(), PlanFault> {
         for ((what, index, stated), (sort, number, name)) in self.names.iter().zip(&of_indices.names) {
             if (what, index) != (sort, number) {

@@ -116,7 +116,8 @@ impl<'a> ProgramJson<'a> {
     /// Returns the program that stands in a file; its table of nodes is checked, and nothing else.
     ///
     /// # Errors
-    /// [`PlanFault::ProgramChild`] or [`PlanFault::ProgramRoot`] for a node that the table has not, or has later.
+    /// [`PlanFault::ProgramChild`] or [`PlanFault::ProgramRoot`] for a node that is not in the table, or comes later
+    /// in it.
     pub(super) fn into_program(self) -> Result<Program, PlanFault> {
         let mut done: Vec<Arc<Node>> = Vec::with_capacity(self.nodes.len());
         for (index, json) in self.nodes.into_iter().enumerate() {

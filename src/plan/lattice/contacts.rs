@@ -89,10 +89,10 @@ impl ContactForest {
         self.links.len() + 1 >= self.above.len()
     }
 
-    /// Returns the greatest force along an axis (0 to 2) that an edge of the forest carries, with that edge as two
-    /// numbers of cells; 0 and (0, 0) if no edge carries any. `before` and `after` are the cells by number at the ends
-    /// of the stage. The force is given as twice the absolute sum of the displacements of the cells on one side of the
-    /// edge, in grid lines; its factor follows from the time scaling of the stage.
+    /// Returns (force, edge): the greatest force along an axis (0 to 2) that an edge of the forest carries, with that
+    /// edge as two numbers of cells; 0 and (0, 0) if no edge carries any. `before` and `after` are the cells by number
+    /// at the ends of the stage. The force is given as twice the absolute sum of the displacements of the cells on one
+    /// side of the edge, in grid lines; its factor follows from the time scaling of the stage.
     ///
     /// # Errors
     /// The sum that is left over at a root, if the displacements of a component do not add up to zero: then an

@@ -59,7 +59,7 @@ impl Grid {
     /// denominators.
     ///
     /// # Errors
-    /// [`LatticeFault::GridTooFine`] if a cell would take more than 2⁴⁰ lines.
+    /// [`LatticeFault::GridTooFine`] if a cell would take more than `LINES_MAX` lines.
     pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, LatticeFault> {
         let mut lines: i128 = 2;
         for run in runs {
@@ -83,11 +83,11 @@ impl Grid {
     }
 
     /// Writes the cells that `runs` name to `cubes`, which is indexed by the number of the cell; the others stay as
-    /// they are. The runs must be among those that the grid was made of. Panics if they name a cell that `cubes` has
-    /// not.
+    /// they are. The runs must be among those that the grid was made of. Panics if they name a cell that is not in
+    /// `cubes`.
     ///
     /// # Errors
-    /// [`LatticeFault::CellsTooFar`] if a face would lie more than 2⁴⁸ lines from the origin.
+    /// [`LatticeFault::CellsTooFar`] if a face would lie more than `FACE_MAX` lines from the origin.
     pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         runs.iter().try_for_each(|run| self.place_run(run, cubes))
     }

@@ -187,7 +187,7 @@ impl TimeScaling {
         self.compare_speed_squared(distance, lines, limit).min(first).min(last)
     }
 
-    /// Returns the peak of `σ''` times the square of the duration, as numerator and denominator, not in lowest terms;
+    /// Returns the peak of `σ''` times the square of the duration as (numerator, denominator), not in lowest terms;
     /// without unit.
     pub fn acceleration_ratio(&self) -> (i64, i64) {
         (self.speed.0 * self.ramp.1, self.speed.1 * self.ramp.0)

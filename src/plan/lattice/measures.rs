@@ -20,8 +20,8 @@ pub fn greatest_relative_displacement(before: &[Cube], after: &[Cube], lines: i6
     Some(forest.relative)
 }
 
-/// Returns for each stage, in order, the greatest contact force times the square of its duration, as numerator and
-/// denominator: the force in units of a cell's own, the duration in units of time.
+/// Returns for each stage, in order, the greatest contact force times the square of its duration, as (numerator,
+/// denominator): the force in units of a cell's own, the duration in units of time.
 ///
 /// # Errors
 /// Every [`LatticeFault`] but [`LatticeFault::OffLattice`]. Overlaps are not reported.
@@ -74,8 +74,8 @@ pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -
 /// A list of lattice sites by their integer coordinates x, y, z, in cells.
 pub type Places = Vec<[i64; 3]>;
 
-/// Returns the lattice sites that the cells fill at the start and at the end of a plan, each sorted by x, then y, then
-/// z, and translated so that the lowest along each axis is 0.
+/// Returns (start, end): the lattice sites that the cells fill at the start and at the end of a plan, each sorted by
+/// x, then y, then z, and translated so that the lowest along each axis is 0.
 ///
 /// # Errors
 /// [`LatticeFault::OffLattice`] if a cell does not fill a site; [`LatticeFault::GridTooFine`] or

@@ -64,8 +64,8 @@ impl TrussLimits {
     }
 }
 
-/// The margins of a truss from its limits at a keyframe; negative beyond a limit. `None` for limits that it has not,
-/// and for distances that are more than twice the clearance.
+/// The margins of a truss from its limits at a keyframe; negative beyond a limit. `None` for limits that it does not
+/// have, and for distances that are more than twice the clearance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Margins {

@@ -10,7 +10,8 @@ use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
 
 impl NodePaths {
-    /// Checks that every index is within its list, and that keyframes are in order of time. `library`: that of the
+    /// Checks that the node paths are well formed: that every index is within its list, that keyframes begin at 0 s,
+    /// are in order of time and place every node, and that a roll is about two different nodes. `library`: that of the
     /// plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
@@ -38,7 +39,8 @@ impl NodePaths {
         Ok(())
     }
 
-    /// Checks that numbers are finite, obstacles solids, and that struts and rolls have a length.
+    /// Checks that numbers are finite, coordinates of nodes and angles of rolls in their ranges, obstacles solids and
+    /// the terrain sound, and that struts and rolls have a length.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.

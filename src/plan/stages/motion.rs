@@ -9,7 +9,7 @@ use crate::plan::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The motion of a lattice of cells, in stages. Lengths are in cell sizes; times in [`Stages::time_unit`].
+/// The trajectory of a lattice of cells, in stages. Lengths are in cell sizes; times in [`Stages::time_unit`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stages {
@@ -132,7 +132,8 @@ pub struct CellBox {
 }
 
 impl Law {
-    /// Returns the fractions of the duration, 0 to 1, that the ramp at the start takes, and that at the end.
+    /// Returns (start, end): the fractions of the duration, 0 to 1, that the ramp at the start takes, and that at the
+    /// end.
     pub fn ramps(self) -> (Ratio, Ratio) {
         match self {
             Law::BangBang => (Ratio(1, 2), Ratio(1, 2)),
@@ -192,7 +193,8 @@ impl Stage {
 }
 
 impl Run {
-    /// Returns the number of cells that the run holds, with repetition: the product of the counts of its counters.
+    /// Returns the number of cells that the run names, with repetition: the product of the counts of its counters, 1
+    /// without any.
     pub fn count(&self) -> u64 {
         self.counters.iter().map(|c| c.count).product()
     }

@@ -11,8 +11,10 @@ const CELLS_MAX: u64 = 4_000_000;
 const RAMP_DENOMINATOR_MAX: i64 = 1 << 60;
 
 impl Stages {
-    /// Checks that every run names cells there are, and that every ratio is a number in its range. `library`: that of
-    /// the plan; `causes`: the number of causes of the plan.
+    /// Checks that the stages are well formed: that the cell type exists and there are not too many cells, that the
+    /// start names them all, that every run names cells there are, that every ratio is a number, and that unit of
+    /// time, limits, durations and ramps are in their ranges. `library`: that of the plan; `causes`: the number of
+    /// causes of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.

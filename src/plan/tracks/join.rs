@@ -10,7 +10,7 @@ use crate::robot::matching;
 /// ends; the causes of `b` are numbered from `causes` on.
 ///
 /// # Errors
-/// [`OperationError::Robots`] if it is another robot, or the same in another pose.
+/// [`OperationError::Robots`] if the robots differ, or are the same in different poses.
 pub(in crate::plan) fn fitted(a: &Tracks, b: &Tracks, causes: u32) -> Result<Remap, OperationError> {
     let found = matching((&a.robot, &a.end()), (&b.robot, &b.start), TOLERANCES.join_joint)
         .map_err(OperationError::Robots)?;

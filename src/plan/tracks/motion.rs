@@ -6,8 +6,8 @@ use crate::robot::{Assembly, JointId, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The joint trajectories of an articulated robot over time, piecewise polynomials in Bernstein form, and the bonds
-/// that hold.
+/// The trajectory of an articulated robot: the position of each joint over time, as piecewise polynomials in Bernstein
+/// form, and the bonds that hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tracks {
     /// The robot, with every bond that exists at some time.

@@ -60,8 +60,8 @@ impl Remap {
         Remap { robot, start, found: found.clone(), bonds, joints, causes }
     }
 
-    /// Returns the names of B that are others in A, as (name in B, name in A), in the order of B's modules: of
-    /// modules, and of the joints of modules that are mapped onto themselves turned round. `b`: robot B.
+    /// Returns the names of B that differ in A, as (name in B, name in A), in the order of B's modules: of modules,
+    /// and of the joints of modules that are mapped onto themselves turned round. `b`: robot B.
     pub fn renamed(&self, b: &Assembly) -> Vec<(String, String)> {
         let mut pairs = Vec::new();
         for (module, instance) in b.modules.iter().enumerate() {
@@ -80,8 +80,9 @@ impl Remap {
         pairs
     }
 
-    /// Returns motion `a`, then motion `b`, as one motion of robot A; the two must be those that the map was made
-    /// for.
+    /// Returns the motion `a`, then the motion `b` by the robot of `a`, as one motion: times of `b` are later by the
+    /// duration of `a`, and its joints, bonds and causes are mapped. A track of `b` begins exactly where `a` leaves
+    /// its joint. The two must be the motions that the map was made for.
     pub fn tracks(&self, a: &Tracks, b: &Tracks) -> Tracks {
         let end = a.end();
         let mut tracks: Vec<Track> = a.tracks.clone();

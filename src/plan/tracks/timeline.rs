@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// in parallel. Each action lasts exactly as long as its segment; gaps are waits.
 ///
 /// # Errors
-/// [`OperationError::NoCommand`] for a segment of degree above 3 that is no smooth move.
+/// [`OperationError::NoCommand`] for a segment of degree above 3 that is not a smooth move.
 pub fn timeline(tracks: &Tracks) -> Result<Arc<Node>, OperationError> {
     let mut branches = Vec::with_capacity(tracks.tracks.len() + 1);
     for track in &tracks.tracks {

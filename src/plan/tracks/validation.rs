@@ -12,8 +12,11 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Tracks {
-    /// Checks that every index is within its list, that segments and docks are in order, and that joints do not jump.
-    /// `causes`: the number of causes of the plan.
+    /// Checks that the tracks are well formed: that every index is within its list, that modules have different names,
+    /// that the start has a position for every joint and a state for every bond, that tracks, segments and dockings
+    /// are in order and within the duration, that segments have 2 to [`DEGREE_MAX`] + 1 control points and begin where
+    /// the joint is, and that a bond is closed before it opens and open before it closes. `causes`: the number of
+    /// causes of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -122,7 +125,8 @@ fn cause(id: CauseId, causes: usize) -> Result<(), PlanFault> {
     need_index(id.0 as usize, causes, "cause")
 }
 
-/// Checks that the indices of an assembly are within their lists, and that no two of its modules have one name.
+/// Checks that the indices of an assembly are within their lists, the turns of its bonds among those of their
+/// connectors, and that no two of its modules have one name.
 ///
 /// # Errors
 /// The first [`PlanFault`] found.

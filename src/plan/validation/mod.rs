@@ -18,8 +18,10 @@ use super::visit::Graph;
 use super::world::Ground;
 use crate::robot::validation::{QUANTITY_MAX, check_library};
 
-/// Checks that the indices of a plan are within their lists, that its times are in order, and that its library is as
-/// sound as one that a program declares; a reader of plan files makes the same checks.
+/// Checks that a plan is well formed: that its indices are within their lists and its times in order, that the body
+/// keeps the rules of its family, that bound and value of the provenance make sense, and that the library is as sound
+/// as one that a program declares. A reader of plan files makes the same checks. That numbers are finite and in their
+/// ranges is left to [`check`].
 ///
 /// # Errors
 /// The first [`PlanFault`] that was found.
@@ -47,7 +49,8 @@ pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
     need_ascending(&starts, "the worlds")
 }
 
-/// Checks that a plan can be judged: [`validate`], and that every number is finite and in its range.
+/// Checks that a plan can be judged: all that [`validate`] checks, and that every number is finite and in its range,
+/// those of the settings and worlds included.
 ///
 /// # Errors
 /// The first [`PlanFault`] that was found.

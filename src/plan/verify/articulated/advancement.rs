@@ -133,8 +133,8 @@ impl<'a> Advancement<'a> {
     }
 
     /// Returns a search for collisions alone, without the clearance, along the positions of the joints `along` in
-    /// place of the plan's. Intervals are halved down to the least time between two instants of `along`, at least 5
-    /// ms: what happens between instants is not proved.
+    /// place of the plan's. Intervals are halved down to the least time between two instants of `along`, but not below
+    /// [`DEFLECTED_TIME_MIN`](super::tolerances::DEFLECTED_TIME_MIN): what happens between instants is not proved.
     pub(super) fn deflected(
         tracks: &'a Tracks,
         bodies: &'a Bodies,

@@ -45,7 +45,7 @@ pub struct InnerPair {
     pub b: usize,
     /// True if the pair counts for the clearance: two links that a joint joins do not.
     pub counts: bool,
-    /// The greatest penetration depth that is no collision, m.
+    /// The greatest penetration depth that is not a collision, m.
     pub allowed: f64,
     /// The signed distance of the two, m, if no joint can change it: wheels on an axle, and links that turn about it;
     /// `None` if joints can.
@@ -163,15 +163,17 @@ impl Bodies {
         all.filter(move |&body| body == first || self.bodies[body].link != self.bodies[body - 1].link)
     }
 
-    /// Returns the depth to which one of two links is inside the meshes of the other that are not convex, m: a lower
-    /// bound ([`enclosed_depth`](crate::geometry::distance::enclosed_depth)), 0 if neither is. The arguments are as for
-    /// [`overlap`](Self::overlap).
+    /// Returns a lower bound, m, on the depth to which one of two links is inside the meshes of the other that are not
+    /// convex ([`enclosed_depth`](crate::geometry::distance::enclosed_depth)); 0 if no probe point of either is inside
+    /// the other. The arguments are as for [`overlap`](Self::overlap).
     pub(super) fn enclosed_depth(&self, a: (usize, usize), b: (usize, usize), X_AB: &Pose) -> f64 {
         enclosed_depth(self.solid(a), self.solid(b), X_AB)
     }
 
-    /// Returns the depth as [`enclosed_depth`](Self::enclosed_depth) does, m, with a point that is as deep, in the
-    /// frame of link a, m; `None` if neither link is inside the other's meshes.
+    /// Returns a lower bound on the depth to which one of two links is inside the meshes of the other that are not
+    /// convex, as [`enclosed_depth`](Self::enclosed_depth) does, with a point that is as deep: as (depth, point), m,
+    /// the point in the frame of link a. `None` if no probe point of either link is inside the other's meshes. The
+    /// arguments are as for [`overlap`](Self::overlap).
     pub(super) fn enclosed_point(
         &self,
         a: (usize, usize),

@@ -20,9 +20,9 @@ const POINTS_MIN: usize = 20;
 
 /// Returns the clearance over time: (time, s; least signed distance of links that may not touch, m) at evenly spaced
 /// times from the start to `until` (s), both included, in order of time. There are `count` + 1 of them, or fewer for
-/// robots of more than a few hundred modules, but not fewer than 21 for that reason. Empty if there are no two such
-/// links, if `until` is not positive, for a plan that is not of an articulated robot or not valid, and for a robot
-/// with a shape that is not sound.
+/// robots of more than a few hundred modules, but not fewer than `POINTS_MIN` + 1 for that reason. Empty if there are
+/// no two such links, if `until` is not positive, for a plan that is not of an articulated robot or not valid, and for
+/// a robot with a shape that is not sound.
 pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let Form::Tracks(tracks) = &plan.body else { return vec![] };
     if until <= 0.0 || validation::check(plan).is_err() {

@@ -44,7 +44,7 @@ impl Feature {
         Feature { centre: R * self.centre + p, form }
     }
 
-    /// Returns the number of points that represent the feature: 8 for a circle, else 1.
+    /// Returns the number of points that represent the feature: [`CIRCLE_POINTS`] for a circle, else 1.
     pub fn points(&self) -> u8 {
         if matches!(self.form, Form::Circle(..)) { CIRCLE_POINTS } else { 1 }
     }

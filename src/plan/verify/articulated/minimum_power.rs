@@ -76,11 +76,11 @@ impl SlidingPatch {
     }
 }
 
-/// Returns the planar pose to which a change of posture moves a robot on the ground, by the minimum power principle;
-/// and, for each loaded patch of the stance before and then for each of this sample, (number of its link, half of its
-/// slip in m, its load as a fraction of the weight). `old`: the stance before; `posture`, `R`, `height`: the posture
-/// of this sample, the rotation of the base's frame to level axes, and the height of the centre of mass above the
-/// ground (m); `patches`: those of this sample.
+/// Returns (pose, slips) of a change of posture on the ground, by the minimum power principle: the planar pose to
+/// which it moves the robot; and, for each loaded patch of the stance before and then for each of this sample, (number
+/// of its link, half of its slip in m, its load as a fraction of the weight). `old`: the stance before; `posture`,
+/// `R`, `height`: the posture of this sample, the rotation of the base's frame to level axes, and the height of the
+/// centre of mass above the ground (m); `patches`: those of this sample.
 pub(super) fn displacement(
     model: &Model,
     old: &Stance,

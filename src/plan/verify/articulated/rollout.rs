@@ -495,7 +495,7 @@ fn unsettled(world: &World) -> Placement {
     if world.ground == Ground::Held { Placement::Fixed } else { Placement::Lowered }
 }
 
-/// The changes at an instant: `true` for what is another after it than before.
+/// The changes at an instant: `true` for what differs after it from before.
 #[derive(Clone, Copy)]
 struct Changes {
     bonds: bool,

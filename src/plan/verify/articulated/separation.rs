@@ -30,7 +30,7 @@ pub(super) struct BodyPair {
     pub level: u32,
     /// True if the pair counts for the clearance: two links that a joint or a bond joins do not.
     pub counts: bool,
-    /// The greatest penetration depth that is no collision, m.
+    /// The greatest penetration depth that is not a collision, m.
     pub allowed: f64,
     /// The unit vector of the separating direction from a to b found last, in the frame of a's carrier; zero at first.
     pub normal: Vec3,

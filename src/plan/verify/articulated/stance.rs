@@ -70,10 +70,10 @@ pub enum StepOutcome {
 }
 
 impl Stance {
-    /// Returns the stance of a robot in a world, with the base at `X_WB`: kept there (`Placement::Fixed`), lowered to
-    /// the ground with its orientation (`Placement::Lowered`), or lowered and then settled (`Placement::Settled`).
-    /// Also returns the fall of the centre of mass in settling, m, and the angle of the turn, rad; both 0 unless it
-    /// settles.
+    /// Returns (stance, fall, turn) of a robot placed in a world with the base at `X_WB`: kept there
+    /// (`Placement::Fixed`), lowered to the ground with its orientation (`Placement::Lowered`), or lowered and then
+    /// settled (`Placement::Settled`). The fall of the centre of mass in settling, m, and the angle of the turn, rad,
+    /// are 0 unless it settles.
     pub fn start(
         model: &Model,
         posture: Posture,
@@ -138,9 +138,9 @@ impl Stance {
         SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
     }
 
-    /// Returns the robot settled as attempted, at the place to which the minimum power principle moves it
-    /// (`displacement`). Also returns for each loaded contact patch, those of this stance and of the next, the number
-    /// of its link, its slip (m), half for either stance, and its load as a fraction of the weight.
+    /// Returns (stance, slips) of the robot settled as attempted, at the place to which the minimum power principle
+    /// moves it (`displacement`): the next stance, and for each loaded contact patch, those of this stance and of the
+    /// next, (number of its link, its slip in m, half for either stance, its load as a fraction of the weight).
     pub fn settled(
         &self,
         model: &Model,

@@ -66,8 +66,8 @@ pub struct Tolerances {
     /// The part of a sample by which an interval may be longer than a whole number of samples. Default 1e-6: rounding
     /// of times.
     pub sample_count: f64,
-    /// The relative excess over a limit of range, speed or acceleration that is no failure. Default 1e-9: rounding of
-    /// the plan's numbers.
+    /// The relative excess over a limit of range, speed or acceleration that is not a failure. Default 1e-9: rounding
+    /// of the plan's numbers.
     pub limit: f64,
     /// The jump of a speed that counts as none, rad/s or m/s. Default 1e-6: rounding of control points over short
     /// segments.
@@ -88,15 +88,15 @@ pub struct Tolerances {
     /// The greatest imbalance of contact forces, in parts of the weight (and of the weight times a metre). Default
     /// 1e-6: precision of the LP solver.
     pub balance: f64,
-    /// The excess of a gravity load over its limit with a fixed base that is no failure, as a fraction of the limit.
-    /// Default 1e-9: rounding.
+    /// The excess of a gravity load over its limit with a fixed base that is not a failure, as a fraction of the
+    /// limit. Default 1e-9: rounding.
     pub load: f64,
     /// The length of an interval below which loads with a fixed base are not decided further, s. Default 10 µs.
     pub load_interval: f64,
     /// The distance within which a part counts as round about a joint's axis, m. Default 1e-9 m: rounding of poses.
     pub roundness: f64,
-    /// The depth beyond what is allowed up to which links that meet as servos yield are no failure, m. Default 1 mm: the usual
-    /// contact tolerance; grazing contacts push joints back that yield anyway.
+    /// The depth beyond what is allowed up to which links that meet as servos yield are not a failure, m. Default 1
+    /// mm: the usual contact tolerance; grazing contacts push joints back that yield anyway.
     pub deflected_depth: f64,
     /// The tolerances of the check of collisions.
     pub collision: Precision,

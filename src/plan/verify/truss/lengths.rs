@@ -15,8 +15,8 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// Returns the extreme length, m, that is outside the range `low` to `high` (m) by more than `tolerance` (m),
-    /// with its time (s): the least if that is too short, else the greatest; `None` if both are within.
+    /// Returns (length, time) of the extreme length, m and s, that is outside the range `low` to `high` (m) by more
+    /// than `tolerance` (m): the least if that is too short, else the greatest; `None` if both are within.
     pub(super) fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
         let short = (self.least.0 < low - tolerance).then_some(self.least);
         short.or_else(|| (self.most.0 > high + tolerance).then_some(self.most))
@@ -47,8 +47,8 @@ pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     Lengths { least: (least, time(u)), most, rate }
 }
 
-/// Returns the least length of a vector that changes linearly from `from` to `to` (m), and the fraction of the
-/// change, 0 to 1, at which it has that length.
+/// Returns (length, fraction): the least length of a vector that changes linearly from `from` to `to` (m), and the
+/// fraction of the change, 0 to 1, at which it has that length.
 pub(super) fn least(from: Vec3, to: Vec3) -> (f64, f64) {
     // |from + u change|² is least where its slope is zero.
     let change = to - from;

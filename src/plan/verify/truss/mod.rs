@@ -27,7 +27,8 @@ use sample_budget::SampleBudget;
 use support::StabilityMonitor;
 use tolerances::Tolerances;
 
-/// Returns the verdict on a truss plan, whose body is `paths`.
+/// Returns the verdict on a truss plan, whose body is `paths`. Panics unless the plan passes
+/// [`validation::check`](crate::plan::validation::check).
 pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
     let corners = if paths.limits.angle > 0.0 { shape::corners(paths) } else { Vec::new() };

@@ -28,8 +28,8 @@ pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
     sum / paths.struts.len().max(1) as f64
 }
 
-/// Returns the least height of a node on a step, m, and the fraction of the step, 0 to 1, at which it has it: in
-/// closed form, over flat ground. `node`: its index.
+/// Returns (height, fraction): the least height of a node on a step, m, and the fraction of the step, 0 to 1, at which
+/// it has it; in closed form, over flat ground. `node`: its index.
 pub(super) fn lowest(step: &Step, node: usize) -> (f64, f64) {
     let (from, to) = (step.from[node], step.to[node]);
     let ends = if from.z <= to.z { (from.z, 0.0) } else { (to.z, 1.0) };
@@ -67,8 +67,8 @@ impl<'a> StabilityMonitor<'a> {
         }
     }
 
-    /// Returns the greatest distance that a node slid over the ground so far, m, and the index of that node; 0 and
-    /// the first node if none slid.
+    /// Returns (distance, node): the greatest distance that a node slid over the ground so far, m, and the index of
+    /// that node; 0 and the first node if none slid.
     pub(super) fn slid(&self) -> (f64, usize) {
         let most = |best: (f64, usize), (node, slid): (usize, &f64)| {
             if *slid > best.0 { (*slid, node) } else { best }

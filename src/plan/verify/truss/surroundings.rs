@@ -21,7 +21,7 @@ pub(super) struct Obstacle {
 /// Returns the obstacles of a plan as solids in the frame of the world, in the order of the plan.
 ///
 /// # Errors
-/// The fault of the first obstacle whose shapes are no solid.
+/// The fault of the first obstacle whose shapes are not a solid.
 pub(super) fn obstacles(paths: &NodePaths) -> Result<Vec<Obstacle>, Unsound> {
     let obstacles = paths.surroundings.obstacles.iter().enumerate();
     obstacles

@@ -3,44 +3,44 @@
 /// Tolerances of the judgement of trusses. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerances {
-    /// The excess of a strut's length over its range that is no failure, m. Default 1e-9 m: rounding of the plan's
+    /// The excess of a strut's length over its range that is not a failure, m. Default 1e-9 m: rounding of the plan's
     /// coordinates.
     pub length: f64,
-    /// The relative excess of a strut's rate over its limit that is no failure. Default 1e-9: rounding of the plan's
-    /// coordinates and times.
+    /// The relative excess of a strut's rate over its limit that is not a failure. Default 1e-9: rounding of the
+    /// plan's coordinates and times.
     pub rate: f64,
-    /// The lack of an angle between two struts that is no failure, rad. Default 1e-9 rad: rounding.
+    /// The lack of an angle between two struts that is not a failure, rad. Default 1e-9 rad: rounding.
     pub angle: f64,
-    /// The excess of a sum of lengths over its range that is no failure, m. Default 1e-9 m: rounding.
+    /// The excess of a sum of lengths over its range that is not a failure, m. Default 1e-9 m: rounding.
     pub length_sum: f64,
-    /// The lack of the least singular value of the rigidity matrix, as the plan's limit counts it, that is no
+    /// The lack of the least singular value of the rigidity matrix, as the plan's limit counts it, that is not a
     /// failure; without unit. Default 1e-9: rounding.
     pub rigidity: f64,
-    /// The lack of the clearance between two struts that is no failure, m. Default 1e-9 m: rounding, since distances
-    /// of segments are computed in closed form.
+    /// The lack of the clearance between two struts that is not a failure, m. Default 1e-9 m: rounding, since
+    /// distances of segments are computed in closed form.
     pub strut_distance: f64,
-    /// The lack of the clearance between a strut and an obstacle that is no failure, m. Default 2e-9 m: distances of
-    /// convex parts are computed by iteration, whose error adds to the rounding.
+    /// The lack of the clearance between a strut and an obstacle that is not a failure, m. Default 2e-9 m: distances
+    /// of convex parts are computed by iteration, whose error adds to the rounding.
     pub obstacle_distance: f64,
-    /// The depth of a node below flat ground that is no failure, m. Default 1e-9 m: rounding, since the lowest point
-    /// is computed in closed form.
+    /// The depth of a node below flat ground that is not a failure, m. Default 1e-9 m: rounding, since the lowest
+    /// point is computed in closed form.
     pub flat_ground: f64,
-    /// The depth of a node or strut below uneven ground, beyond what it may have, that is no failure, m. Default 1e-6
-    /// m: the advancement over a height field then needs few samples.
+    /// The depth of a node or strut below uneven ground, beyond what it may have, that is not a failure, m. Default
+    /// 1e-6 m: the advancement over a height field then needs few samples.
     pub uneven_ground: f64,
     /// The height up to which a node bears weight, as a fraction of the mean strut length at the start. Default 1e-4:
     /// real trusses deflect.
     pub contact: f64,
-    /// The distance of the centre of mass outside the support polygon at a sample that is no failure, m; twice that
+    /// The distance of the centre of mass outside the support polygon at a sample that is not a failure, m; twice that
     /// between samples. Default 1e-5 m: the advancement then needs few samples.
     pub support_margin: f64,
     /// The width below which a support polygon counts as a line, m. Default 1e-6 m: rounding of coordinates.
     pub support_width: f64,
-    /// The distance between a node after a rigid roll and where the plan has it that is no failure, m. Default 1e-6
+    /// The distance between a node after a rigid roll and where the plan has it that is not a failure, m. Default 1e-6
     /// m: the plan's angle and coordinates are rounded separately.
     pub roll: f64,
-    /// The difference between a margin that the plan states and the margin found that is no failure, in the margin's
-    /// unit (m, rad or none). Default 1e-7: rounding of the singular values of large trusses.
+    /// The difference between a margin that the plan states and the margin found that is not a failure, in the
+    /// margin's unit (m, rad or none). Default 1e-7: rounding of the singular values of large trusses.
     pub stated_margin: f64,
 }
 

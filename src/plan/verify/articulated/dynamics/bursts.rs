@@ -4,8 +4,8 @@
 use super::tolerances::PARAMETERS;
 use crate::plan::Tracks;
 
-/// Motions of single joints from rest to rest, or from one jump of the velocity to the next, that last less than four
-/// windows (200 ms), and the jumps of velocity.
+/// Motions of single joints from rest to rest, or from one jump of the velocity to the next, that last less than
+/// `burst_windows` times the `window` of [`PARAMETERS`], and the jumps of velocity.
 pub(super) struct Bursts {
     /// The begin and the end of each, s, in order of begin, then of end.
     spans: Vec<(f64, f64)>,
@@ -66,14 +66,15 @@ impl Bursts {
         &self.steps
     }
 
-    /// Returns true if the velocity of a joint jumps within 50 ms, the longest window, before or after a time (s).
+    /// Returns true if the velocity of a joint jumps within the longest window (`window` of [`PARAMETERS`]) before or
+    /// after a time (s).
     pub(super) fn near_step(&self, time: f64) -> bool {
         let first = self.steps.partition_point(|step| step.time < time - PARAMETERS.window);
         self.steps.get(first).is_some_and(|step| step.time <= time + PARAMETERS.window)
     }
 
     /// Returns the times (s) within short motions at which loads are determined besides those of samples, ascending,
-    /// each once: seven for each motion, evenly spaced, without its ends.
+    /// each once: evenly spaced, they divide each motion into `burst_instants` parts.
     pub(super) fn instants(&self) -> Vec<f64> {
         let parts = PARAMETERS.burst_instants;
         let inside = |&(from, to): &(f64, f64)| {
@@ -85,8 +86,9 @@ impl Bursts {
         times
     }
 
-    /// Returns the length of the window centred on a time (s) over which velocities and accelerations are means, s: a
-    /// quarter of the shortest short motion that comes within 25 ms of it, at least 1 ms; 50 ms if there is none.
+    /// Returns the length of the window centred on a time (s) over which velocities and accelerations are means, s:
+    /// the shortest short motion that comes within half of `window` ([`PARAMETERS`]) of it, divided by
+    /// `burst_windows`, at least `window_min`; `window` if there is none.
     pub(super) fn window(&self, time: f64) -> f64 {
         let half = PARAMETERS.window / 2.0;
         let begun = self.spans.partition_point(|span| span.0 <= time + half);

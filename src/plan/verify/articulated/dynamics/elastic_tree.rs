@@ -199,8 +199,10 @@ impl<'a> ElasticTree<'a> {
         None
     }
 
-    /// Returns the normal force of each contact (N) and the effort of each stop (N·m or N) under displacements, in
-    /// the order of the situation's lists; none is negative.
+    /// Returns the forces of contacts and stops under displacements, as (contact forces, stop efforts): the normal
+    /// force of each contact, N, in the order of [`Situation::candidates`], and the magnitude of the effort of each
+    /// stop, N·m or N, in the order of [`Situation::stops`]. None is negative; the direction of a stop's effort is
+    /// that of the stop.
     pub(super) fn forces(&self, displaced: &Displaced) -> (Vec<f64>, Vec<f64>) {
         let gaps = self.gaps(displaced);
         let (contacts, others) = gaps.split_at(self.situation.candidates.len());

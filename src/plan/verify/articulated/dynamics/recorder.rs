@@ -21,8 +21,8 @@ pub(in super::super) struct Recorded {
     pub world: World,
 }
 
-/// The attitudes of a rollout, recorded sample by sample: no two nearer than 10 ms, but where bonds or the world
-/// change.
+/// The attitudes of a rollout, recorded sample by sample: no two nearer in time than `spacing_least` of
+/// [`PARAMETERS`], but where bonds or the world change.
 #[derive(Default)]
 pub(in super::super) struct Recorder {
     /// The attitudes, in order of time.

@@ -260,9 +260,9 @@ impl<'a> RolloutLoads<'a> {
             && ledger.excuses(CheckKind::Torque, time, of)
     }
 
-    /// Returns the effort of each joint (N·m or N), by the number in its [`JointId`], at a time (s), interpolated
-    /// between the instants about it; and the forces of the ground (N) at the nearer of them, from the centre of mass
-    /// in level axes. `None` if they can't be found, or if no attitude was recorded.
+    /// Returns (efforts, forces) at a time (s): the effort of each joint (N·m or N), by the number in its [`JointId`],
+    /// interpolated between the instants about it; and the forces of the ground (N) at the nearer of them, from the
+    /// centre of mass in level axes. `None` if they can't be found, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
@@ -572,7 +572,7 @@ struct Findings {
     /// The first and the last time (s) at which the base is not balanced and nothing excuses it, and its greatest mean
     /// imbalance as a part of the weight; `None` if there is none.
     unbalanced: Option<(f64, f64, f64)>,
-    /// True if the base is not balanced near a step of velocity, which is no failure.
+    /// True if the base is not balanced near a step of velocity, which is not a failure.
     stepped: bool,
     overloads: Vec<MeanOverload>,
     work: MotorWork,

@@ -34,12 +34,13 @@ pub(in super::super) struct Traction {
 /// depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Variation {
-    /// Friction is 1.25 times as great where contacts slide, and 0.8 times elsewhere.
+    /// Friction is greater by the factor [`friction_more`](super::tolerances::Parameters::friction_more) where
+    /// contacts slide, and less by [`friction_less`](super::tolerances::Parameters::friction_less) elsewhere.
     #[default]
     Friction,
-    /// Servos are 0.4 times as stiff.
+    /// Servos are softer by the factor [`servo_softer`](super::tolerances::Parameters::servo_softer).
     Softer,
-    /// Servos are 3.3 times as stiff.
+    /// Servos are stiffer by the factor [`servo_stiffer`](super::tolerances::Parameters::servo_stiffer).
     Stiffer,
 }
 
@@ -157,9 +158,9 @@ pub(in super::super) struct GroundStep<'a> {
 }
 
 impl Traction {
-    /// Advances the travel by a step of the rollout from the planar pose `pose`. Returns the pose after it, and for
-    /// each loaded link (number of the link, its slip in m, its load as a fraction of the weight). The robot stays in
-    /// place, without slips, as long as no loads have been found.
+    /// Advances the travel by a step of the rollout from the planar pose `pose`. Returns (pose, slips): the pose after
+    /// it, and for each loaded link (number of the link, its slip in m, its load as a fraction of the weight). The
+    /// robot stays in place, without slips, as long as no loads have been found.
     pub(in super::super) fn advance(
         &mut self,
         step: &GroundStep,
