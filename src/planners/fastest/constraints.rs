@@ -12,15 +12,16 @@ use crate::robot::Drive;
 /// The points of an interval at which its limits are imposed, as parts of it.
 const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The inequality `a x + b y <= c`, with `a² + b² = 1`, on the squared velocities x and y (unit of the path's parameter
-/// squared, per s²) at the beginning and the end of an interval of the grid.
+/// The linear inequality `a x + b y <= c`, with `a² + b² = 1`, on the squared velocities x and y at the beginning and
+/// the end of an interval of the grid. They are velocities of the path's parameter, so x, y and `c` are in its unit
+/// squared per s²; `a` and `b` have no unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct HalfPlane {
-    /// The factor of the squared velocity at the beginning.
+    /// The factor of the squared velocity at the beginning, without unit.
     pub(super) a: f64,
-    /// The factor of the squared velocity at the end.
+    /// The factor of the squared velocity at the end, without unit.
     pub(super) b: f64,
-    /// The bound.
+    /// The bound, in the unit of the parameter squared, per s².
     pub(super) c: f64,
 }
 
@@ -34,7 +35,7 @@ impl HalfPlane {
 
 /// The limits of speed, acceleration and torque in one interval of the grid, as inequalities.
 pub(super) struct Interval {
-    /// The inequalities.
+    /// The inequalities on the squared velocities at both ends of the interval.
     pub(super) planes: Vec<HalfPlane>,
     /// The torque at rest, at one of the points, that is the greatest part of what may be used of its limit; `None`
     /// where torques do not count.

@@ -1,6 +1,6 @@
-//! `fastest`: a plan of an articulated robot along its path in least time, by time-optimal path parameterisation based
-//! on reachability analysis (TOPP-RA, Pham and Pham 2018, *A New Approach to Time-Optimal Path Parameterization Based
-//! on Reachability Analysis*), under limits of speed, acceleration and torque.
+//! `fastest`: the time-optimal trajectory of an articulated robot along the path of a plan, by time-optimal path
+//! parameterisation based on reachability analysis (TOPP-RA, Pham and Pham 2018, *A New Approach to Time-Optimal Path
+//! Parameterization Based on Reachability Analysis*), under limits of speed, acceleration and torque.
 //!
 //! The path is cut into stretches at the instants at which the robot has to be at rest. In a stretch the velocity of
 //! the path is the greatest under the limits on a grid, with constant acceleration of the path from point to point:
@@ -129,10 +129,10 @@ impl Default for Settings {
     }
 }
 
-/// The figures of a retimed plan.
+/// The figures of a retimed plan: its clock, and the numbers of its parts and of the verdicts that it took.
 #[derive(Clone)]
 pub struct Report {
-    /// The new times of the old ones, for what goes by the clock beside the tracks.
+    /// The new times of the old ones, for events other than the tracks.
     pub clock: Clock,
     /// The number of stretches between instants of rest.
     pub stretches: usize,
@@ -162,7 +162,7 @@ pub enum Refusal {
         /// The beginning of the stretch in which it moves, s.
         time: f64,
     },
-    /// A joint has a polynomial of too high a degree, on a path that is no straight line: composed with a time law,
+    /// A joint has a polynomial of too high a degree, on a path that is not a straight line: composed with a time law,
     /// which doubles it, it would exceed that of plans.
     Degree {
         /// The path name of the joint.
@@ -234,7 +234,7 @@ impl fmt::Display for Refusal {
 
 impl std::error::Error for Refusal {}
 
-/// Returns the motion of a plan along the same path in the least time that its limits allow, up to the resolution of
+/// Returns the trajectory along the path of a plan that takes the least time under its limits, up to the resolution of
 /// the grid (TOPP-RA, Pham and Pham 2018): tracks with the causes of the old ones, and docking at the same points of
 /// the path. Worlds and exemptions are moved by the clock of the report ([`crate::plan::retimed`]).
 ///

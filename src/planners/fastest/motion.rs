@@ -1,4 +1,4 @@
-//! Tracks from paths and time laws: each piece of a path is composed with its time law, exactly.
+//! Joint trajectories (tracks) from paths and time laws: each piece of a path is composed with its time law, exactly.
 
 use super::path::{Part, Stretch};
 use super::time_law::TimeLaw;
@@ -174,8 +174,9 @@ fn ratio(drive: &Drive, pieces: &[(usize, Vec<f64>)], time: f64) -> f64 {
     speed.max(libm::sqrt(acceleration))
 }
 
-/// Returns the tracks of a plan composed with the time laws of its parts, docking included, and the map from old times
-/// to new ones. `old`: the tracks of the plan; `parts`: its parts in order of time.
+/// Returns (tracks, clock): the joint trajectories of a plan composed with the time laws of its parts, docking
+/// included, and the map from old times to new ones. `old`: the tracks of the plan; `parts`: its parts in order of
+/// time.
 pub(super) fn tracks(old: &Tracks, parts: &[Timed]) -> (Tracks, Clock) {
     let mut new: Vec<Track> =
         old.tracks.iter().map(|t| Track { joint: t.joint, segments: Vec::new() }).collect();

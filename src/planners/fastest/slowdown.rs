@@ -15,9 +15,9 @@ const SLOWINGS_MAX: u32 = 15;
 /// The number of bisections of the factors of slowed stretches.
 const HALVINGS: usize = 3;
 
-/// The result of [`slowed`]: the motion with the map of times, and the figures of the slowing down.
+/// The result of [`slowed`]: the trajectory with the map of times, the greatest slowdown and the number of verdicts.
 pub(super) struct Slowed {
-    /// The tracks of the slowed motion.
+    /// The joint trajectories of the slowed motion.
     pub(super) tracks: Tracks,
     /// The map from the times of the plan to those of the slowed motion.
     pub(super) clock: Clock,
@@ -38,8 +38,8 @@ struct Bracket {
     high: f64,
 }
 
-/// Returns the motion of a plan whose stretches are slowed down until the judge finds no load too great, if it is
-/// judged under full dynamics; otherwise the motion by the time laws as they are.
+/// Returns the trajectory of a plan whose stretches are slowed down until the judge finds no load too great, if it is
+/// judged under full dynamics; otherwise the trajectory by the time laws as they are.
 ///
 /// # Errors
 /// [`Refusal::Unholdable`] where a load is too great at any speed; [`Refusal::Stopped`] if `progress` ends the search.

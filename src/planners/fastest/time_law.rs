@@ -8,7 +8,7 @@ use super::torque::{AtRest, Torques};
 use super::{Refusal, Settings};
 use crate::robot::{Assembly, Drive, JointId};
 
-/// The least number of intervals of a piece of a path that is no line.
+/// The least number of intervals of a piece of a path that is not a line.
 const INTERVALS_MIN: usize = 12;
 
 /// The greatest number of parts into which an interval is divided that takes long.

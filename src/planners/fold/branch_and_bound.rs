@@ -115,7 +115,7 @@ pub enum Decision {
     Stop,
 }
 
-/// Returns the layout of least energy that fits, within the budget (Land and Doig 1960). Panics if the root is no face.
+/// Returns the best layout that fits found within the budget (Land and Doig 1960). Panics if the root is not a face.
 ///
 /// # Errors
 /// [`NoLayout::AllOverlap`] if no layout lies flat or is low enough, else [`NoLayout::Budget`] if none was found.
@@ -123,8 +123,8 @@ pub fn optimum(target: &Target, weights: &Weights, settings: &Settings) -> Resul
     search(target, weights, settings, None, &Observer::none())
 }
 
-/// Returns, as [`optimum`], the layout of least energy that `accepts` accepts: of those that fit, asked about in order
-/// of ascending energy up to ties; if the budget ends before one is accepted, also of what a local search finds.
+/// Returns, as [`optimum`], the layout of least energy found that `accepts` accepts, asked in order of ascending
+/// energy up to ties; if the budget ends before it accepts one, also about what a local search finds.
 ///
 /// # Errors
 /// [`NoLayout::AllOverlap`] if no layout fits or all were refused, else [`NoLayout::Budget`] if none was accepted.

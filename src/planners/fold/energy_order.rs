@@ -16,10 +16,10 @@ use crate::geometry::{Pose, Vec3};
 /// with its factorial.
 pub const HEIGHT_MAX: usize = 8;
 
-/// Returns an order of all faces but the root (indices in [`Target::faces`]) of least energy without gravity, with
-/// the moving joint counted, and that energy (N·m for steps of one second); `None` for trees that are higher than
-/// [`HEIGHT_MAX`]. `masses`: by face, kg. The method is dynamic programming over the orders on each face's path.
-/// `target` and `layout`: the surface and how it is unfolded; `inertia`: how the mass of a panel is spread.
+/// Returns (order, energy): an order of all faces but the root (indices in [`Target::faces`]) of least energy without
+/// gravity, with the moving joint counted, and that energy (N·m for steps of one second); `None` for trees that are
+/// higher than [`HEIGHT_MAX`]. `masses`: by face, kg. The method is dynamic programming over the orders on each face's
+/// path. `target` and `layout`: the surface and how it is unfolded; `inertia`: how the mass of a panel is spread.
 pub fn least_energy(
     target: &Target,
     layout: &Layout,

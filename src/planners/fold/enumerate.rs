@@ -56,9 +56,9 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyFaces;
 
-/// Computes the energy of every layout (spanning tree) with every root asked for, with the leaves folded first,
-/// within the budget. `observer` receives progress and may end the enumeration. `target`: the surface; `weights`: the
-/// costs of its hinges for the faces that they carry. Panics if the settings name a root that is no face.
+/// Computes the energy of every layout (spanning tree) with every root asked for, with the leaves folded first, within
+/// the budget. `observer` receives progress and may end the enumeration. `target`: the surface; `weights`: the costs
+/// of its hinges for the faces that they carry. Panics if the settings name a root that is not a face.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than [`FACES_MAX`] faces.

@@ -81,9 +81,9 @@ pub struct Preferred {
     pub walked: Traversal,
 }
 
-/// Searches for the layout of least measure among all with the root `root` (an index in [`Target::faces`]; `None`: with
-/// any root), by enumeration of at most `budget` layouts, and at least one, each with every root asked for. Of equal
-/// ones the first is returned. Panics if `root` is no face of the target.
+/// Searches for the layout of least measure among all with the root `root` (an index in [`Target::faces`]; `None`:
+/// with any root), by enumeration of at most `budget` layouts, and at least one, each with every root asked for. Of
+/// equal ones the first is returned. Panics if `root` is not a face of the target.
 ///
 /// # Errors
 /// [`TooManyFaces`] for targets of more than [`enumerate::FACES_MAX`] faces.

@@ -1,4 +1,4 @@
-//! A folding program before the judge.
+//! Scheduling and judgement of a folding program.
 
 use crate::behavior::{self, Scheduled};
 use crate::interrupt;
@@ -7,7 +7,8 @@ use crate::planners::Solution;
 use crate::robot::{Assembly, State};
 use std::sync::Arc;
 
-/// A program of a robot, with the world and the options under which it is judged.
+/// A folding program to be scheduled and judged: the robot with its start, the program, and the world and settings
+/// under which the judge decides.
 pub(crate) struct Motion {
     /// The robot that folds.
     pub robot: Assembly,
@@ -21,7 +22,7 @@ pub(crate) struct Motion {
     pub judge: plan::Settings,
 }
 
-/// The figures of a motion that the judge lets through.
+/// The number of actions of a motion that the judge accepts, with the verdict.
 pub(crate) struct Judged {
     /// The number of actions of the program.
     pub actions: u64,
@@ -31,11 +32,11 @@ pub(crate) struct Judged {
 
 /// The reason why [`judged`] refuses a motion.
 pub(crate) enum Fault {
-    /// It can't be scheduled.
+    /// The program can't be scheduled, for the reason given.
     Schedule(behavior::Refusal),
     /// A stated duration is shorter than the limits of a joint allow.
     TooFast,
-    /// The judge refuses it; the earliest failure.
+    /// The judge refuses the plan, with its earliest failure.
     Refused(Box<Failure>),
 }
 

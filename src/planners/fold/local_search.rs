@@ -51,7 +51,7 @@ pub struct BoundPrefilter {
     pub budget: u64,
 }
 
-/// The result of [`search`]: the best layouts.
+/// The result of [`search`]: the best layouts found.
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// The best layouts, each with its two values (the one that is minimised and the one that decides ties, in the
@@ -70,11 +70,11 @@ pub struct Measured {
 }
 
 /// Searches for the layouts of least value; `value` returns the two values of a layout, which are compared by the
-/// first, then by the second. If more than one root is asked for, only one of those that are equal by a symmetry of the
-/// target and of `weights` is tried, so `value` must have the same symmetry. Enumerates the pairs of a layout and a
-/// root that is tried if they are no more than the budget (or that of the prefilter, if it is greater), in targets of
-/// at most [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange. `weights`: the costs that
-/// symmetry, greedy trees and the prefilter are computed from. Panics if a root is no face of the target.
+/// first, then by the second. If more than one root is asked for, only one of those that are equal by a symmetry of
+/// the target and of `weights` is tried, so `value` must have the same symmetry. Enumerates the pairs of a layout and
+/// a root that is tried if they are no more than the budget (or that of the prefilter, if it is greater), in targets
+/// of at most [`enumerate::FACES_MAX`] faces; else improves greedy trees by edge exchange. `weights`: the costs that
+/// symmetry, greedy trees and the prefilter are computed from. Panics if a root is not a face of the target.
 pub fn search(
     target: &Target,
     weights: &Weights,

@@ -181,8 +181,9 @@ impl<'t> Objective<'t> {
         }
     }
 
-    /// Returns the greatest number of pairs of a layout and a root whose energy and peak torque are computed: 1e7
-    /// divided by the number of faces in closed form, 4e4 divided by it where each takes a simulation.
+    /// Returns the greatest number of pairs of a layout and a root whose energy and peak torque are computed:
+    /// `CLOSED_MAX` divided by the number of faces in closed form, `SIMULATED_MAX` divided by it where each takes a
+    /// simulation.
     pub fn measures_max(&self) -> u64 {
         let faces = self.masses.len() as u64;
         if self.conventions.is_separable() { CLOSED_MAX / faces } else { SIMULATED_MAX / faces }

@@ -38,7 +38,7 @@ pub struct Panel {
     pub parts: Vec<Part>,
 }
 
-/// The reason why a module type is no panel: the first property of a panel that it has not.
+/// The reason why a module type is not a panel: the first property of a panel that it lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotAPanel {
     /// The module type has another number of ports than three.
@@ -49,7 +49,7 @@ pub enum NotAPanel {
     PortPoses,
     /// The connector of the ports of the module type has no hinge.
     NoHinge,
-    /// The collision shape of the module type is no solid.
+    /// The collision shape of the module type is not a solid.
     Shape,
 }
 
@@ -75,7 +75,7 @@ impl Panel {
     /// library has no such type.
     ///
     /// # Errors
-    /// The first property of a panel that this module type has not, as [`NotAPanel`].
+    /// The first property of a panel that this module type lacks, as [`NotAPanel`].
     pub fn of(library: &Library, kind: usize) -> Result<Panel, NotAPanel> {
         let module = &library.modules[kind];
         let [a, b, c] = &module.ports[..] else { return Err(NotAPanel::Ports) };
@@ -198,7 +198,7 @@ impl Panels {
     /// type in [`Library::modules`]. Panics if `kinds` is empty, or an index is none of the library.
     ///
     /// # Errors
-    /// [`NotAPanel`] for the first face whose module type is no panel.
+    /// [`NotAPanel`] for the first face whose module type is not a panel.
     pub fn new(library: Arc<Library>, kinds: Vec<usize>) -> Result<Panels, NotAPanel> {
         let mut known: Vec<Option<Panel>> = vec![None; library.modules.len()];
         for &kind in &kinds {

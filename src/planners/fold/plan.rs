@@ -24,8 +24,8 @@ use crate::planners::{Progress, Solution};
 /// `report.bound` is a bound for all orders. All actions of the program have cause 0.
 ///
 /// # Errors
-/// A [`Refusal`]: a root that is no face, settings that do not go together, a shape that does not fold, a search that
-/// ended without an answer.
+/// A [`Refusal`]: a root that is not a face, settings that do not go together, a shape that does not fold, a search
+/// that ended without an answer.
 ///
 /// # Example
 /// A tetrahedron with edges of 80 mm, of uniform bevelled plates:

@@ -12,7 +12,7 @@ use std::fmt;
 /// [`Target::faces`](super::Target::faces), from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// The root is no face of the target.
+    /// The root is not a face of the target.
     NoSuchRoot {
         /// The number of faces of the target.
         faces: usize,
@@ -66,7 +66,7 @@ pub enum Refusal {
         /// The indices of the two faces in [`Target::faces`](super::Target::faces).
         faces: [usize; 2],
     },
-    /// The given hinges are no spanning tree of the faces.
+    /// The given hinges are not a spanning tree of the faces.
     NotSpanning {
         /// The number of hinges that the problem gives.
         hinges: usize,

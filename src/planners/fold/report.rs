@@ -10,7 +10,7 @@ use crate::plan::{Verdict, World};
 use crate::planners::Progress;
 use num_bigint::BigInt;
 
-/// The figures of a folding and of the search for it.
+/// The figures of a folding and of the search for it: layout and order, effort with its lower bound, and the verdict.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The surface that is folded, as the problem states it.

@@ -20,7 +20,7 @@ pub struct Sheet {
     pub flat: State,
 }
 
-/// The reason why panels are no sheet: the connector of a bond of the layout has no hinge.
+/// The reason why panels are not a sheet: the connector of a bond of the layout has no hinge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoHinge;
 
@@ -66,7 +66,7 @@ impl Sheet {
     }
 
     /// Returns the joint of the hinge between a face (an index in [`Target::faces`]) and its parent. `layout`: the
-    /// layout that the sheet was made from. Panics for the root, which has none, and for an index that is no face.
+    /// layout that the sheet was made from. Panics for the root, which has none, and for an index that is not a face.
     pub fn joint(&self, layout: &Layout, face: usize) -> JointId {
         let place = layout.order.iter().position(|f| *f == face).expect("the order names every face");
         self.joints[place - 1]

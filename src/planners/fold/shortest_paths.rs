@@ -22,7 +22,8 @@ pub fn arc(face: usize, side: usize) -> Arc {
     (3 * face + side) as Arc
 }
 
-/// Returns the face (an index in [`Target::faces`]) that an arc enters, and the side (0 to 2) of that face.
+/// Returns (face, side): the face (an index in [`Target::faces`]) that an arc enters, and the side (0 to 2) of that
+/// face.
 #[inline]
 pub fn head(arc: Arc) -> (usize, usize) {
     (arc as usize / 3, arc as usize % 3)
@@ -170,11 +171,10 @@ impl<'t> ShortestPaths<'t> {
         }
     }
 
-    /// Returns the cheapest path from the root to `goal` (both indices in [`Target::faces`]) over allowed arcs with
-    /// at most `longest` hinges, with its cost (N·m for steps of one second); `None` if there is none. The path is
-    /// the list of its arcs from the goal back to the root. The method is A*, whose heuristic is the cost over all
-    /// arcs, or the Bellman-Ford algorithm where `longest` is less than the number of faces. Panics if there is no
-    /// such face.
+    /// Returns (cost, path) of the cheapest path from the root to `goal` (both indices in [`Target::faces`]) over
+    /// allowed arcs with at most `longest` hinges: the cost in N·m for steps of one second, and the arcs from the goal
+    /// back to the root; `None` if there is none. The method is A*, whose heuristic is the cost over all arcs, or the
+    /// Bellman-Ford algorithm where `longest` is less than the number of faces. Panics if there is no such face.
     pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);

@@ -11,7 +11,7 @@ const DIFFERENT_MAX: usize = 4_000_000;
 pub struct Spectrum {
     unit: f64,
     counts: BTreeMap<u64, u64>,
-    /// The number of energies that were not counted because they would have needed more than four million bins.
+    /// The number of energies that were not counted because they would have needed more than `DIFFERENT_MAX` bins.
     pub uncounted: u64,
 }
 
@@ -22,8 +22,8 @@ impl Spectrum {
         Spectrum { unit, counts: BTreeMap::new(), uncounted: 0 }
     }
 
-    /// Counts an energy, in the same unit of measurement as `unit`; a negative one counts as 0. One that
-    /// would need more than four million bins is counted in [`uncounted`](Spectrum::uncounted) only.
+    /// Counts an energy, in the same unit of measurement as `unit`; a negative one counts as 0. One that would need
+    /// more than `DIFFERENT_MAX` bins is counted in [`uncounted`](Spectrum::uncounted) only.
     pub fn add(&mut self, energy: f64) {
         let key = (energy / (self.unit * TOLERANCES.energy_grain)).round() as u64;
         if let Some(count) = self.counts.get_mut(&key) {

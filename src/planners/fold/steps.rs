@@ -31,10 +31,10 @@ fn layered(layout: &Layout, layer: impl Fn(usize) -> usize) -> Vec<Vec<usize>> {
     steps
 }
 
-/// Lays an order of faces into the fewest steps in which each face folds after every face that precedes it in the order
-/// and is above or below it in the tree: one step after the last of these. `order`: indices of faces in the target,
-/// each at most once, without the root. The result has one list of faces for each step, each ascending. `layout`: the
-/// tree. Panics if `order` names a face that the tree has not.
+/// Lays an order of faces into the fewest steps in which each face folds after every face that precedes it in the
+/// order and is above or below it in the tree: one step after the last of these. `order`: indices of faces in the
+/// target, each at most once, without the root. The result has one list of faces for each step, each ascending.
+/// `layout`: the tree. Panics if `order` names a face that is not in the tree.
 ///
 /// This is the purpose of Alg. 3 of [Yao et al.](super), which as printed puts all faces into one step, loses the last,
 /// and may let a face overtake another on its path.

@@ -70,7 +70,7 @@ impl Target {
     /// each face as indices in `vertices`, counterclockwise seen from outside.
     ///
     /// # Errors
-    /// The first reason found why the mesh is no target; [`Unfoldable::Undriven`] and [`Unfoldable::UnequalSides`]
+    /// The first reason found why the mesh is not a target; [`Unfoldable::Undriven`] and [`Unfoldable::UnequalSides`]
     /// are not among them.
     pub fn new(vertices: Vec<Vec3>, faces: &[Vec<usize>]) -> Result<Target, Unfoldable> {
         if faces.is_empty() {
@@ -159,9 +159,9 @@ impl Target {
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// Returns the hinges of a face (an index in [`Target::faces`]) in order of its sides, each as its index in
-    /// [`Target::hinges`] with the index of the face across it; sides without a hinge are left out. Panics if there
-    /// is no such face.
+    /// Returns the hinges of a face (an index in [`Target::faces`]) in order of its sides, each as (index in
+    /// [`Target::hinges`], index of the face across it); sides without a hinge are left out. Panics if there is no
+    /// such face.
     #[inline]
     pub fn around(&self, face: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.sides[face].into_iter().flatten().map(move |hinge| (hinge, self.hinges[hinge].other(face)))

@@ -59,8 +59,8 @@ impl<'p> Task<'p> {
     /// Checks a problem and its settings, and determines conventions, possible roots and the objective.
     ///
     /// # Errors
-    /// A [`Refusal`]: a root that is no face or does not lie on the ground, settings that do not go together, or panels
-    /// that penetrate each other in the target.
+    /// A [`Refusal`]: a root that is not a face or does not lie on the ground, settings that do not go together, or
+    /// panels that penetrate each other in the target.
     pub(super) fn new(
         problem: &'p Problem,
         settings: &'p Settings,

@@ -3,7 +3,7 @@
 use crate::plan::listed;
 use std::fmt;
 
-/// The reason why a mesh is no target of a folding. Faces are indices in the mesh, from 0.
+/// The reason why a mesh is not a target of a folding. Faces are indices in the mesh, from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfoldable {
     /// The mesh has no faces at all.
@@ -22,7 +22,8 @@ pub enum Unfoldable {
         /// The number of corners of the face.
         corners: usize,
     },
-    /// A face has no area, a coordinate that is not a number, or a corner that is no vertex, or names a vertex twice.
+    /// A face has no area, a coordinate that is not a number, or a corner that is not a vertex, or names a vertex
+    /// twice.
     Degenerate {
         /// The index of the face in the mesh, from 0.
         face: usize,

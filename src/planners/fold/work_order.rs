@@ -30,10 +30,11 @@ pub struct WorkOrder {
     pub optimal: bool,
 }
 
-/// Returns the order of least work against gravity (Eq. 17 of [Yao et al.](super)) of a layout whose root lies on the
-/// ground with its outside down, by dynamic programming over subsets of hinges, branch by branch of the root;
-/// `weights`: by face, N. Of a branch too large for all subsets ([`BRANCH_MAX`]) it is the better of leaves first and
-/// root first. `target`: the surface that the layout is of.
+/// Returns an order of little work against gravity (Eq. 17 of [Yao et al.](super)) of a layout whose root lies on the
+/// ground with its outside down: the order of least work, by dynamic programming over subsets of hinges, branch by
+/// branch of the root, unless a branch is too large for all subsets ([`BRANCH_MAX`]). Of such a branch it is the
+/// better of leaves first and root first, which need not be the best; [`WorkOrder::optimal`] tells. `target`: the
+/// surface that the layout is of; `weights`: by face, N.
 pub fn least_work(target: &Target, layout: &Layout, weights: &[f64]) -> WorkOrder {
     let mut all = WorkOrder { order: Vec::new(), work: 0.0, bound: 0.0, optimal: true };
     for &child in &layout.children()[layout.root] {

@@ -56,7 +56,8 @@ pub struct Problem {
     pub path: Vec<[f64; 2]>,
 }
 
-/// The figures of a motion along a path and of the search for it.
+/// The figures of a motion along a path and of the search for it: how far it came and why it ended, with the numbers
+/// of steps and rolls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// The reason why the motion ends; unless it is [`End::Arrived`], before the end of the path.

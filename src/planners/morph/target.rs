@@ -23,8 +23,8 @@ impl Target {
         Target { fractions: vec![fraction; points.len()], points, surface: None }
     }
 
-    /// Returns a target of triangles, m, with a sample point for about every square of side `spacing`, m, and at
-    /// least one for each triangle; the spacing is widened so that there are not many more than 20 000. The triangles
+    /// Returns a target of triangles, m, with a sample point for about every square of side `spacing`, m, and at least
+    /// one for each triangle; the spacing is widened so that there are not many more than `POINTS_MAX`. The triangles
     /// together must have area.
     pub fn surface(triangles: Vec<[Vec3; 3]>, spacing: f64) -> Target {
         let area = |t: &[Vec3; 3]| (t[1] - t[0]).cross(&(t[2] - t[0])).norm() / 2.0;

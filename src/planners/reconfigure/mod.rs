@@ -1,8 +1,8 @@
 //! `reconfigure`: from one configuration of RoFI modules to another of as many, through the snake. Both are
 //! unwound by [`tosnake`], and the second plan is run backwards.
 //!
-//! With gravity one module is held fixed all the time. Then the second robot has to be held by a shoe that
-//! ends at the same position in the snake as the shoe by which the first is held.
+//! With gravity one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
+//! has to be held by a shoe that ends at the same position in the snake as the shoe by which the first is held.
 
 use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};
 use crate::planners::tosnake::gravity::GravityModel;
@@ -46,7 +46,9 @@ pub struct Problem<'a> {
 pub struct Settings {
     /// The settings of the search for either half.
     pub search: tosnake::Settings,
-    /// The settings of the judge, which chooses among the shoes that may hold the goal under gravity.
+    /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is
+    /// held (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
+    /// accepts is the result. Without gravity nothing is judged.
     pub judge: plan::Settings,
 }
 

@@ -3,8 +3,8 @@
 use crate::planners::fold::Target;
 
 /// Returns the number of connected components (across sides of faces) of the faces for which `gone` is false and that
-/// are not connected with any of the faces `first`; faces are indices in [`Target::faces`]. Panics if one of `first` is
-/// no face.
+/// are not connected with any of the faces `first`; faces are indices in [`Target::faces`]. Panics if one of `first`
+/// is not a face.
 pub(super) fn groups(
     target: &Target,
     gone: impl Fn(usize) -> bool,

@@ -56,7 +56,8 @@ impl Default for Settings {
     }
 }
 
-/// The figures of a refolding and of the search for it.
+/// The figures of a refolding and of the search for it: its changes with their lower bound, its energy and layout, and
+/// the verdict.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The number of connections of panels that are made, which is also the number of those undone.

@@ -13,9 +13,9 @@ const HALF: i64 = WHOLE / 2;
 const QUARTER: i64 = WHOLE / 4;
 
 /// Returns the motion from a row of `count` cells along x, at least four, with cell `i` (from 0) at lattice site (i,
-/// 0, 0), to a column along y. The order of the cells in the column is another than in the row: levels from the
-/// middle of the row outwards come one above the other, and of the two cells of a level the left and the right take
-/// turns at being the upper one. Cells must be able to shrink to half their size. The stages: the arms slide up by
+/// 0, 0), to a column along y. The order of the cells in the column differs from that in the row: levels from the
+/// middle of the row outwards come one above the other, and of the two cells of a level the left and the right
+/// alternate in being the upper one. Cells must be able to shrink to half their size. The stages: the arms slide up by
 /// half a cell, turn by the shear, and the two columns that they end as are squeezed, swapped and expanded into one.
 /// `limits`: the limits of the cells.
 ///

@@ -14,7 +14,8 @@ use super::shear::shear;
 use super::unroll::unroll;
 use super::{Method, Refusal};
 
-/// A motion between two shapes, with the method by which it was constructed.
+/// A motion between two shapes, or from one shape to the row that motions go through, with the method by which it was
+/// constructed.
 pub(super) struct Candidate {
     /// The method by which the motion was constructed.
     pub method: Method,

@@ -270,7 +270,7 @@ fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> CellState) -> Res
     domains.iter().zip(&affine).map(run).collect()
 }
 
-/// The denominator to which a distance along several axes is rounded up: its square is no square number.
+/// The denominator to which a distance along several axes is rounded up: its square is not a square number.
 const ROOT_PARTS: i128 = 1 << 16;
 
 impl Displacements {

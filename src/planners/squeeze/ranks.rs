@@ -6,9 +6,9 @@
 use super::domain::{Domain, by_bits};
 use std::collections::{BTreeMap, HashMap};
 
-/// Returns the indices (from 0) in the column that cells have after `folds` folds of a row of `count` cells, as a
-/// function of the cell's number, and the domains on each of which this function is affine. `folds` must be at least 1,
-/// and `count` at most `2^folds` and more than half of it.
+/// Returns (domains, index) of the column at the end of `folds` folds of a row of `count` cells: the index (from 0)
+/// that a cell has in the column, as a function of the cell's number, and the domains on each of which this function
+/// is affine. `folds` must be at least 1, and `count` at most `2^folds` and more than half of it.
 pub(super) fn of(count: u64, folds: u32) -> (Vec<Domain>, impl Fn(u64) -> i64) {
     let mut places = vec![0_i64; count as usize];
     let rows = (0..1 << folds).map(|row| cell_of(row, folds)).filter(|&cell| cell < count);

@@ -5,9 +5,9 @@ use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
 use super::motion::{Builder, Motion, PlanLimits};
 
-/// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which
-/// cell `i` (from 0) is at site `i`. In the box the cells are numbered to and fro: along x, then along z, then along
-/// y. They keep their size. `limits`: the limits of the cells.
+/// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which cell
+/// `i` (from 0) is at site `i`. In the box the cells are numbered back and forth, in a serpentine: along x, then along
+/// z, then along y. They keep their size. `limits`: the limits of the cells.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.

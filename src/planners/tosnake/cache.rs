@@ -19,13 +19,14 @@ pub(crate) struct SearchKey {
 }
 
 impl SearchKey {
-    /// Returns the key of a search. The number of threads is no part of it, for the steps do not depend on that.
+    /// Returns the key of a search. The number of threads is not part of it, for the steps do not depend on that.
     pub(crate) fn new(robot: Robot, settings: &Settings, gravity: Option<GravityModel>) -> SearchKey {
         SearchKey { robot, settings: Settings { threads: 1, ..*settings }, gravity }
     }
 }
 
-/// A cache of the step sequences of the last 100 searches that found one. Clones share the sequences, not the list.
+/// A cache of the step sequences of the last searches that found one, at most `STORED_MAX`. Clones share the
+/// sequences, not the list.
 #[derive(Clone, Default)]
 pub struct SearchCache(Vec<(Rc<SearchKey>, Rc<StepSequence>)>);
 

@@ -25,8 +25,8 @@ const START_SPREAD: f64 = 0.02;
 
 impl ConcurrentMerges {
     /// Adds further pairs, tried in the order of `pairs`, that share no joint, bond or chain with those there, until
-    /// there are [`Settings::concurrent_merges_max`] or four attempts in a row failed. `tried` counts attempts, `work`
-    /// counts forward kinematics; `rng` gives random starts.
+    /// there are [`Settings::concurrent_merges_max`] or `FAILURES_MAX` attempts in a row failed. `tried` counts
+    /// attempts, `work` counts forward kinematics; `rng` gives random starts.
     pub(super) fn extended(
         mut self,
         state: &State,

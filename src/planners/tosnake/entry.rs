@@ -27,7 +27,8 @@ pub struct Problem<'a> {
     pub world: World,
 }
 
-/// The figures of a plan to the snake and of the search for it.
+/// The figures of a plan to the snake and of the search for it: numbers of actions and attempts, joint travel and
+/// work.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// The number of docking actions of the plan.

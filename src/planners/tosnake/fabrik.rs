@@ -78,9 +78,10 @@ impl Chain {
     }
 
     /// Closes the chain by FABRIK (Aristidou and Lasenby 2011) from given joint positions (rad, by module). Returns
-    /// the positions of all joints of the robot, rad, by module, or `None` if it does not converge; and the number of
-    /// iterations in either case. With `avoid`, tilts keep out of positions in which a ball would overlap one that
-    /// does not move, where they can. `work` counts forward kinematics. `settings`: the settings of FABRIK.
+    /// (positions, iterations): the positions of all joints of the robot, rad, by module, or `None` if it does not
+    /// converge; and the number of iterations in either case. With `avoid`, tilts keep out of positions in which a
+    /// ball would overlap one that does not move, where they can. `work` counts forward kinematics. `settings`: the
+    /// settings of FABRIK.
     pub fn solve(
         &self,
         from: &Joints,

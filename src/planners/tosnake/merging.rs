@@ -1,5 +1,5 @@
-//! Merging two chains into one: their ends dock, and a bond of the loop that this closes is undocked which
-//! is no snake bond.
+//! Merging two chains into one: their ends dock, and a bond of the loop that this closes is undocked which is not a
+//! snake bond.
 
 use super::broad_phase;
 use super::inverse_kinematics::{self, IkMode, Loop, LoopClosure};
@@ -315,8 +315,8 @@ fn connect(
     connect(scene, descent, from, middle, work, path) && connect(scene, descent, middle, to, work, path)
 }
 
-/// Returns the bonds between the docks of a pair that are no snake bonds; there is at least one. Those come
-/// first that free a dock -Z.
+/// Returns the bonds between the docks of a pair that are not snake bonds; there is at least one. Those come first
+/// that free a dock -Z.
 fn replaceable_bonds(state: &State, pair: &Pair) -> Vec<usize> {
     let tree = &state.tree;
     let path = tree.path(tree.index[pair.a.shoe()], tree.index[pair.b.shoe()]);

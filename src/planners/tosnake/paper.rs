@@ -87,9 +87,9 @@ pub(super) fn unwind(
     Err(if without_tips { Refusal::NoFreeTips(reached) } else { Refusal::Exhausted(reached) })
 }
 
-/// Returns the state with the tips of a pair docked, and the first bond between them undocked that is no
-/// snake bond (`CONNECTANDCUT` of the paper); `None` if the tips do not come together, or balls overlap then and
-/// collisions are checked.
+/// Returns the state with the tips of a pair docked, and the first bond between them undocked that is not a snake bond
+/// (`CONNECTANDCUT` of the paper); `None` if the tips do not come together, or balls overlap then and collisions are
+/// checked.
 fn connected_and_cut(state: &State, [a, b]: [Dock; 2], settings: &Settings, work: &mut u64) -> Option<State> {
     let chain = Chain::new(state, a, b);
     if !chain.is_long_enough() {

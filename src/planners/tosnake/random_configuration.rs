@@ -16,9 +16,9 @@ const DOCKING_PERIOD: usize = 10;
 const ATTEMPTS_MAX: usize = 100;
 
 /// Returns a snake of `modules` modules, at least one, after `actions` random actions: quarter turns of joints that
-/// are free of collisions, docking where docks meet, and undocking where the robot stays connected. If 100 attempts
-/// for each action do not suffice, fewer are made. All bonds in its list are closed. The same seed gives the same
-/// configuration. Panics without modules.
+/// are free of collisions, docking where docks meet, and undocking where the robot stays connected. If `ATTEMPTS_MAX`
+/// attempts for each action do not suffice, fewer are made. All bonds in its list are closed. The same seed gives the
+/// same configuration. Panics without modules.
 pub fn random_configuration(modules: usize, actions: usize, seed: u64) -> Robot {
     let bond = |m: usize| Bond { a: Dock::red(2 * m + 1), b: Dock::red(2 * (m + 1)), turn: 0 };
     let bonds: Vec<Bond> = (0..modules.saturating_sub(1)).map(bond).collect();

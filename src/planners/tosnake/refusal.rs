@@ -12,7 +12,7 @@ use std::fmt;
 pub enum Refusal {
     /// The assembly is none of RoFI modules of one pitch, for the reason given.
     NotRofi(NotRofi),
-    /// The start is no valid configuration, for the reason given.
+    /// The start is not a valid configuration, for the reason given.
     InvalidStart(InvalidStart),
     /// The docks of a bond that closes a loop do not meet.
     OpenLoop {
@@ -42,7 +42,7 @@ pub enum Refusal {
     Schedule(behavior::Refusal),
 }
 
-/// The reason why an assembly is no robot of RoFI modules.
+/// The reason why an assembly is not a robot of RoFI modules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotRofi {
     /// The module of this index, from 0, has other joints or ports than the RoFI universal module.
@@ -51,7 +51,7 @@ pub enum NotRofi {
     Pitch(usize),
 }
 
-/// The reason why a configuration is no valid start.
+/// The reason why a configuration is not a valid start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InvalidStart {
     /// The module of this index, from 0, is not connected to the first by closed bonds.

@@ -29,8 +29,8 @@ pub struct RrtConnect<'a> {
 
 impl RrtConnect<'_> {
     /// Returns a path of postures (rad, by module) from `from`, left out, to `to`, between which straight motions in
-    /// joint space are free; `None` if 40 samples find none. `to` must differ from `from` in `joints` only. `work`
-    /// counts forward kinematics. `rng`: the generator of samples.
+    /// joint space are free; `None` if `SAMPLES_MAX` samples find none. `to` must differ from `from` in `joints` only.
+    /// `work` counts forward kinematics. `rng`: the generator of samples.
     pub fn path(
         &self,
         from: &Joints,

@@ -172,7 +172,7 @@ impl State {
         (0..chain.len()).map(|m| root(&mut chain, m)).collect()
     }
 
-    /// Returns the number of closed bonds that are no snake bonds ([`Bond::is_snake_bond`](super::robot::Bond)): the
+    /// Returns the number of closed bonds that are not snake bonds ([`Bond::is_snake_bond`](super::robot::Bond)): the
     /// merges still to make, for each replaces one of them by a snake bond.
     pub fn other_bonds(&self) -> usize {
         self.robot.held().filter(|(_, bond)| !bond.is_snake_bond()).count()

@@ -196,10 +196,10 @@ impl Tree {
         (0..self.shoes()).flat_map(|index| self.joints_at(index)).collect()
     }
 
-    /// Returns the unit axis about which a joint turns the subtree of its child, and a point on it, in pitches, both
-    /// in the frame of the root. The joint's column of the Jacobian of a point p of the subtree is `axis × (p -
-    /// point)`, and of its angular velocity `axis`. `poses`: of the shoes, in the tree's order, in pitches, in the
-    /// frame of the root.
+    /// Returns (axis, point): the unit axis about which a joint turns the subtree of its child, and a point on it, in
+    /// pitches, both in the frame of the root. The joint's column of the Jacobian of a point p of the subtree is `axis
+    /// × (p - point)`, and of its angular velocity `axis`. `poses`: of the shoes, in the tree's order, in pitches, in
+    /// the frame of the root.
     pub fn axis(&self, joint: JointRef, poses: &[RigidTransform]) -> (Vec3, Vec3) {
         let (child, parent) = (&poses[joint.child], &poses[self.parent[joint.child]]);
         let child_is_b = self.shoe[joint.child] % 2 == 1;
@@ -214,7 +214,7 @@ impl Tree {
     }
 
     /// Returns true if the shoe at `index` is in the subtree of the one at `root`, itself included; both are indices
-    /// in the tree's order. Panics if `root` is no index of the tree.
+    /// in the tree's order. Panics if `root` is not an index of the tree.
     pub fn is_in_subtree(&self, index: usize, root: usize) -> bool {
         (root..self.end[root]).contains(&index)
     }

@@ -33,7 +33,7 @@ pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
 
 /// Opens the closed bonds whose docks do not meet, and returns their indices in [`Robot::bonds`], ascending. Of two
 /// bonds between the same modules that contradict each other the one in the tree of a breadth-first search from module
-/// 0 counts, unless only the other leaves no overlap; up to ten contradictions are tried in all combinations.
+/// 0 counts, unless only the other leaves no overlap; up to `TWINS_MAX` contradictions are tried in all combinations.
 ///
 /// # Errors
 /// [`InvalidStart`]: the robot is not connected, or modules overlap in all combinations; then nothing is opened.

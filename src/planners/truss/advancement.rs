@@ -10,9 +10,8 @@ use crate::geometry::closest_points::segment_segment;
 
 /// Returns the constraints on lengths, angles, loops and the given pairs of struts (indices) that are violated
 /// somewhere while the nodes move from x to y, both in m, each with the shortfall, m. A distance may fall short of
-/// `truss.clearance` by `margin`, m, and by the error of [`segment_segment`] where struts are at an angle of less than
-/// 3.2e-5 rad (that angle times the shorter length), never by more; where it is computed, half the margin is asked
-/// for, so that advancement ends.
+/// `truss.clearance` by `margin`, m, and by the error of [`segment_segment`] of struts that are nearly parallel, never
+/// by more; where it is computed, half the margin is asked for, so that advancement ends.
 pub(super) fn violations(
     truss: &Structure,
     x: &[Vec3],

@@ -49,8 +49,8 @@ pub const SAMPLES: usize = 64;
 impl Constraint {
     /// Returns g(x), m, with the nodes at `x`, m; not negative where the constraint holds. Angles (rad) and singular
     /// values are multiplied by the unit length [`Structure::unit`]. `Rigidity` costs an eigenvalue decomposition.
-    /// `Clearance` of struts at an angle of less than 3.2e-5 rad may be too great by that angle times the shorter
-    /// length ([`segment_segment`]). Panics if an index is none of the truss.
+    /// `Clearance` of struts that are nearly parallel may be too great by the error of [`segment_segment`]. Panics if
+    /// an index is none of the truss.
     pub fn value(self, truss: &Structure, x: &[Vec3]) -> f64 {
         match self {
             Constraint::LengthMin(strut) => truss.length(x, strut) - truss.lengths[strut].0,

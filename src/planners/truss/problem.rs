@@ -49,7 +49,7 @@ pub struct TrussProblem {
 pub enum InvalidTruss {
     /// There are not as many names as nodes, or no struts.
     Incomplete,
-    /// A strut joins a node to itself, to an index that is no node, or to a node at the same position.
+    /// A strut joins a node to itself, to an index that is not a node, or to a node at the same position.
     Degenerate {
         /// The index of the strut in [`TrussProblem::struts`].
         strut: usize,
@@ -228,10 +228,10 @@ impl TrussProblem {
     }
 
     /// Returns the reason why there was no step in words for a message, such as `no step keeps all limits: a -- b is
-    /// near c -- d and 2 more`. It names up to four constraints that blocked the step, each once, in the order of the
-    /// error, those of obstacles and uneven ground first: a truss's own struts are often at some limit. Struts go by
-    /// the names of their nodes, obstacles and loops by numbers from 1. `truss`: the structure that the error came
-    /// from, made of this problem; a panic if it was made of another.
+    /// near c -- d and 2 more`. It names up to `CONSTRAINTS_REPORTED_MAX` constraints that blocked the step, each
+    /// once, in the order of the error, those of obstacles and uneven ground first: a truss's own struts are often at
+    /// some limit. Struts go by the names of their nodes, obstacles and loops by numbers from 1. `truss`: the
+    /// structure that the error came from, made of this problem; a panic if it was made of another.
     pub fn explain(&self, truss: &Structure, error: &StepError) -> String {
         let (why, constraints) = match error {
             StepError::Infeasible(constraints) => ("no step keeps all limits", constraints),
@@ -255,8 +255,8 @@ impl TrussProblem {
     }
 
     /// Returns an active constraint of `truss` in words for a message, such as `a -- b is at its least length`.
-    /// Obstacles and loops are numbered from 1. Panics if the constraint names a strut or node that this problem has
-    /// not.
+    /// Obstacles and loops are numbered from 1. Panics if the constraint names a strut or node that is not in this
+    /// problem.
     pub fn explain_constraint(&self, truss: &Structure, constraint: Constraint) -> String {
         let strut = |k: usize| self.strut_name(k);
         match constraint {

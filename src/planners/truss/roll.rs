@@ -85,8 +85,8 @@ pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<
 
 /// Returns the positions of the nodes, m, once the truss has come to rest from `x`, m: it is put down with its lowest
 /// nodes on the ground, then rolls over edges of its support polygon until it is statically stable (McGhee and Frank
-/// 1968). Quasi-static, without inertia; obstacles do not count. `None` if it does not rest after 50 rolls, or
-/// nothing of it meets the ground any more.
+/// 1968). Quasi-static, without inertia; obstacles do not count. `None` if it does not rest after `ROLLS_MAX` rolls,
+/// or nothing of it meets the ground any more.
 pub fn settled(truss: &Structure, x: &[Vec3]) -> Option<Vec<Vec3>> {
     let mut x = x.to_vec();
     for _ in 0..ROLLS_MAX {

@@ -6,7 +6,7 @@ use crate::geometry::Vec3;
 use crate::robot::Strut;
 
 /// A truss of linear actuators: its graph, the limits of its struts and of its shape, and its surroundings. The
-/// positions of its nodes are no part of it; functions take them as `x`, m, in the world's frame, one for each node.
+/// positions of its nodes are not part of it; functions take them as `x`, m, in the world's frame, one for each node.
 #[derive(Clone, Debug)]
 pub struct Structure {
     /// The number of nodes of the truss.
@@ -50,8 +50,8 @@ pub struct Limits {
 }
 
 impl Structure {
-    /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits, obstacles
-    /// or terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is no node
+    /// Returns the truss of struts of one kind, with the nodes at `start`, m, and without further limits, obstacles or
+    /// terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is not a node
     /// panics. `strut`: the kind of the struts.
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
         let mut mass_fractions = vec![0.0; start.len()];
@@ -117,8 +117,8 @@ impl Structure {
         self.limits.loops[index].iter().map(|&strut| self.length(x, strut)).sum()
     }
 
-    /// Returns three indices of nodes: the one that the struts `i` and `j` share, the other end of `i`, and the other
-    /// end of `j`. The struts must share a node. Panics if there is no such strut.
+    /// Returns (shared, end of `i`, end of `j`): the indices of the node that the struts `i` and `j` share, and of the
+    /// other end of each. The struts must share a node. Panics if there is no such strut.
     pub fn corner(&self, i: usize, j: usize) -> (usize, usize, usize) {
         let ((a, b), (c, d)) = (self.struts[i], self.struts[j]);
         match (a == c, a == d, b == c) {

@@ -52,9 +52,9 @@ fn cross(a: Vec3, b: Vec3, c: Vec3) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
-/// Returns the signed distance of the point `at` from the boundary of a hull (nodes as by [`hull`]) seen from above, m,
-/// positive inside, and the edge that it is nearest to, as two nodes. A hull of two nodes has no inside. `None` with
-/// fewer. `x`: the positions of the nodes, m.
+/// Returns (distance, edge): the signed distance of the point `at` from the boundary of a hull (nodes as by [`hull`])
+/// seen from above, m, positive inside, and the edge that it is nearest to, as two nodes. A hull of two nodes has no
+/// inside. `None` with fewer. `x`: the positions of the nodes, m.
 pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Option<(f64, (usize, usize))> {
     if hull.len() < 2 {
         return None;
@@ -67,9 +67,9 @@ pub(in crate::planners) fn margin(x: &[Vec3], hull: &[usize], at: Vec3) -> Optio
     edges.map(inside).min_by(|p, q| p.0.total_cmp(&q.0))
 }
 
-/// Returns the static stability margin (McGhee and Frank 1968) of the truss on some contacts (indices of nodes), m,
-/// negative if it topples, and the edge of the support polygon nearest to the centre of mass, as two nodes. `None` with
-/// fewer than two contacts.
+/// Returns (margin, edge): the static stability margin (McGhee and Frank 1968) of the truss on some contacts (indices
+/// of nodes), m, negative if it topples, and the edge of the support polygon nearest to the centre of mass, as two
+/// nodes. `None` with fewer than two contacts.
 pub(in crate::planners) fn stability_margin(
     truss: &Structure,
     x: &[Vec3],
