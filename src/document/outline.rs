@@ -36,7 +36,7 @@ pub(super) struct PageEntry {
     /// found, and without such an instance.
     pub facts: Vec<String>,
     /// The order of the declaration's default instance: 1 for modules alone, else one more than the greatest order of
-    /// its parts. `None` if it is no configuration or has none.
+    /// its parts. `None` if it is not a configuration or has none.
     pub order: Option<u32>,
     /// The name of the declaration's picture in the site; `None` if it has none.
     pub picture: Option<String>,

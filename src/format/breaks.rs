@@ -3,7 +3,7 @@
 use super::spacing::{Piece, before_last};
 use crate::syntax::{Role, TokenKind};
 
-/// The greatest width of a line in columns, without a comment behind its code. A wider line is broken.
+/// The greatest width of a line in columns, without a comment after its code. A wider line is broken.
 pub(super) const WIDTH: usize = 120;
 
 /// The most tokens of a line that is broken: each break looks at all of them.
@@ -15,13 +15,13 @@ const CONTENT_MIN: usize = 12;
 /// The greatest width of an element of which several stand on a line.
 const SHORT: usize = 12;
 
-/// The classes of binary operators behind which a line is broken, loosest first.
+/// The classes of binary operators after which a line is broken, loosest first.
 const OPERATORS: &[&[&str]] =
     &[&["or"], &["and"], &["==", "!=", "<", "<=", ">", ">="], &["++"], &["+", "-"], &["*", "/", "%"]];
 
 /// Returns the indices in `line`, from 0, of the pieces with which new lines begin, in order, where a line with this
-/// indentation (in columns) is too wide; empty if it is not, or if nothing of it can go to another line. The lines that
-/// come of it may be too wide themselves, and are then broken in their turn.
+/// indentation (in columns) is too wide; empty if it is not, or if nothing of it can go to another line. The lines
+/// that come of it may be too wide themselves, and are then broken again.
 pub(super) fn breaks(line: &[Piece], indent: usize) -> Vec<usize> {
     let behind = line.iter().rposition(|piece| piece.token.kind != TokenKind::LineComment);
     let Some(end) = behind.map(|last| last + 1) else { return Vec::new() };
@@ -36,7 +36,7 @@ pub(super) fn breaks(line: &[Piece], indent: usize) -> Vec<usize> {
 /// A line with the column and the depth of brackets of each piece.
 struct Measured<'l, 't> {
     line: &'l [Piece<'t>],
-    /// The column behind each piece.
+    /// The column after each piece.
     ends: Vec<usize>,
     /// The depth of each piece; that of a bracket is that of what is around it.
     depths: Vec<i32>,
@@ -113,7 +113,7 @@ impl<'l, 't> Measured<'l, 't> {
         }
     }
 
-    /// Returns the place behind the first bracket that is not closed on the line.
+    /// Returns the place after the first bracket that is not closed on the line.
     fn opened(&self) -> Vec<usize> {
         let opened = |&i: &usize| {
             let breaks = self.line[i].text != "{" || self.in_braces(i);
@@ -146,7 +146,7 @@ impl<'l, 't> Measured<'l, 't> {
         range.clone().filter(begins).collect()
     }
 
-    /// Returns where the elements of a range at a depth begin that stand behind a comma, and `for` and `if` of a
+    /// Returns where the elements of a range at a depth begin that stand after a comma, and `for` and `if` of a
     /// comprehension. Short elements stand side by side: of those only the first that does not fit.
     fn elements(&self, depth: i32, range: std::ops::Range<usize>) -> Vec<usize> {
         let begins = |&i: &usize| {
@@ -213,7 +213,7 @@ impl<'l, 't> Measured<'l, 't> {
         at
     }
 
-    /// Returns the place behind the last of the loosest operators at the base up to which the line fits.
+    /// Returns the place after the last of the loosest operators at the base up to which the line fits.
     fn operators(&self) -> Vec<usize> {
         let of_class = |class: &[&str]| -> Vec<usize> {
             let here = (0..self.line.len().saturating_sub(1)).filter(|&i| {

@@ -1,8 +1,8 @@
-//! Alignment of comments behind code, and the text of all lines.
+//! Alignment of comments after code, and the text of all lines.
 
 use super::spacing::APART;
 
-/// A formatted line: its indentation, its text, and the comment behind it, whose column is not fixed yet.
+/// A formatted line: its indentation, its text, and the comment after it, whose column is not fixed yet.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Line {
     /// The indentation of the line in spaces.
@@ -32,7 +32,7 @@ impl Line {
     }
 }
 
-/// Returns the whole text of formatted lines, in order. Comments behind adjacent lines are aligned; consecutive blank
+/// Returns the whole text of formatted lines, in order. Comments after adjacent lines are aligned; consecutive blank
 /// lines become one, and blank lines at both ends are removed.
 pub(super) fn aligned(lines: Vec<Line>) -> String {
     let mut out = String::new();

@@ -43,7 +43,7 @@ impl Piece<'_> {
     }
 }
 
-/// The number of spaces between clauses on one line, and before a comment behind code.
+/// The number of spaces between clauses on one line, and before a comment that follows code.
 pub(super) const APART: usize = 2;
 
 /// Returns the number of spaces that the layout puts before the last token of a line; 0 for a single token.

@@ -1,4 +1,4 @@
-//! The reasons why a file is no mesh and no cloud.
+//! The reasons why a file is not a mesh and no cloud.
 
 use std::fmt;
 
@@ -24,7 +24,7 @@ pub enum FormatFault {
         /// The index of the face in the file, from 0.
         face: usize,
     },
-    /// A corner of a face is no vertex of the file.
+    /// A corner of a face is not a vertex of the file.
     NoVertex {
         /// The index of the face in the file, from 0.
         face: usize,
@@ -33,7 +33,7 @@ pub enum FormatFault {
         /// The number of vertices of the file.
         count: usize,
     },
-    /// A corner of some face of an OBJ file is no vertex of the file.
+    /// A corner of some face of an OBJ file is not a vertex of the file.
     NoSuchVertex,
     /// The first word of an OFF file is none of the format's.
     NotOff {
@@ -56,7 +56,7 @@ pub enum FormatFault {
         /// The things counted, as a word: vertices or faces.
         what: &'static str,
     },
-    /// The number of vertices or of faces of an OFF file is no whole number.
+    /// The number of vertices or of faces of an OFF file is not a whole number.
     BadCount {
         /// The number of the line, from 1.
         line: usize,
@@ -91,9 +91,9 @@ pub enum FormatFault {
         /// The number of the line, from 1.
         line: usize,
     },
-    /// The length of an STL file is not that of its number of binary triangles, and it is no text.
+    /// The length of an STL file is not that of its number of binary triangles, and it is not a text.
     StlLength,
-    /// The number of corners of an STL text is no multiple of three.
+    /// The number of corners of an STL text is not a multiple of three.
     IncompleteTriangle,
     /// The header of a PLY file announces more rows than the file has bytes.
     Announced {

@@ -6,7 +6,7 @@
 use super::content::Content;
 use super::fault::FormatFault;
 
-/// First words of the variants that are read: plain, and with colours or normals behind the vertices.
+/// First words of the variants that are read: plain, and with colours or normals after the vertices.
 const KINDS: &[&str] = &["OFF", "COFF", "NOFF", "CNOFF"];
 
 /// Reads the vertices and faces of an OFF file in text, in the file's own unit of length.

@@ -31,8 +31,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// Returns the name of a file as the user would type it: with the project folder before it, unless it is
-    /// one of the library, or a name in `<>` such as `<stdin>`, which is no file.
+    /// Returns the name of a file as the user would type it: with the project folder before it, unless it is one of
+    /// the library, or a name in `<>` such as `<stdin>`, which is not a file.
     pub fn name(&self, name: &str, library: bool) -> String {
         match self.folder.as_str() {
             "" => name.to_owned(),

@@ -374,7 +374,7 @@ pub enum ModuleClauseKind {
         name: Name,
         /// The shape that is drawn, and that collides unless `collides` is written.
         shape: Expr,
-        /// The shape behind `collides`; `None` if the word is not written.
+        /// The shape after `collides`; `None` if the word is not written.
         collides: Option<Expr>,
         /// The pose of the shape in the link's frame; `None` for the link's frame itself.
         at: Option<Placement>,
@@ -559,7 +559,7 @@ pub enum ConfigClauseKind {
         a: Path,
         /// The path of the second port.
         b: Path,
-        /// The angle behind `turn`; `None` if the word is not written.
+        /// The angle after `turn`; `None` if the word is not written.
         turn: Option<Expr>,
     },
     /// A start position: `set joint = value`.
@@ -666,7 +666,7 @@ pub struct Path {
     pub span: Span,
     /// The first name of the path, which the steps begin at.
     pub root: Name,
-    /// The steps behind `root`, in order; empty for a single name.
+    /// The steps after `root`, in order; empty for a single name.
     pub steps: Vec<PathStep>,
 }
 
@@ -880,7 +880,7 @@ pub enum ExprKind {
         op: UnaryOp,
         /// The span of the operator alone in the source text.
         op_span: Span,
-        /// The operand behind the operator.
+        /// The operand after the operator.
         operand: Box<Expr>,
     },
     /// An infix operator, such as `+` or `and`, with its two operands.
@@ -942,7 +942,7 @@ pub enum ExprKind {
         condition: Box<Expr>,
         /// The block that gives the value if the condition holds.
         then: Box<Expr>,
-        /// The block, or the next `If`, behind `else`; `None` without `else`.
+        /// The block, or the next `If`, after `else`; `None` without `else`.
         otherwise: Option<Box<Expr>>,
     },
     /// A block of statements that may end with a value: `{ let a = ... newline expr }`.
@@ -981,7 +981,7 @@ pub enum TextPart {
     },
 }
 
-/// A clause of a list comprehension, behind the expression for each element: a loop or a filter.
+/// A clause of a list comprehension, after the expression for each element: a loop or a filter.
 #[derive(Clone, Debug)]
 pub enum ComprehensionClause {
     /// A loop: `for name in iterable`.

@@ -22,7 +22,7 @@ pub(super) struct Builder<'t> {
     pub(super) longer: usize,
     /// The smallest offset in bytes at which a span may begin or end; smaller ones are raised to it.
     pub(super) least: usize,
-    /// The largest offset in bytes at which a span may begin or end: text behind it was added so that the piece can be
+    /// The largest offset in bytes at which a span may begin or end: text after it was added so that the piece can be
     /// parsed.
     pub(super) limit: usize,
     /// The offset in bytes of a hole `_` that stands for a value that could not be parsed; `None` if there is none.
@@ -180,7 +180,7 @@ pub(super) fn whole_characters(text: &str, mut span: Span) -> Span {
     span
 }
 
-/// Returns the text of a documentation line behind `///` or `//!` and one space.
+/// Returns the text of a documentation line after `///` or `//!` and one space.
 fn doc_line(comment: &str) -> &str {
     let text = comment[3..].trim_end();
     text.strip_prefix(' ').unwrap_or(text)

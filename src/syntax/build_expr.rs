@@ -79,8 +79,7 @@ impl Builder<'_> {
         self.operators(&mut node.into_inner(), power::LAMBDA)
     }
 
-    /// Builds an operand with its prefixes, and the operators behind it that bind at least as strongly as
-    /// `min`.
+    /// Builds an operand with its prefixes, and the operators after it that bind at least as strongly as `min`.
     fn operators(&mut self, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         self.depth += 1;
         let mut prefixes = Vec::new();
@@ -119,7 +118,7 @@ impl Builder<'_> {
         (UnaryOp::Not, span)
     }
 
-    /// Builds the infix operators behind a left operand.
+    /// Builds the infix operators after a left operand.
     fn infixes(&mut self, mut left: Tall, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let mut previous = None;
         while let Some(node) = nodes.peek() {
@@ -236,7 +235,7 @@ impl Builder<'_> {
             .push("a port is written as a path, such as `body.side[0]`".into());
     }
 
-    /// Builds a primary expression with the calls, indices and fields behind it.
+    /// Builds a primary expression with the calls, indices and fields that follow it.
     fn operand(&mut self, nodes: &mut Pairs<Rule>, min: u8) -> Tall {
         let node = next(nodes);
         if nodes.peek().is_some_and(|next| next.as_rule() == Rule::arrow) {

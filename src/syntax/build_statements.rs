@@ -48,7 +48,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Block { statements, value }, height)
     }
 
-    /// Builds the expression or block behind `=` from its parse node.
+    /// Builds the expression or block after `=` from its parse node.
     pub(super) fn body(&mut self, node: Node) -> Expr {
         self.tall_body(node).expr
     }

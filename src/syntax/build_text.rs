@@ -55,7 +55,7 @@ impl Builder<'_> {
         self.grown(span, ExprKind::Text(parts), height)
     }
 
-    /// Builds an interpolated value with what stands behind it: a unit, a number of decimals, both, or nothing.
+    /// Builds an interpolated value with what follows it: a unit, a number of decimals, both, or nothing.
     fn hole<'i>(&mut self, value: Expr, behind: impl Iterator<Item = Node<'i>>) -> TextPart {
         let (mut unit, mut decimals) = (None, None);
         for node in behind {

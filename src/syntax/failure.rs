@@ -72,14 +72,14 @@ pub(super) struct Mistake<'t> {
 pub(super) struct Misspelt {
     /// The offset in bytes of the word in the file.
     pub(super) start: usize,
-    /// The offset in bytes behind it.
+    /// The offset after the last byte of the word in the file.
     pub(super) end: usize,
     /// The keyword that was most likely meant.
     pub(super) meant: &'static str,
 }
 
 /// Returns the diagnostic for a piece `text` that begins at the offset `base`, in bytes, of the `whole` text, and the
-/// misspelt keyword that is the mistake; `None` for another mistake.
+/// misspelt keyword if that is the mistake, else `None`.
 pub(super) fn explain(
     failure: &Failure,
     text: &str,
@@ -98,11 +98,11 @@ pub(super) fn explain(
         in_text = true;
     }
     found = found.min(tokens.len());
-    // The sign was read as the beginning of an operator, and nothing was tried behind it.
+    // The sign was read as the beginning of an operator, and nothing was tried after it.
     if failure.wanted.is_empty() && found > 0 && tokens[found - 1].end == failure.at {
         found -= 1;
     }
-    // Behind a reserved word the grammar only checks whether the word continues: the word is the mistake.
+    // After a reserved word the grammar only checks whether the word continues: the word is the mistake.
     if let Some(before) = found.checked_sub(1).map(|before| tokens[before])
         && before.end == failure.at
         && words::is_reserved(&text[before.start..before.end])
@@ -164,12 +164,12 @@ impl Mistake<'_> {
         self.found.checked_sub(1).map_or("", |before| self.token_text(before))
     }
 
-    /// Returns the kind of the token at an index, from 0; `None` behind the last one.
+    /// Returns the kind of the token at an index, from 0; `None` past the last token.
     pub(super) fn kind_of(&self, index: usize) -> Option<TokenKind> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// Returns the span in the file of the token at an index, from 0; behind the last token an empty span at its end.
+    /// Returns the span in the file of the token at an index, from 0; past the last token an empty span at its end.
     pub(super) fn span_of(&self, index: usize) -> Span {
         let (start, end) = match (self.tokens.get(index), self.tokens.last()) {
             (Some(token), _) => (token.start, token.end),
@@ -204,7 +204,7 @@ impl Mistake<'_> {
         self.error_at(code::SYNTAX, self.found, message)
     }
 
-    /// Returns an error at the token at an index, from 0, or behind the last one. Never `None`, as for
+    /// Returns an error at the token at an index, from 0, or past the last token. Never `None`, as for
     /// [`Mistake::error`].
     pub(super) fn error_at(
         &self,
@@ -290,7 +290,7 @@ impl Mistake<'_> {
         self.misspelt.set(Some(Misspelt { start: span.start as usize, end: span.end as usize, meant }));
     }
 
-    /// Explains a misspelt keyword behind a complete expression or clause.
+    /// Explains a misspelt keyword after a complete expression or clause.
     fn inner_word(&self) -> Option<Diagnostic> {
         let found = self.found();
         let is_word = self.kind_of(self.found) == Some(TokenKind::Word);
@@ -434,7 +434,7 @@ impl Mistake<'_> {
             && !self.begins_line();
         let wanted = self.wanted();
         let before = self.found_words(whole);
-        // If a line or file ends too early, the span is behind its last token.
+        // If a line or file ends too early, the span is after its last token.
         let ends = self.found >= self.tokens.len() || self.begins_line() && !wanted.is_empty();
         let span = match self.found.checked_sub(1).filter(|_| ends).and_then(|before| self.tokens.get(before))
         {
@@ -494,8 +494,7 @@ impl Mistake<'_> {
         }
         const MARKS: [&str; 16] =
             [")", "]", "}", ",", ":", "=", "--", "->", "{", ">", "in", "of", "on", "facing", "as", "\""];
-        // Behind an operand `>` is a comparison, and behind the first word of an argument `:` may end a
-        // label.
+        // After an operand `>` is a comparison, and after the first word of an argument `:` may end a label.
         let misleading: &[&str] = match (self.wants_operator(), self.wants(",")) {
             (true, true) => &[">", ":", "="],
             (true, false) => &[">"],

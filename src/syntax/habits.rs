@@ -9,10 +9,10 @@ use crate::source::{Diagnostic, code};
 /// The greatest length of a piece of the program that a hint repeats, in bytes.
 const REPEATED_MAX: usize = 60;
 
-// All that explain return `None` where the mistake is another one.
+// All that explain return `None` if the mistake is something else.
 impl Mistake<'_> {
-    /// Returns the diagnostic for notation of other languages, such as `:` before a body; `None` where the mistake is
-    /// another one.
+    /// Returns the diagnostic for notation of other languages, such as `:` before a body; `None` if the mistake is
+    /// something else.
     pub(super) fn foreign_mark(&self) -> Option<Diagnostic> {
         let follows = self.found > 0 && self.span_of(self.found - 1).end == self.span_of(self.found).start;
         let hint = match (self.before(), self.found()) {
@@ -51,8 +51,8 @@ impl Mistake<'_> {
             .map(|diagnostic| diagnostic.hint(format!("a body stands in braces: `for {each} {{ ... }}`")))
     }
 
-    /// Returns the diagnostic for a condition in Python's order, `a if c else b`; `None` where the mistake is another
-    /// one.
+    /// Returns the diagnostic for a condition in Python's order, `a if c else b`; `None` if the mistake is something
+    /// else.
     pub(super) fn turned_condition(&self) -> Option<Diagnostic> {
         let behind = (1..self.found).rev().find(|&i| self.token_text(i) == "if")?;
         let value = matches!(
@@ -68,8 +68,8 @@ impl Mistake<'_> {
         })
     }
 
-    /// Returns the diagnostic for a test whose name is no text, `test hello { ... }`; `None` where the mistake is
-    /// another one.
+    /// Returns the diagnostic for a test whose name is not a text, `test hello { ... }`; `None` if the mistake is
+    /// something else.
     pub(super) fn name_of_test(&self) -> Option<Diagnostic> {
         let is_word = self.kind_of(1) == Some(TokenKind::Word);
         if self.token_text(0) != "test" || self.found != 1 || !is_word || self.begins_line() {
@@ -82,7 +82,7 @@ impl Mistake<'_> {
     }
 
     /// Returns the diagnostic for an assignment, such as `x = x + 1` or `m.tilt = 30deg`, in place of a statement or
-    /// clause; `None` where the mistake is another one.
+    /// clause; `None` if the mistake is something else.
     pub(super) fn assignment(&self) -> Option<Diagnostic> {
         if !matches!(self.place, BodyKind::Items | BodyKind::Statements | BodyKind::Config) {
             return None;
@@ -143,8 +143,8 @@ impl Mistake<'_> {
         (text.len() <= REPEATED_MAX && !text.contains('\n')).then_some(text)
     }
 
-    /// Returns the diagnostic for a comprehension without brackets, such as `Pc(f(x) for x in xs)`; `None` where the
-    /// mistake is another one.
+    /// Returns the diagnostic for a comprehension without brackets, such as `Pc(f(x) for x in xs)`; `None` if the
+    /// mistake is something else.
     pub(super) fn bare_comprehension(&self) -> Option<Diagnostic> {
         if self.found() != "for" || self.in_text || !(self.wants(")") && self.wants(",")) {
             return None;

@@ -1,7 +1,8 @@
 //! A lexer for brackets, comments, line beginnings and error messages. The grammar does not use it; it
 //! reads the text itself.
 
-/// A token of the lexer: bytes `start..end` of the text. White space belongs to none.
+/// A token of the lexer: bytes `start..end` of the text. A line feed is a token of its own ([`TokenKind::LineBreak`]);
+/// blanks, tabs and carriage returns between tokens belong to none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Token {
     /// The kind of the token, by its first characters.
@@ -15,7 +16,7 @@ pub struct Token {
 /// The kinds of tokens, by what the text means to the grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
-    /// A line end, which ends a statement or clause where it may.
+    /// A line feed, which ends a statement or clause where it may.
     LineBreak,
     /// A line comment, `// ...`, without the line end.
     LineComment,
@@ -50,7 +51,8 @@ pub enum TokenKind {
     Stray,
 }
 
-/// An iterator over the tokens of a text; every byte that is not white space belongs to one.
+/// An iterator over the tokens of a text. Every byte belongs to one, but for blanks, tabs and carriage returns between
+/// tokens; a line feed is a token.
 #[derive(Clone)]
 pub(super) struct Lexer<'t> {
     bytes: &'t [u8],

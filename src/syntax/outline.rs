@@ -178,7 +178,7 @@ impl Found {
         }
     }
 
-    /// Records the colon behind the name or the index of a port.
+    /// Records the colon after the name or the index of a port.
     fn colon(&mut self, node: &Node, base: usize) {
         let (start, text) = (node.as_span().start(), node.as_str());
         let name_end =

@@ -5,16 +5,16 @@ use super::lex::TokenKind;
 use super::words;
 use crate::source::{Diagnostic, code};
 
-// All that explain return `None` where the mistake is another one.
+// All that explain return `None` if the mistake is something else.
 impl Mistake<'_> {
-    /// Returns the diagnostic for a record built in braces as in other languages, `Design { bend: 30deg }`; `None`
-    /// where the mistake is another one.
+    /// Returns the diagnostic for a record built in braces as in other languages, `Design { bend: 30deg }`; `None` if
+    /// the mistake is something else.
     pub(super) fn built_in_braces(&self) -> Option<Diagnostic> {
         let named = |i: usize| {
             self.kind_of(i) == Some(TokenKind::Word)
                 && self.token_text(i).starts_with(|c: char| c.is_ascii_uppercase())
         };
-        // The brace, or the colon behind the first field where the braces were read as a block.
+        // The brace, or the colon after the first field where the braces were read as a block.
         let brace = match self.found() {
             "{" => self.found,
             ":" if self.found >= 2 => self.found - 2,
@@ -34,7 +34,7 @@ impl Mistake<'_> {
             .map(|d| d.hint(format!("write `{name}({fields})`")))
     }
 
-    /// Returns the diagnostic for `with` without its braces; `None` where the mistake is another one.
+    /// Returns the diagnostic for `with` without its braces; `None` if the mistake is something else.
     pub(super) fn with_without_braces(&self) -> Option<Diagnostic> {
         if self.before() != "with" || !self.wants("{") {
             return None;
@@ -43,8 +43,8 @@ impl Mistake<'_> {
             .map(|d| d.hint("a changed copy of a record is written `d with { bend: 40deg }`"))
     }
 
-    /// Returns the diagnostic for `{ a: 1 }`, or `{` in place of an expression; `None` where the mistake is another
-    /// one.
+    /// Returns the diagnostic for `{ a: 1 }`, or `{` in place of an expression; `None` if the mistake is something
+    /// else.
     pub(super) fn brace_literal(&self) -> Option<Diagnostic> {
         let record = self.found() == ":"
             && matches!(

@@ -171,7 +171,7 @@ impl<'t> Parser<'t> {
         first.is_some_and(|token| words.contains(&&self.scan.text[token.start..token.end]))
     }
 
-    /// Returns true if a `{ }` is a block behind `=` and not the body of the item.
+    /// Returns true if a `{ }` is a block after `=` and not the body of the item.
     fn has_value_body(&self, range: &Range<usize>, body: &Range<usize>) -> bool {
         let before = tokens(&self.scan.text, range.start..body.start - 1);
         before.last().is_some_and(|token| matches!(&self.scan.text[token.start..token.end], "=" | "=>"))
@@ -415,8 +415,8 @@ impl<'t> Parser<'t> {
         whole_characters(self.builder.text, Span::new(self.builder.file, range.start, range.end))
     }
 
-    /// Records the names that a piece would have declared: those behind a declaring word that begins a
-    /// line, or all names of an import.
+    /// Records the names that a piece would have declared: those after a declaring word that begins a line, or all
+    /// names of an import.
     fn note_unread(&mut self, range: &Range<usize>) {
         let text = &self.scan.text;
         let within = Lexer::new(&text[..range.end], range.start);
@@ -447,7 +447,7 @@ impl<'t> Parser<'t> {
     fn explain(&mut self, rule: Rule, text: &str, range: &Range<usize>, place: BodyKind) -> Option<Misspelt> {
         let rest = self.scan.text[range.end..].bytes();
         let blank = rest.take_while(|byte| matches!(byte, b' ' | b'\t')).count();
-        // A character replaced by a blank behind the piece belongs to it.
+        // A character replaced by a blank after the piece belongs to it.
         let told = !self.faults(&(range.start..range.end + blank)).is_empty();
         if told || self.builder.diagnostics.len() >= DIAGNOSTICS_MAX {
             return None;

@@ -450,8 +450,8 @@ fn is_word(text: &str) -> bool {
     text.chars().all(|c| c.is_alphanumeric() || c == '_')
 }
 
-/// Returns true if the tokens behind a keyword show that it begins an item: a name or a text on its line.
-/// Two words side by side occur in no expression, so an item is never split here.
+/// Returns true if the tokens after a keyword show that it begins an item: a name or a text on its line. Two words
+/// side by side occur in no expression, so an item is never split here.
 fn begins_item(text: &str, token: Token, rest: &Lexer) -> bool {
     let next = rest.clone().find(|token| token.kind != TokenKind::LineBreak);
     next.is_some_and(|next| match next.kind {

@@ -7,8 +7,8 @@ use crate::source::{Diagnostic, Span, code};
 const FORMAT: fn(char) -> bool = |c| c.is_ascii_alphanumeric() || ".<>=^+-,_%#?! ".contains(c);
 
 impl Mistake<'_> {
-    /// Returns the diagnostic for a format of other languages in a text, such as `{x:.2f}`, `{x:>8}` or `{x:.2 in mm}`;
-    /// `None` where the mistake is another one.
+    /// Returns the diagnostic for a format of other languages in a text, such as `{x:.2f}`, `{x:>8}` or `{x:.2 in
+    /// mm}`; `None` if the mistake is something else.
     pub(super) fn foreign_format(&self) -> Option<Diagnostic> {
         if !self.in_text {
             return None;

@@ -130,7 +130,7 @@ impl Dimension {
         Some(Dimension { energy: self.energy && n == 1, ..self.map(scaled)? })
     }
 
-    /// Returns the dimension whose `n`th power this is: every exponent divided by `n`; `None` where one is no
+    /// Returns the dimension whose `n`th power this is: every exponent divided by `n`; `None` where one is not a
     /// multiple of it, or `n` is 0.
     pub fn root(self, n: i8) -> Option<Dimension> {
         let part = |exponent: i8| (exponent.checked_rem(n)? == 0).then(|| exponent.checked_div(n))?;
@@ -167,8 +167,8 @@ impl Dimension {
 
     /// Returns true if a quantity of this dimension may stand where `wanted` is: the same dimension, or one that
     /// positive powers of the radian were dropped from. Radians are dropped, never invented, and only if a length or a
-    /// mass remains: `2rad/s * 45mm` is a speed, but an angle is no number and an angular speed no frequency. Nothing
-    /// is dropped in a dimension with a dimension parameter, of which too little is known.
+    /// mass remains: `2rad/s * 45mm` is a speed, but an angle is not a number and an angular speed not a frequency.
+    /// Nothing is dropped in a dimension with a dimension parameter, of which too little is known.
     pub fn fits(self, wanted: Dimension) -> bool {
         self == wanted
             || (self.angle > 0
