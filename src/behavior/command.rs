@@ -17,8 +17,8 @@ type Begun = (Option<f64>, Option<(JointId, CauseId)>);
 
 impl Run<'_> {
     /// Carries out an action's command at the present time: gives its motions to the joints, or docks or undocks.
-    /// Returns the time at which the action ends by itself, s, `None` if a condition or timeout must end it; and the
-    /// joint to hold, with the cause, if it ends before.
+    /// Returns (end, held): the time at which the action ends by itself, s, `None` if a condition or timeout must end
+    /// it; and the joint to hold, with the cause, if it ends before.
     ///
     /// # Errors
     /// A [`Refusal`] that blames the action, if the command can't be carried out.

@@ -57,8 +57,8 @@ impl Motion {
         }
     }
 
-    /// Ends the motion at the time `now` (s): drops all that comes after it, and the command in force. Returns the
-    /// position (rad or m) and the speed just before `now` (rad/s or m/s).
+    /// Ends the motion at the time `now` (s): drops all that comes after it, and the command in force. Returns
+    /// (position, speed) just before `now`, rad or m and rad/s or m/s.
     pub(super) fn cut(&mut self, now: f64) -> (f64, f64) {
         let position = self.position(now);
         let speed = self.speed_before(now);

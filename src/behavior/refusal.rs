@@ -1,4 +1,4 @@
-//! Refusals of scheduling: the reason why a behaviour is no plan, and the action to blame.
+//! Refusals of scheduling: the reason why a behaviour is not a plan, and the action to blame.
 
 use super::joints::Uncommandable;
 use crate::plan::CauseId;

@@ -39,7 +39,7 @@ impl Project {
     /// Returns a folder as a project without a program; the working folder for `None`.
     ///
     /// # Errors
-    /// A message if there is no such folder.
+    /// A message if there is no such folder, or `stdlib` is none.
     pub(super) fn of_folder(root: Option<&Path>, stdlib: Option<&Path>) -> Result<Project, CallError> {
         let root = root.unwrap_or(Path::new("."));
         Ok(Project {
@@ -63,11 +63,12 @@ impl Project {
         Project { name: String::new(), bytes: Vec::new(), ..self }
     }
 
-    /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the folder of
-    /// the file (after links), or `root`.
+    /// Opens the project of `file` and reads that file; `-` reads standard input. The root is the folder of the file
+    /// (after links), or `root`.
     ///
     /// # Errors
-    /// A message if the file can't be read or is outside of the root.
+    /// A message if the file can't be read, is too large, is a folder or is outside of the root, or if `root` or
+    /// `stdlib` is not a folder.
     pub(super) fn open(
         file: &Path,
         root: Option<&Path>,

@@ -165,7 +165,7 @@ impl Completer for CompletionHelper {
     }
 }
 
-/// A dimmed text behind what is typed.
+/// A dimmed text after what is typed.
 struct Dimmed {
     text: String,
     /// True if the right arrow key takes it over.

@@ -11,10 +11,11 @@ use crate::source::{Diagnostic, Sources, code};
 use std::path::{Path, PathBuf};
 
 /// Runs the command `modl fmt`, which formats programs; with `check` it writes nothing, and only tells which are not
-/// formatted.
+/// formatted. A folder stands for all programs below it.
 ///
 /// # Errors
-/// A message if a file can't be read or written.
+/// A message if a file or folder can't be read, a folder holds no program, a file can't be written, or the formatter
+/// has a defect.
 pub(super) fn run(files: &[PathBuf], check: bool, globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first, so that a wrong call does nothing.
     let programs =

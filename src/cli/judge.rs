@@ -17,10 +17,11 @@ use std::path::{Path, PathBuf};
 /// The greatest size of a plan file, in bytes.
 const PLAN_BYTES_MAX: usize = 1 << 30;
 
-/// Runs the command `modl verify`, which judges plan files again, from nothing but the files.
+/// Runs the command `modl verify`, which judges plan files again, from nothing but the files. All are read before the
+/// first is judged.
 ///
 /// # Errors
-/// A message if a file can't be read.
+/// A message if a file can't be read or is larger than `PLAN_BYTES_MAX`.
 pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
     // All files are read first, so that a wrong call does nothing.
     let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
@@ -50,7 +51,7 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
 /// Returns the plan that the bytes of a plan file hold; `name`: the file's name in the diagnostic.
 ///
 /// # Errors
-/// A diagnostic at the mistake, with the text that its span refers to.
+/// (texts, diagnostic): the diagnostic of the mistake, with the text that its span refers to.
 pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
@@ -66,7 +67,7 @@ pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, D
             let id = sources.add(name, &text, false);
             let file = sources.file(id);
             let line = file.line(fault.line);
-            // The reader's position is behind the faulty character.
+            // The reader's position is after the faulty character.
             let at = file.line_start(fault.line) + fault.column.saturating_sub(1).min(line.len());
             diagnostic = diagnostic.label(Span::new(id, at, at), "");
         }
@@ -138,7 +139,7 @@ fn declarations(plan: &Plan) -> Vec<Declaration> {
 /// Returns the bytes of a plan file; `-` is standard input.
 ///
 /// # Errors
-/// A message if it can't be read or is larger than 1 GiB.
+/// A message if it can't be read or is larger than `PLAN_BYTES_MAX`.
 pub(super) fn read(file: &Path) -> Result<Vec<u8>, CallError> {
     disk::read(file, PLAN_BYTES_MAX)
 }

@@ -25,7 +25,7 @@ pub(super) enum Task {
     },
     /// Check the program only.
     Check,
-    /// Run its tests whose names contain the filter.
+    /// Run its tests whose names contain the filter, and the examples in its documentation; all of them for `None`.
     Test(Option<String>),
 }
 
@@ -38,19 +38,23 @@ struct Tally {
     cancelled: bool,
 }
 
-/// Runs programs one after the other, in order, each as the task says.
+/// Runs programs one after the other, in order, each as the task says, and prints their results and diagnostics. Files
+/// are opened before the first one runs, so that a wrong call does nothing. A folder stands for all programs below it
+/// if the task checks or tests. Returns [`Ending::Fine`] if nothing was wrong, [`Ending::Wrong`] if a program has
+/// errors or a test failed, [`Ending::Cancelled`] if the user interrupted a program.
 ///
 /// # Errors
-/// A message if a file can't be read.
+/// A message if a file or folder can't be read, a folder holds no program, a file lies outside of the project's root,
+/// or the page that [`Task::Show`] opens can't be opened.
 pub(super) fn run(files: &[PathBuf], task: Task, globals: &Globals) -> Result<Ending, CallError> {
     run_all(files, &task, globals, None)
 }
 
-/// Runs programs and records the files that they depend on in `watched`. A run ends early once one of these files has
-/// changed.
+/// Runs programs as [`run`] does, and records the files that they depend on in `watched`. The evaluation of a program
+/// ends early, as if it was interrupted, once one of these files has changed.
 ///
 /// # Errors
-/// A message if a file can't be read.
+/// As for [`run`].
 pub(super) fn run_watched(
     files: &[PathBuf],
     task: &Task,
@@ -60,10 +64,10 @@ pub(super) fn run_watched(
     run_all(files, task, globals, Some(watched))
 }
 
-/// Runs programs one after the other.
+/// Runs programs one after the other, as [`run`] says.
 ///
 /// # Errors
-/// A message if a file can't be read, or a page that was asked for can't be opened.
+/// As for [`run`].
 fn run_all(
     files: &[PathBuf],
     task: &Task,

@@ -50,10 +50,12 @@ struct Repl<'g> {
     interrupted: bool,
 }
 
-/// Runs the command `modl repl`, a session on the terminal, in the project of `file` or of the working folder.
+/// Runs the command `modl repl`, a session on the terminal, in the project of `file` or of the working folder. Without
+/// a terminal it evaluates standard input.
 ///
 /// # Errors
-/// A message if the project, the file or the terminal can't be read, or the evaluator thread can't be started.
+/// A message if the project, the file, the terminal or standard input can't be read, or the evaluator thread can't be
+/// started.
 pub(super) fn run(file: Option<&Path>, globals: &Globals) -> Result<Ending, CallError> {
     let stdlib = globals.stdlib.as_deref();
     let (project, load) = match file {

@@ -12,10 +12,11 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Runs the command `modl show`, which makes pages of the plans of a program or of a plan file; with `open` the last
-/// page is opened in the browser, if one was made.
+/// page is opened in the browser, if one was made. A plan file is judged again first.
 ///
 /// # Errors
-/// A message if the file can't be read, or a page can't be written or opened.
+/// A message if the file can't be read or lies outside of the project's root, or a page can't be opened; of a plan
+/// file also if the page can't be written.
 pub(super) fn run(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallError> {
     let is_plan = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     if is_plan {

@@ -18,7 +18,8 @@ const POLL_INTERVAL: Duration = Duration::from_millis(20);
 /// Runs the task with the programs, and again after each change of a file that it read, until the user cancels.
 ///
 /// # Errors
-/// A message if a file is standard input, or can't be read at the first run.
+/// A message if a file is standard input; at the first run also as for [`program::run`], while later runs only print
+/// it.
 pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<Ending, CallError> {
     if let Some(file) = files.iter().find(|file| file.as_path() == Path::new("-")) {
         return Err(CallError(format!("`{}`: standard input does not change", file.display())));

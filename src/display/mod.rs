@@ -29,7 +29,7 @@ pub fn typed(interpreter: &Interpreter, value: &Value, bytes_left: &mut usize) -
 }
 
 /// Returns a value as text, as a session shows it, on as many lines as it needs, the first of which can stand alone;
-/// texts are in quotes. After 64 KiB it is cut. `interpreter`: the run that the value belongs to.
+/// texts are in quotes. A long text is cut. `interpreter`: the run that the value belongs to.
 ///
 /// # Errors
 /// `Stop::Halt` if a limit is reached or the user cancels while the value is judged or planned.

@@ -8,7 +8,8 @@ use crate::interpret::value::Value;
 use std::rc::Rc;
 
 impl Interpreter<'_> {
-    /// Elaborates a declaration with its defaults, evaluates all that its body declares, and checks its links.
+    /// Elaborates a declaration with its defaults, evaluates all that its body declares, and warns of links that
+    /// overlap or are too thin. A `let` is evaluated.
     ///
     /// # Errors
     /// [`Stop::Halt`](crate::interpret::stop::Stop::Halt) if a limit is reached or the user cancels; faults are

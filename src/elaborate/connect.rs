@@ -243,7 +243,7 @@ impl Interpreter<'_> {
 /// Returns the number of steps of 360° divided by `turns` that an angle (rad) is, below `turns`.
 ///
 /// # Errors
-/// A fault at `span` where it is no whole number of steps.
+/// A fault at `span` where it is not a whole number of steps.
 fn allowed_turn(connector: &ConnectorDesign, angle: f64, span: Span) -> Eval<u32> {
     let turns = f64::from(connector.connector.turns);
     let steps = angle / std::f64::consts::TAU * turns;

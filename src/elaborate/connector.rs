@@ -18,7 +18,7 @@ const CAPTURE_ANGLE_DEFAULT: f64 = std::f64::consts::PI;
 
 impl Interpreter<'_> {
     /// Returns the connector of a declaration, elaborated once; `None` where it is broken, which has been reported,
-    /// and for a declaration that is no connector.
+    /// and for a declaration that is not a connector.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels.

@@ -136,7 +136,8 @@ impl Interpreter<'_> {
     /// turns in the order written, each about an axis of the frame turned so far. The identity for `None`.
     ///
     /// # Errors
-    /// A fault where the position is farther than 1 km along an axis, or an axis is zero.
+    /// A fault where the position is farther than [`EXTENT_MAX`](crate::geometry::soundness::EXTENT_MAX) along an
+    /// axis, or an axis is zero.
     pub(super) fn placement(&mut self, at: Option<&Placement>, frame: &mut Frame) -> Eval<Pose> {
         let Some(at) = at else { return Ok(Pose::identity()) };
         let mut pose = match self.eval(&at.position, frame)? {

@@ -17,7 +17,8 @@ impl Interpreter<'_> {
     /// Returns the robot of a design, assembled once; `None` where it is broken, not complete yet, or no robot.
     ///
     /// # Errors
-    /// A fault at `span` where it has no modules.
+    /// A fault at `span` where it has no modules, a fault of a declaration that the robot needs, or `Stop::Halt` if a
+    /// limit is reached or the user cancels.
     pub(super) fn assemble_robot(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<Robot>>> {
         let cell = match &design.kind {
             DesignKind::Module(module) => &module.robot,

@@ -23,8 +23,8 @@ struct Overlap {
 }
 
 impl Interpreter<'_> {
-    /// Warns of joints whose two links overlap at one of 73 sampled positions of the joint's range, deeper than at
-    /// position 0 by more than the module's `touch` (m). Designs other than modules give no warning.
+    /// Warns of joints whose two links overlap at one of `POSITIONS` + 1 sampled positions of the joint's range,
+    /// deeper than at position 0 by more than the module's `touch` (m). Designs other than modules give no warning.
     ///
     /// # Errors
     /// None: the result is always `Ok`.

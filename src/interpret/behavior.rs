@@ -142,7 +142,8 @@ impl Interpreter<'_> {
         }))
     }
 
-    /// Returns the condition `a <-> b`, that two ports are docked to each other; `Value::Unknown` where one is no port.
+    /// Returns the condition `a <-> b`, that two ports are docked to each other; `Value::Unknown` where one is not a
+    /// port.
     ///
     /// # Errors
     /// A fault at `span` where the ports belong to two robots.
@@ -250,8 +251,8 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the node of `action else b`, in which `b` follows the action's timeout; `None` where `action` is no single
-/// action with a timeout.
+/// Returns the node of `action else b`, in which `b` follows the action's timeout; `None` where `action` is not a
+/// single action with a timeout.
 pub(super) fn with_otherwise(action: &Node, otherwise: &Arc<Node>) -> Option<Node> {
     let Node::Action(action) = action else { return None };
     let mut action = action.clone();

@@ -340,7 +340,7 @@ impl Interpreter<'_> {
     /// of them is. `otherwise`: the behaviour `b`; `span`: the span of the whole expression.
     ///
     /// # Errors
-    /// A fault where the two move different robots, or `action` is no single action with a timeout.
+    /// A fault where the two move different robots, or `action` is not a single action with a timeout.
     pub fn timeout_else(&mut self, action: &Value, otherwise: &Value, span: Span) -> Eval<Value> {
         let (Value::Behavior(action), Value::Behavior(otherwise)) = (action, otherwise) else {
             return Ok(Value::Unknown);

@@ -200,8 +200,8 @@ impl TrussDesign {
         }
     }
 
-    /// Returns each free motion in words: the nodes that move, each with its direction. Components up to 0.005 are left
-    /// out, and of more than twelve nodes those after the eleventh.
+    /// Returns each free motion in words: the nodes that move, each with its direction. Components up to 0.005 are
+    /// left out, and the nodes are listed as by [`shorten`].
     pub fn free_motions(&self) -> Vec<String> {
         let moves = |(node, d): &(usize, Vec3)| {
             let axis = ["x", "y", "z"];
@@ -307,7 +307,7 @@ impl Design {
         }
     }
 
-    /// Returns the number of modules of the design; 0 for a design that is no robot or not far enough elaborated.
+    /// Returns the number of modules of the design; 0 for a design that is not a robot or not far enough elaborated.
     pub fn module_count(&self) -> usize {
         match &self.kind {
             DesignKind::Module(_) => 1,
@@ -352,8 +352,8 @@ impl Design {
         }
     }
 
-    /// Returns the module design at an index; itself for a design that is no configuration. Panics if the modules of a
-    /// configuration are not listed yet, or the index is out of range.
+    /// Returns the module design at an index; itself for a design that is not a configuration. Panics if the modules
+    /// of a configuration are not listed yet, or the index is out of range.
     pub fn module_at(self: &Rc<Design>, index: usize) -> Rc<Design> {
         match &self.kind {
             DesignKind::Config(config) => {
@@ -364,15 +364,15 @@ impl Design {
     }
 
     /// Returns the type of the module at an index. Panics if the modules of a configuration are not listed yet, the
-    /// index is out of range, or the design is no robot.
+    /// index is out of range, or the design is not a robot.
     pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
         let design = self.module_at(index);
         design.module().expect("only modules are listed").module.clone()
     }
 
-    /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is no configuration,
-    /// the name of the design. Panics if the modules of a configuration are not listed yet, or the index is out of
-    /// range.
+    /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is not a
+    /// configuration, the name of the design. Panics if the modules of a configuration are not listed yet, or the
+    /// index is out of range.
     pub fn module_name(&self, index: usize) -> Rc<str> {
         match &self.kind {
             DesignKind::Config(config) => {
@@ -393,8 +393,8 @@ impl Design {
         self.config().map_or_else(Vec::new, |config| config.bonds.borrow().clone())
     }
 
-    /// Returns the connection at an index of [`Design::bonds`]. Panics if the design is no configuration, or the index
-    /// is out of range.
+    /// Returns the connection at an index of [`Design::bonds`]. Panics if the design is not a configuration, or the
+    /// index is out of range.
     pub fn bond(&self, index: usize) -> BondRecord {
         let config = self.config().expect("only configurations have bonds");
         config.bonds.borrow()[index].clone()
@@ -480,7 +480,7 @@ impl Instance {
     }
 
     /// Returns the parts of a configuration as values: an instance or a list of instances for each group. `None` while
-    /// they are being elaborated, and for an instance that is no configuration.
+    /// they are being elaborated, and for an instance that is not a configuration.
     pub fn parts(&self) -> Option<&[Value]> {
         let config = self.design.config()?;
         let groups = config.parts.get()?;
@@ -503,8 +503,8 @@ impl Instance {
         })
     }
 
-    /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is no module,
-    /// or if there is no such joint.
+    /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is not a
+    /// module, or if there is no such joint.
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
@@ -513,7 +513,7 @@ impl Instance {
     }
 
     /// Returns a port of a module instance, or with `array` the list of an array's ports, by its index in
-    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports); `None` for an instance that is no module, or if
+    /// [`ModuleDef::ports`](crate::check::typed::ModuleDef::ports); `None` for an instance that is not a module, or if
     /// there is no such port.
     pub fn port(&self, group: usize, array: bool) -> Option<Value> {
         let module = self.design.module()?;
@@ -571,7 +571,8 @@ pub fn join_path(a: &str, b: &str) -> Rc<str> {
     }
 }
 
-/// Returns a list of names in words; of more than twelve the first eleven, and the number of the rest.
+/// Returns a list of names in words; of more than `NAMES_SHOWN` all but the last of so many, and the number of the
+/// rest.
 pub fn shorten(names: &[String]) -> String {
     if names.len() <= NAMES_SHOWN {
         return names.join(", ");

@@ -299,8 +299,7 @@ impl Interpreter<'_> {
     /// the body in which the loop stands.
     ///
     /// # Errors
-    /// A fault at `span` where an end of the range is no whole number of 64 bits, besides the errors of
-    /// `body`.
+    /// A fault at `span` where an end of the range is not a whole number of 64 bits, besides the errors of `body`.
     pub fn for_each(
         &mut self,
         values: &Value,

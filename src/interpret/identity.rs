@@ -26,7 +26,7 @@ pub struct Name {
 pub struct Identity(Rc<RefCell<Vec<Name>>>);
 
 impl Identity {
-    /// Adds a name to all copies of the robot. Of one robot 64 names are kept; further ones are dropped.
+    /// Adds a name to all copies of the robot. Of one robot `NAMES_MAX` names are kept; further ones are dropped.
     pub fn bind(&self, name: Name) {
         let mut names = self.0.borrow_mut();
         if names.len() < NAMES_MAX && !names.contains(&name) {

@@ -310,8 +310,8 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Reports a diagnostic as it is, without the calls and loop variables of the present position. It is dropped if
-    /// one of its code and span is known (for one of the judge, also of its message), or after 200 errors, or 200
-    /// others; errors are counted all the same.
+    /// one of its code and span is known (for one of the judge, also of its message), or after `REPORTS_MAX` errors,
+    /// or as many others; errors are counted nevertheless.
     pub fn add_report(&mut self, diagnostic: Diagnostic) {
         self.reported.errors += usize::from(diagnostic.is_error());
         // The judge's findings differ from robot to robot, at one and the same line.
@@ -353,8 +353,8 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs `body` and returns its result and its diagnostics, in order, instead of reporting them. Its errors stay
-    /// counted.
+    /// Runs `body` and returns (result, diagnostics): its result, and its diagnostics in order, instead of reporting
+    /// them. Its errors stay counted.
     pub fn capture_diagnostics<T>(&mut self, body: impl FnOnce(&mut Self) -> T) -> (T, Vec<Diagnostic>) {
         let mark = self.reported.reports.len();
         let value = body(self);

@@ -159,7 +159,8 @@ impl<'c> Call<'c> {
 
 impl Interpreter<'_> {
     /// Reads the file of the project that the argument `name` names, relative to the file in which the argument
-    /// stands. Returns its path from the project's root, and its bytes. `call`: the call of the built-in.
+    /// stands. Returns (path, bytes): its path from the project's root, and its contents. `call`: the call of the
+    /// built-in.
     ///
     /// # Errors
     /// A fault where the name leads out of the project or the file can't be read.

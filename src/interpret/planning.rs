@@ -105,9 +105,9 @@ impl Interpreter<'_> {
         Ok(Some(planned))
     }
 
-    /// Returns the plan of a scheduled behaviour, and an issue for each action that is too fast for the joints'
-    /// limits; their causes have the plan's numbers. `design` and `robot`: the robot that moves; `scheduled`: its
-    /// motion; `causes`: the causes that the plan names; `world`: the world that is assumed.
+    /// Returns (plan, issues) of a scheduled behaviour: the plan, and an issue for each action that is too fast for
+    /// the joints' limits; their causes have the plan's numbers. `design` and `robot`: the robot that moves;
+    /// `scheduled`: its motion; `causes`: the causes that the plan names; `world`: the world that is assumed.
     pub fn assemble_plan(
         &self,
         design: Rc<Design>,

@@ -11,8 +11,8 @@ const CALLS_MAX: usize = 64;
 /// The greatest number of evaluation steps that the remembered calls may have taken, as a bound on their size.
 const STEPS_MAX: u64 = 2_000_000;
 
-/// The behaviours `B` that calls `C` gave, by the key of the call. They are dropped, all but the newest, once
-/// they took more than two million evaluation steps.
+/// The behaviours `B` that calls `C` gave, by the key of the call. They are dropped, all but the newest, once they
+/// took more than `STEPS_MAX` evaluation steps.
 #[derive(Clone)]
 pub struct Recalled<C, B> {
     by_key: HashMap<CallKey, Vec<(C, B)>>,
@@ -38,9 +38,9 @@ impl<C, B: Clone> Recalled<C, B> {
         known.iter().find(|(call, _)| is_same(call)).map(|(_, behavior)| behavior.clone())
     }
 
-    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key the first 64 calls. If those
-    /// offered, the ones beyond 64 included, would then have taken more than two million steps together, all earlier
-    /// ones are forgotten first. `behavior`: the result of the call.
+    /// Remembers the behaviour that a call gave in `steps` evaluation steps; of one key the first `CALLS_MAX` calls.
+    /// If those offered, the ones beyond that number included, would then have taken more than `STEPS_MAX` steps
+    /// together, all earlier ones are forgotten first. `behavior`: the result of the call.
     pub fn keep(&mut self, key: CallKey, call: C, behavior: B, steps: u64) {
         self.steps += steps;
         if self.steps > STEPS_MAX {

@@ -36,8 +36,8 @@ impl Robot {
         self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
     }
 
-    /// Returns the centre of mass in the start state (m, in the frame of the base module's body), and the mass
-    /// (kg).
+    /// Returns (centre, mass): the centre of mass in the start state (m, in the frame of the base module's body), and
+    /// the mass (kg).
     pub fn centre_of_mass(&self) -> (Vec3, f64) {
         self.kinematics.centre_of_mass(&self.assembly, &self.poses)
     }

@@ -80,8 +80,8 @@ impl Interpreter<'_> {
         (self.shared.routines.show)(self, value)
     }
 
-    /// Sends the host the value that is printed next as `text`, if the options ask for values. Values beyond 16 MiB in
-    /// one run are left out.
+    /// Sends the host the value that is printed next as `text`, if the options ask for values. Values beyond
+    /// `VALUES_BYTES_MAX` in one run are left out.
     pub fn print_value(&mut self, value: &Value, text: &str) {
         if !self.shared.options.values {
             return;

@@ -10,7 +10,7 @@ use crate::source::{Diagnostic, code};
 
 impl Interpreter<'_> {
     /// Executes the statements of a body in order; the names that a failed statement declares are unknown, and the
-    /// statements after it are executed all the same.
+    /// statements after it are executed nevertheless.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].
@@ -80,8 +80,8 @@ impl Interpreter<'_> {
     }
 
     /// Returns the text in which a message shows a false comparison with the values of its sides, `1.2mm > 2mm is
-    /// false`; empty if `condition` is no comparison. `condition` must have come out false: that is not tested. Both
-    /// sides are evaluated again. `frame`: the variables of the body in which it stands.
+    /// false`; empty if `condition` is not a comparison. `condition` must have come out false: that is not tested.
+    /// Both sides are evaluated again. `frame`: the variables of the body in which it stands.
     ///
     /// # Errors
     /// No faults, only [`Stop::Halt`].

@@ -11,8 +11,8 @@ const DECIMALS_MAX: usize = 9;
 const ROWS_SHOWN: usize = 1000;
 
 impl Interpreter<'_> {
-    /// Returns a table as lines of text: the names of its columns, its first thousand rows, and the number of the rest.
-    /// `None` where it has no columns.
+    /// Returns a table as lines of text: the names of its columns, its first `ROWS_SHOWN` rows, and the number of the
+    /// rest. `None` where it has no columns.
     pub fn show_table(&self, table: &Table) -> Option<String> {
         let columns: Vec<Shown> = table.columns.iter().map(|column| self.show_column(column)).collect();
         if columns.is_empty() {

@@ -44,8 +44,8 @@ pub fn worst_lines(verdict: &Verdict) -> Vec<String> {
     verdict.worst_values().map(line).collect()
 }
 
-/// Returns a verdict in words, as `print` shows it: a first line with the headline, and below it failures (at
-/// most eight), worst values, dynamics, checks and notes.
+/// Returns a verdict in words, as `print` shows it: a first line with the headline, and below it failures (at most
+/// `FAILURES_SHOWN`), worst values, dynamics, checks and notes.
 pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     let [x, y, _] = verdict.travel;
     let travel = quantity(libm::hypot(x, y), Dimension::LENGTH);

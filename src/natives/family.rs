@@ -102,7 +102,7 @@ fn character_span(interpreter: &Interpreter, span: Span, text: &str, bad: BadCel
         return quoted_span(source, span, bad);
     }
     let (Some(line), true) = (text.lines().nth(bad.line), source.starts_with("\"\"\"")) else { return span };
-    // The text begins behind the first line break; its lines have lost their indentation.
+    // The text begins after the first line break; its lines have lost their indentation.
     let mut start = span.start as usize;
     for (number, raw) in source.split_inclusive('\n').enumerate() {
         let trimmed = raw.trim_end_matches(['\n', '\r']);

@@ -61,7 +61,7 @@ impl Joined<'_> {
         config.complete.set(true);
         let panel = &self.designs[self.layout.root];
         Rc::new(Design {
-            // Of its panels: no declaration of its own stands behind it.
+            // Of its panels: it has no declaration of its own.
             def: panel.def,
             name: format!("{}[{}]", panel.name, self.designs.len()),
             args: Vec::new(),

@@ -190,7 +190,7 @@ impl<'c> Supply<'c> {
 /// Returns a design as a panel; `key`: the argument that it came from.
 ///
 /// # Errors
-/// A fault where it is no module, or no triangular panel.
+/// A fault where it is not a module, or not a triangular panel.
 fn panel_of(
     interpreter: &mut Interpreter,
     call: &Call,

@@ -40,7 +40,7 @@ fn numbers(faces: &[usize]) -> Value {
 /// Returns the joints of the folding robot in the order of the layout's hinges.
 fn hinges(plan: &PlanValue, report: &Report) -> Value {
     let layout = &report.layout;
-    // The bonds of the robot stand in the order of their faces, behind the root.
+    // The bonds of the robot stand in the order of their faces, after the root.
     let bond = |hinge| layout.order[1..].iter().position(|face| layout.hinge[*face] == Some(hinge));
     let owners = layout.hinges().into_iter().filter_map(bond).map(JointOwner::Bond);
     let robot = plan.instance().robot.clone();

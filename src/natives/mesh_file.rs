@@ -8,8 +8,8 @@ use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Mesh;
 use crate::source::{Diagnostic, code};
 
-/// Returns the mesh in the file that the argument `name` names, with its path in the project; `scale`: the
-/// length of one of the file's units, m.
+/// Returns (path, mesh) of the file that the argument `name` names: its path in the project, and the mesh in it.
+/// `scale`: the length of one of the file's units, m.
 ///
 /// # Errors
 /// A fault where the file can't be read, or its name or text is none of a mesh.

@@ -135,7 +135,7 @@ fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// start state. The two are joined: a plan of this robot that does nothing, and the one from the file.
 ///
 /// # Errors
-/// A fault where the file is no sound plan, its motion is not that of its program, or the robots differ.
+/// A fault where the file is not a sound plan, its motion is not that of its program, or the robots differ.
 fn load_plan(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, bytes) = interpreter.project_file(call, "file")?;
     let design = call.get::<&Rc<Instance>>("robot")?.design.clone();
@@ -267,7 +267,8 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
-/// Returns the file named by the argument `argument` as a path below the output folder, and as the program writes it.
+/// Returns (path, name) of the file named by the argument `argument`: its path below the output folder, and as the
+/// program writes it.
 ///
 /// # Errors
 /// A fault where it leads out of the output folder, or names no file.

@@ -127,8 +127,7 @@ fn lists(call: &Call, argument: &str, value: &Value) -> Eval<Vec<Numbers>> {
     Ok(found)
 }
 
-/// Returns the values of a list, with the dimension of the first that is not missing; `None` for what is no
-/// list.
+/// Returns the values of a list, with the dimension of the first that is not missing; `None` for what is not a list.
 fn numbers(list: &Value) -> Option<Numbers> {
     let Value::List(elements) = list else { return None };
     let dimension = elements.iter().find_map(Value::as_dimension).unwrap_or(Dimension::NUMBER);

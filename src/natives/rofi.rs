@@ -137,8 +137,8 @@ fn made(
     Ok(instance(interpreter, &design))
 }
 
-/// Moves connections that would put modules into each other behind the others: of connections that contradict
-/// each other the first counts.
+/// Moves connections that would put modules into each other after the others: of connections that contradict each
+/// other the first counts.
 fn contradictions_last(world: &mut World) {
     let Ok(open) = repair(&mut from_world(world)) else { return };
     let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
@@ -257,7 +257,7 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
 /// it can't be assembled, which has been reported.
 ///
 /// # Errors
-/// A fault where a module is no RoFI module.
+/// A fault where a module is not a RoFI module.
 pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Option<World>> {
     let Value::Instance(instance) = call.get::<&Value>("what")? else {
         unreachable!("`check` lets only robots and foldings through, and foldings have files of their own");

@@ -195,8 +195,8 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned(interpreter, call, design, "locomote", world, (solution, None)))
 }
 
-/// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is no truss, or
-/// its strut is broken.
+/// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is not a truss, or its
+/// strut is broken.
 ///
 /// # Errors
 /// A fault where a strut in an argument is unknown.

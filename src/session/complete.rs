@@ -62,7 +62,7 @@ pub(crate) fn complete(knowledge: &Knowledge, text: &str, at: usize) -> Completi
     completion
 }
 
-/// Returns the remaining parameters of the call in which a text ends, as text to be shown behind it: `n: Int)`. `None`
+/// Returns the remaining parameters of the call in which a text ends, as text to be shown after it: `n: Int)`. `None`
 /// outside of a call, for an unknown function, after a dot, within an argument, and if no parameter remains.
 pub(crate) fn hint(knowledge: &Knowledge, text: &str) -> Option<String> {
     let open = open_call(text)?;
@@ -171,7 +171,7 @@ fn paths(knowledge: &Knowledge, typed: &str) -> Vec<Named> {
     found.map(|name| Named::new(inside(name), "file")).collect()
 }
 
-/// Returns the candidates behind `use`: libraries, their items, and those of files.
+/// Returns the candidates after `use`: libraries, their items, and those of files.
 fn imports(knowledge: &Knowledge, rest: &str) -> Vec<Named> {
     let source = rest.split_once(['{', ',']).map_or(rest, |(source, _)| source).trim_end_matches('.');
     if let Some(path) = source.trim().strip_prefix('"') {

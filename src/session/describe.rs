@@ -16,7 +16,7 @@ impl Session {
     /// evaluated.
     ///
     /// # Errors
-    /// The errors in the text, with the checked program in whose sources their spans are.
+    /// (program, errors): the checked program in whose sources the spans are, and the errors in the text.
     pub fn type_of(&self, text: &str) -> Result<String, (Arc<Checked>, Vec<Diagnostic>)> {
         let entry =
             Entry { name: "<type>".into(), text: text.into(), first_line: 1, value: None, last: self.last };

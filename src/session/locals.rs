@@ -30,7 +30,7 @@ pub(super) enum Origin {
 /// The words that begin a clause and declare nothing.
 const CLAUSES: &[&str] = &["connect", "set", "base", "require", "expect", "touching", "alias"];
 
-/// Returns true if a name is declared behind this word; a loop declares its binder.
+/// Returns true if a name is declared after this word; a loop declares its binder.
 fn declares(word: &str) -> bool {
     word == "for" || DECLARING.contains(&word)
 }
@@ -64,7 +64,7 @@ fn blanks(text: &str) -> usize {
     text.len() - text.trim_start().len()
 }
 
-/// Returns the next word of a text, and the text behind it; `None` where no word follows.
+/// Returns the next word of a text, and the text after it; `None` where no word follows.
 fn next_word(text: &str) -> Option<(&str, &str)> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     let start = text.find(is_word)?;
@@ -72,7 +72,7 @@ fn next_word(text: &str) -> Option<(&str, &str)> {
     Some((&text[start..end], &text[end..]))
 }
 
-/// Returns the origin of a name, from the word before it and the text behind it.
+/// Returns the origin of a name, from the word before it and the text after it.
 fn origin_of(word: &str, behind: &str) -> Origin {
     let after = |text: &str, mark: char| text.trim_start().strip_prefix(mark).map(str::to_owned);
     match word {

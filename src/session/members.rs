@@ -1,4 +1,4 @@
-//! The members of a type, with their own types, for completion behind a dot.
+//! The members of a type, with their own types, for completion after a dot.
 
 use crate::check::summary::{param_text, params_of, word};
 use crate::check::typed::{DefId, DefKind, Member, MemberKind, NativeDef, Param, RecordDef};

@@ -66,7 +66,7 @@ pub struct Reply {
     pub diagnostics: Vec<Diagnostic>,
     /// Further messages for the user, one line each.
     pub notes: Vec<String>,
-    /// Errors in earlier entries caused by this one, which is accepted all the same.
+    /// Errors in earlier entries caused by this one, which is accepted nevertheless.
     pub broken: Vec<Diagnostic>,
     /// The paths of the files that were written, as the host showed them.
     pub written: Vec<String>,
@@ -399,8 +399,8 @@ impl Session {
         Reloaded { reply, changes }
     }
 
-    /// Undoes the last entry that was kept, and returns its text; `None` if there is none to undo. At most 200
-    /// entries can be undone. Panics if abandoned work has not been waited for.
+    /// Undoes the last entry that was kept, and returns its text; `None` if there is none to undo. At most
+    /// [`UNDO_MAX`] entries can be undone. Panics if abandoned work has not been waited for.
     pub fn undo(&mut self, host: &mut dyn Host) -> Option<String> {
         let before = self.before.pop()?;
         let undone = self.entries.drain(before.entries..).next()?;

@@ -36,10 +36,11 @@ pub(super) struct Canvas {
     pub width: usize,
     /// The height of the canvas in pixels.
     pub height: usize,
-    /// Red, green and blue of each pixel in 0..1, row by row from the top.
+    /// Red, green and blue of each pixel, sRGB encoded, in 0..1, row by row from the top.
     pub colours: Vec<[f32; 3]>,
-    /// The depths of pixels, in the order of `colours`: one over the distance (1/m), or its negative (m) for an
-    /// orthographic camera: the greater is nearer. Minus infinity where nothing is drawn.
+    /// The depths of pixels, in the order of `colours`: one over the distance from the camera along the viewing
+    /// direction (1/m), or minus that distance (m) for an orthographic camera; the greater is nearer. Minus infinity
+    /// where nothing is drawn.
     pub depths: Vec<f32>,
 }
 
@@ -95,8 +96,8 @@ impl Canvas {
         Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
     }
 
-    /// Rasterises the triangles of a mesh in the world; `shade` returns the colour of a point by its position and
-    /// normal there. Triangles with a corner behind the near plane are left out.
+    /// Rasterises the triangles of a mesh in the world; `shade` returns the colour of a point, sRGB encoded, by its
+    /// position and normal there. Triangles with a corner behind the near plane are left out.
     pub(super) fn fill(
         &mut self,
         mesh: &Mesh,

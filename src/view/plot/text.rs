@@ -10,8 +10,8 @@ const SIZE: [usize; 2] = [64, 14];
 /// The dots of a braille pattern: column, then row from the top.
 const DOTS: [[u8; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
-/// Returns a plot as text for a terminal: a headline, an area of 64 by 14 characters with dots of braille patterns and
-/// axes with ticks, and the names of several series; lines are separated by line breaks, without one at the end.
+/// Returns a plot as text for a terminal: a headline, an area of fixed size with dots of braille patterns and axes
+/// with ticks, and the names of several series; lines are separated by line breaks, without one at the end.
 pub fn text(plot: &Plot) -> String {
     let bins = (plot.kind == PlotKind::Histogram).then(|| Bins::of(plot));
     let (x, y) = scales(plot, bins.as_ref());
