@@ -13,9 +13,9 @@ pub(super) fn bond_at(robot: &Assembly, holds: &[bool], port: PortRef) -> Option
     (0..robot.bonds.len()).find(|&b| holds[b] && (robot.bonds[b].a == port || robot.bonds[b].b == port))
 }
 
-/// Returns a new bond of port `b` to port `a`, with the allowed turn nearest to their present pose, and the position
-/// of its hinge in rad, `None` if the connector has no hinge. `holds`: for every bond of the robot, by index, true if
-/// it holds; `joints`: positions of all joints, by the number in their `JointId`, rad or m.
+/// Returns (bond, position): a new bond of port `b` to port `a`, with the allowed turn nearest to their present pose,
+/// and the position of its hinge in rad, `None` if the connector has no hinge. `holds`: for every bond of the robot,
+/// by index, true if it holds; `joints`: positions of all joints, by the number in their `JointId`, rad or m.
 ///
 /// # Errors
 /// A [`Reason`] for ports that are taken, that do not mate, or whose parts of the robot no bonds connect.

@@ -62,10 +62,10 @@ pub fn mirrored(
     rewritten(program, |action| mirrored_action(action, &image))
 }
 
-/// Returns the mirror image of every joint in a plane of the base's frame, by the number in its `JointId`, with 1 or
-/// -1, by which its positions are multiplied; `None` for a joint without an image, which hinges of bonds and fixed
-/// joints never have. A joint may be its own image. `holds`: for every bond of the robot, by index, true if it is
-/// closed.
+/// Returns the mirror image of every joint in a plane of the base's frame, by the number in its `JointId`, as (image,
+/// sign), where the sign, 1 or -1, multiplies its positions; `None` for a joint without an image, which hinges of
+/// bonds and fixed joints never have. A joint may be its own image. `holds`: for every bond of the robot, by index,
+/// true if it is closed.
 pub fn images(robot: &Assembly, holds: &[bool], plane: Plane) -> Vec<Option<(JointId, f64)>> {
     let marks = marks(robot, holds);
     let centre =

@@ -530,8 +530,9 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Returns the typed program and the diagnostics in the order of discovery, once every declaration has been
-    /// checked; one that has not is [`DefKind::Error`]. `statements` and `tests`: those of the file that is run.
+    /// Returns (program, diagnostics): the typed program, and the diagnostics in the order of discovery, once every
+    /// declaration has been checked; one that has not is [`DefKind::Error`]. `statements` and `tests`: those of the
+    /// file that is run.
     pub(super) fn finish(
         self,
         statements: typed::Body,

@@ -426,7 +426,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns the typed statements and tests of the file that is run (an index into the loaded files), both in order;
+    /// Returns (statements, tests) of the file that is run (an index into the loaded files), both typed and in order;
     /// mistakes are reported.
     pub(super) fn check_root(&mut self, file: usize) -> (Body, Vec<Test>) {
         let mut scope = Scope::new(file, None);

@@ -14,8 +14,8 @@ pub enum Meaning {
 }
 
 impl Checker<'_> {
-    /// Returns the names visible at the top of a file (an index into the loaded files), the prelude's included, with
-    /// their meanings, sorted by name.
+    /// Returns the names visible at the top of a file (an index into the loaded files), the prelude's included, as
+    /// (name, meaning), sorted by name.
     pub(super) fn meanings(&self, file: usize) -> Vec<(Symbol, Meaning)> {
         let own = self.top(file).iter();
         let inherited = self.loaded.prelude.into_iter().flat_map(|prelude| self.top(prelude).iter());

@@ -115,7 +115,8 @@ impl Scope {
         (frame.size as usize, captures)
     }
 
-    /// Returns the local of this name and its type, captured from an outer frame if need be; `None` if there is none.
+    /// Returns (local, type) of the local of this name, captured from an outer frame if need be; `None` if there is
+    /// none.
     pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
         self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
     }

@@ -94,11 +94,11 @@ impl Manifest {
         drawings.filter_map(|(text, drawn)| Some((text.clone(), known(drawn)?))).collect()
     }
 
-    /// Removes the files of the site in `home` that `next` does not have. Returns the number of those removed, and the
-    /// names of those that were left because someone has changed them since.
+    /// Removes the files of the site in `home` that `next` does not have. Returns (count, left): the number of those
+    /// removed, and the names of those that were left because someone has changed them since.
     ///
     /// # Errors
-    /// The reason why a file can't be removed, with its name.
+    /// (name, reason) of the first file that can't be removed.
     pub(super) fn remove_all_but(
         &self,
         next: &Manifest,

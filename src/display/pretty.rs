@@ -10,7 +10,7 @@ use crate::natives::folding::LayoutValue;
 use crate::natives::plot::PlotValue;
 use std::any::Any;
 
-/// The greatest number of lines of a displayed tree; the number of those left out is told.
+/// The greatest number of lines of a displayed tree; the number of those left out is shown.
 pub(super) const LINES_MAX: usize = 40;
 
 /// The greatest number of bytes of a display; the rest is cut.

@@ -9,7 +9,7 @@ use crate::interpret::record::{DeclaredRecord, Record};
 use crate::interpret::value::Value;
 use crate::units::{Dimension, base_units, dimension_name};
 
-/// The greatest number of lists and records within each other that are told: readers of JSON bear few levels.
+/// The greatest depth of nested lists and records that is written: readers of JSON bear few levels.
 const LEVELS_MAX: usize = 24;
 /// The size in bytes that a value without texts counts for, about that of its JSON.
 const VALUE_BYTES: usize = 64;

@@ -12,8 +12,8 @@ pub(super) trait Targets {
     fn file(&self, path: &str) -> Option<String>;
 }
 
-/// Converts a Markdown text to HTML; returns it with the targets of its broken links, as they are written. HTML in the
-/// text is shown as text.
+/// Converts a Markdown text to HTML. Returns (HTML, targets): the text, and the targets of its broken links, as they
+/// are written. HTML in the text is shown as text.
 pub(super) fn to_html(text: &str, targets: &dyn Targets) -> (String, Vec<String>) {
     let mut lost = Vec::new();
     let mut lost_names = Vec::new();

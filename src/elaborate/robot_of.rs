@@ -111,8 +111,8 @@ impl Interpreter<'_> {
         Ok(candidates)
     }
 
-    /// Returns the module types and connectors of a robot, and for each of its modules, in order, the index of its
-    /// type in that library; `None` where a connector is broken.
+    /// Returns (library, types) of a robot: its module types and connectors, and for each of its modules, in order,
+    /// the index of its type in that library; `None` where a connector is broken.
     ///
     /// # Errors
     /// `Stop::Halt` if a limit is reached or the user cancels while a connector is elaborated.

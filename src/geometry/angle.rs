@@ -12,9 +12,8 @@ const ANGLE_MAX: f64 = 1e5;
 /// Adding and subtracting this rounds to the nearest whole number.
 const ROUNDING: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// Returns sine and cosine, in this order, of an angle in radians, to about one unit in the last place and to the
-/// same bit on every platform: by argument reduction after Cody and Waite and a Taylor series. NaN for an angle that
-/// is not finite.
+/// Returns (sine, cosine) of an angle in radians, to about one unit in the last place and to the same bit on every
+/// platform: by argument reduction after Cody and Waite and a Taylor series. NaN for an angle that is not finite.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.is_nan() || angle.abs() > ANGLE_MAX {

@@ -183,8 +183,8 @@ const RIGIDITY: &[Field<TrussDesign>] = &[
     ("free_motions", |truss| texts(truss.free_motions())),
 ];
 
-/// Returns the records that no native's file defines, each as its name with the names of its fields in order, to be
-/// compared with the declarations.
+/// Returns the records that no native's file defines, each as (name, names of its fields in order), to be compared
+/// with the declarations.
 pub fn fields() -> Vec<(&'static str, Vec<&'static str>)> {
     vec![
         ("Plan", PLAN.iter().map(|(name, _)| *name).collect()),

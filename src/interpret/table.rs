@@ -102,7 +102,7 @@ impl Column {
         Some(if largest == 0.0 { (usual_unit(dimension), 1.0) } else { fitting_unit(largest, dimension) })
     }
 
-    /// Returns the unit in which files hold the column, with its factor to SI: the one that suits it, if every value
+    /// Returns the unit in which files hold the column, as (name, factor to SI): the one that suits it, if every value
     /// comes back from its decimals exactly; else the base units. `None` for numbers and for other values, as
     /// [`unit`](Self::unit).
     pub fn exact_unit(&self) -> Option<(String, f64)> {

@@ -23,8 +23,8 @@ pub(super) struct Joined<'t> {
 }
 
 impl Joined<'_> {
-    /// Returns the panels, joined along the layout, as a configuration and its robot, whose start state is the folded
-    /// one. `panels`: the panels as the planner was given them.
+    /// Returns (configuration, robot) of the panels, joined along the layout; the start state of the robot is the
+    /// folded one. `panels`: the panels as the planner was given them.
     pub(super) fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
         let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
         let start = sheet.folded(self.target, self.layout);

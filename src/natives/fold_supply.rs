@@ -260,8 +260,8 @@ pub(super) struct Passive<'c> {
     pub(super) module: Option<&'c Rc<Instance>>,
 }
 
-/// Returns the panels of the shape in argument `target`, and the shape with the hinges that its passive faces
-/// leave.
+/// Returns (panels, shape): the panels of the shape in argument `target`, and that shape with the hinges that its
+/// passive faces leave.
 ///
 /// # Errors
 /// A fault where a face has no panel, or a passive face is wrong.

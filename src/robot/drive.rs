@@ -67,8 +67,8 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
     joints.chain(motors).collect()
 }
 
-/// Returns how the efforts of the motors of a module type follow from those of its joints: for each motor, in order, the
-/// joints, by their indices in [`ModuleType::joints`], with factors whose sum is its effort. With `motor = Σ factor ·
+/// Returns how the efforts of the motors of a module type follow from those of its joints: for each motor, in order,
+/// the terms (index of a joint in [`ModuleType::joints`], factor) whose sum is its effort. With `motor = Σ factor ·
 /// joint` the efforts of the joints are `Fᵀ` times those of the motors; `None` where F has no inverse, so that the
 /// motors' do not follow.
 pub fn motor_efforts(kind: &ModuleType) -> Option<Vec<Vec<(usize, f64)>>> {

@@ -220,10 +220,10 @@ impl Kinematics {
         self.tree.closing.iter().map(|&bond| self.residual(robot, bond, joints, poses)).collect()
     }
 
-    /// Returns the closure error of the bond of this index, which need not hold: the distance (m) and the angle (rad)
-    /// of its second port from a perfect mate with the first. `poses` are the world poses of all links, by their
-    /// numbers; `joints` (rad or m, by [`super::JointId`]) matter only for the bond's own hinge. `robot`: the
-    /// assembly that was compiled. Panics if there is no such bond.
+    /// Returns the closure error of the bond of this index, which may be open: the distance (m) and the angle (rad) of
+    /// its second port from a perfect mate with the first. `poses` are the world poses of all links, by their numbers;
+    /// `joints` (rad or m, by [`super::JointId`]) matter only for the bond's own hinge. `robot`: the assembly that was
+    /// compiled. Panics if there is no such bond.
     pub fn residual(&self, robot: &Assembly, bond: usize, joints: &[f64], poses: &[Pose]) -> Residual {
         let Pair { p, q } = self.mated(robot, bond, joints, poses);
         let error = p.inverse() * q;

@@ -208,10 +208,10 @@ impl Step {
     }
 }
 
-/// Returns the joints and factors that drive a joint of a module, given by its index in its type: itself, or those it
-/// mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of the
-/// module's first joint, and the joints returned are such numbers. `kind`: the type of the module. Panics if there is
-/// no such joint.
+/// Returns the terms (joint, factor) that drive a joint of a module, given by its index in its type: the joint itself,
+/// or those it mimics, each once; none for a fixed joint. `first` is the number in the [`JointId`](super::JointId) of
+/// the module's first joint, and the joints returned are such numbers. `kind`: the type of the module. Panics if there
+/// is no such joint.
 pub fn driven(kind: &ModuleType, joint: usize, first: usize) -> Vec<(usize, f64)> {
     if kind.joints[joint].kind == JointKind::Fixed {
         return vec![];

@@ -57,8 +57,8 @@ pub(crate) fn parse(line: &str) -> Option<Result<Command, String>> {
 }
 
 /// Parses a line as a command that is written as a word of its own, as other sessions have it: `quit`, `exit`, `help`
-/// and `help NAME`, with or without `( )`. `None` for any other line. A program may declare these names: then the
-/// caller does not ask.
+/// and `help NAME`, with or without `( )`. Returns (word, command); `None` for any other line. A program may declare
+/// these names: then the caller does not ask.
 pub(crate) fn parse_word(line: &str) -> Option<(&str, Command)> {
     let line = line.trim();
     let (word, rest) = line.split_once([' ', '(']).unwrap_or((line, ""));

@@ -154,8 +154,8 @@ impl Session {
     }
 }
 
-/// Checks `entry` as the next entry of the session, without adding it, and returns the program and the type of its last
-/// expression; `None` if that has no value.
+/// Checks `entry` as the next entry of the session, without adding it, and returns (program, type): the program, and
+/// the type of its last expression, `None` if that has no value.
 pub(super) fn typed(session: &Session, entry: Entry) -> (Checked, Option<Type>) {
     let mut entries = session.entries.clone();
     entries.push(entry);

@@ -29,7 +29,7 @@ pub struct SourceFile {
 
 impl SourceFile {
     /// Returns the line and column (from 1) of a byte offset (from 0). An offset beyond the text is taken as its end,
-    /// and one within a character as the character's begin.
+    /// and one within a character as that character's first byte.
     pub fn line_column(&self, offset: usize) -> LineColumn {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {

@@ -71,8 +71,8 @@ impl Builder<'_> {
         TextPart::Shown { value, unit, decimals }
     }
 
-    /// Returns the text of `use "..."` and `test "..."` with escapes resolved, and its span, quotes included. Reports
-    /// unknown escapes.
+    /// Returns (text, span) of `use "..."` and `test "..."`: the text with escapes resolved, and its span, quotes
+    /// included. Reports unknown escapes.
     pub(super) fn plain_text(&mut self, node: &Node) -> (String, Span) {
         let span = self.span(node);
         let inside = &node.as_str()[1..node.as_str().len() - 1];

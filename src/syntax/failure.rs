@@ -78,8 +78,8 @@ pub(super) struct Misspelt {
     pub(super) meant: &'static str,
 }
 
-/// Returns the diagnostic for a piece `text` that begins at the offset `base`, in bytes, of the `whole` text, and the
-/// misspelt keyword if that is the mistake, else `None`.
+/// Returns (diagnostic, keyword) for a piece `text` that begins at the offset `base`, in bytes, of the `whole` text:
+/// the diagnostic of its mistake, and the misspelt keyword if that is the mistake, else `None`.
 pub(super) fn explain(
     failure: &Failure,
     text: &str,

@@ -156,8 +156,8 @@ impl<'a> Trees<'a> {
         &self.robot.module_type(module).links[index]
     }
 
-    /// Returns, for the link of this index among all links, the index of its module's type in the library, and its own
-    /// index in that type.
+    /// Returns (type, link) for the link of this index among all links: the index of its module's type in the library,
+    /// and its own index in that type.
     pub(super) fn kind(&self, link: usize) -> (usize, usize) {
         let (module, index) = self.links[link];
         (self.robot.modules[module].kind, index)
@@ -189,8 +189,8 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// Returns the stiffness of a joint's servo (N·m/rad, or N/m if it slides) and its armature (kg·m² or kg); `None`
-    /// if none is stated.
+    /// Returns (stiffness, armature) of a joint's servo: N·m/rad, or N/m if it slides, and kg·m² or kg; `None` if no
+    /// armature is stated.
     pub(super) fn servo(&self, joint: usize) -> (f64, Option<f64>) {
         let owner = self.joints[joint];
         (self.robot.servo_stiffness(owner), self.robot.servo(owner).armature)

@@ -30,7 +30,7 @@ use std::sync::Arc;
 pub(super) const FORMAT: &str = "modl plan";
 /// The version of the schema that is written.
 pub(super) const VERSION: u32 = 2;
-/// The oldest version that is read.
+/// The oldest version of the schema that is read.
 pub(super) const VERSION_MIN: u32 = 2;
 
 /// The motion of a modular robot with all that it takes to judge it. SI units throughout: m, rad, s, kg, N, N·m;

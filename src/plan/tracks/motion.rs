@@ -135,8 +135,9 @@ impl Track {
         segment.map_or(0.0, |s| s.velocity(t))
     }
 
-    /// Returns the least and the greatest position (rad or m) over the interval of time `t0..t1` (s), or bounds a
-    /// little wider: from the control points of the pieces. `start` is the joint's position at the start of the plan.
+    /// Returns (lower, upper) bounds on the position (rad or m) over the interval of time `t0..t1` (s), from the
+    /// control points of the pieces; they may be a little wider than its range. `start` is the joint's position at the
+    /// start of the plan.
     pub fn bounds(&self, start: f64, t0: f64, t1: f64) -> (f64, f64) {
         let at = self.position(start, t0);
         let first = self.begun(t0).unwrap_or(0);
@@ -189,8 +190,8 @@ impl Tracks {
         self.state(self.duration)
     }
 
-    /// Returns bounds, the lower first, on the position of a joint (rad or m) over the interval of time `t0..t1` (s);
-    /// see [`Track::bounds`]. Panics if the robot has no such joint.
+    /// Returns (lower, upper) bounds on the position of a joint (rad or m) over the interval of time `t0..t1` (s); see
+    /// [`Track::bounds`]. Panics if the robot has no such joint.
     pub fn bounds(&self, joint: JointId, t0: f64, t1: f64) -> (f64, f64) {
         let start = self.start.joints[joint.0 as usize];
         self.track(joint).map_or((start, start), |track| track.bounds(start, t0, t1))

@@ -129,7 +129,7 @@ impl<'t> Lagrangian<'t> {
     /// the cutoff uses are removed from `allowed` (fixing by reduced costs). `steps` counts down the faces settled on
     /// paths and the sums over multipliers; at zero the ascent ends. `limits`: the limits at which the ascent ends.
     ///
-    /// In the first round and then in every `LAYOUTS_EVERY`-th `layouts` is called with the arc (3 · face + side)
+    /// In the first round and in every `LAYOUTS_EVERY`-th one `layouts` is called with the arc (3 · face + side)
     /// chosen into each face, by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no
     /// meaning. If it returns an energy below the cutoff, that is the cutoff from then on.
     pub fn ascend(

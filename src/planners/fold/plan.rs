@@ -16,8 +16,8 @@ use crate::interrupt;
 use crate::planners::{Progress, Solution};
 
 /// Plans the folding of a sheet of panels into a target, after [Yao et al.](super), for the least energy (or peak
-/// torque, or steps), and lets the judge decide about every layout in order of that quantity. `progress` receives
-/// reports and may end the search.
+/// torque, or steps) that the budget allows to find, and lets the judge decide about every layout in order of that
+/// quantity. `progress` receives reports and may end the search.
 ///
 /// If the judge refuses the order that the settings ask for in every layout tried, and the problem gives no layout,
 /// layouts made of strips and other orders are tried, and the lesser of the two results is the answer: then

@@ -35,9 +35,9 @@ impl Spectrum {
         }
     }
 
-    /// Returns the energies with their multiplicities, ascending by energy, in the unit of measurement of `unit`.
-    /// Energies that are at most `TOLERANCES.tie` times `unit` above the one before are one level with it, at the least
-    /// of them.
+    /// Returns (energy, multiplicity) of each level, ascending by energy, in the unit of measurement of `unit`.
+    /// Energies that are at most `TOLERANCES.tie` times `unit` above the one before are one level with it, at the
+    /// least of them.
     pub fn levels(&self) -> Vec<(f64, u64)> {
         let apart = (TOLERANCES.tie / TOLERANCES.energy_grain) as u64;
         let mut levels: Vec<(f64, u64)> = Vec::new();

@@ -45,9 +45,9 @@ struct Node {
 }
 
 /// Searches for fewer than `most` strokes, free of collisions in their samples, that change the sheet `start` into
-/// `goal`, by best-first search over at most `steps` states taken from the queue. Returns the strokes in order and the
-/// sheet after them, without any strokes if `start` is the goal; `None` if none were found. `panels`: the panels as
-/// solids, for samples of collisions.
+/// `goal`, by best-first search over at most `steps` states taken from the queue. Returns (strokes, sheet): the
+/// strokes in order and the sheet after them, without any strokes if `start` is the goal; `None` if none were found.
+/// `panels`: the panels as solids, for samples of collisions.
 pub fn rearranged(
     start: &LatticeSheet,
     goal: &Goal,

@@ -9,9 +9,9 @@ use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment;
 
 /// Returns the constraints on lengths, angles, loops and the given pairs of struts (indices) that are violated
-/// somewhere while the nodes move from x to y, both in m, each with the shortfall, m. A distance may fall short of
-/// `truss.clearance` by `margin`, m, and by the error of [`segment_segment`] of struts that are nearly parallel, never
-/// by more; where it is computed, half the margin is asked for, so that advancement ends.
+/// somewhere while the nodes move from x to y, both in m, as (constraint, shortfall in m). A distance may fall short
+/// of `truss.clearance` by `margin`, m, and by the error of [`segment_segment`] of struts that are nearly parallel,
+/// never by more; where it is computed, half the margin is asked for, so that advancement ends.
 pub(super) fn violations(
     truss: &Structure,
     x: &[Vec3],

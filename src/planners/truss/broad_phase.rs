@@ -114,8 +114,9 @@ fn moved(x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
     x.iter().zip(y).map(move |(p, q)| (q - p - mean).norm())
 }
 
-/// Returns the pairs of struts without a common node whose bounding boxes, with the nodes at `x`, are within `reach` of
-/// each other: two indices, the lesser first, and the distance between the boxes, both lengths in m.
+/// Returns the pairs of struts without a common node whose bounding boxes, with the nodes at `x`, are within `reach`
+/// of each other, as (index, index, distance): the lesser index first, and the distance between the boxes; both
+/// lengths in m.
 pub(super) fn pairs(truss: &Structure, x: &[Vec3], reach: f64) -> Vec<(usize, usize, f64)> {
     let ends = |strut| -> [Vec3; 2] { truss.segment(x, strut).into() };
     let boxes: Vec<Aabb> = (0..truss.struts.len()).map(|strut| Aabb::around(ends(strut))).collect();

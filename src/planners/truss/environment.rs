@@ -6,7 +6,7 @@ use super::structure::Structure;
 use crate::geometry::Vec3;
 
 /// Returns the obstacle constraints that fall short by more than half of `margin`, m, somewhere while the nodes move
-/// linearly from x to y, m, each with the shortfall, m; both ends of a strut get one.
+/// linearly from x to y, m, as (constraint, shortfall in m); both ends of a strut get one.
 pub(super) fn obstacle_violations(
     truss: &Structure,
     x: &[Vec3],
@@ -68,7 +68,7 @@ fn obstacle_shortfall(
 }
 
 /// Returns the constraints of nodes and struts that get too far below uneven ground somewhere while the nodes move
-/// linearly from x to y, m, each with the depth, m; none on flat ground, where the ends of the step decide.
+/// linearly from x to y, m, as (constraint, depth in m); none on flat ground, where the ends of the step decide.
 pub(super) fn ground_violations(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<(Constraint, f64)> {
     let Some(terrain) = &truss.surroundings.terrain else { return Vec::new() };
     let nodes = (0..truss.nodes).filter_map(|node| {

@@ -78,8 +78,8 @@ impl Mode {
         (self.value - truss.limits.rigidity) * truss.unit
     }
 
-    /// Returns the gradient of the singular value times the unit length over the positions of the nodes, `uᵀ dR v`, for
-    /// each node with its index; without unit. `x`: the positions, m.
+    /// Returns the gradient of the singular value times the unit length over the positions of the nodes, `uᵀ dR v`, as
+    /// (index of a node, derivative by its position), without unit. `x`: the positions, m.
     pub(super) fn gradient(&self, truss: &Structure, x: &[Vec3]) -> Vec<(usize, Vec3)> {
         let mut sums = vec![Vec3::zeros(); truss.nodes];
         for (strut, &(a, b)) in truss.struts.iter().enumerate() {

@@ -136,8 +136,8 @@ impl Structure {
         (x[a] - x[b]).norm()
     }
 
-    /// Returns the positions of the two ends of a strut, given by its index, with the nodes at `x`, m. Panics if
-    /// there is no such strut.
+    /// Returns (end, end): the positions of the two ends of a strut, given by its index, with the nodes at `x`, m.
+    /// Panics if there is no such strut.
     pub fn segment(&self, x: &[Vec3], strut: usize) -> (Vec3, Vec3) {
         let (a, b) = self.struts[strut];
         (x[a], x[b])

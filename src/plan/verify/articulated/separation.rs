@@ -65,8 +65,8 @@ pub(super) struct Motion {
     pub v: Vec3,
 }
 
-/// Returns bounds on the distance of two modules from a bounding sphere of each about the origin of its body link.
-/// The deviations of both body links must have been required.
+/// Returns lower bounds on the distance of two modules over the interval, from a bounding sphere of each about the
+/// origin of its body link. The deviations of both body links must have been required.
 pub(super) fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> Bound {
     let state = view.state;
     let [a, b] = [pair.a, pair.b].map(|m| view.kinematics.link(m as usize, 0));
@@ -79,8 +79,8 @@ pub(super) fn module_bound(view: &View, bodies: &Bodies, pair: &ModulePair) -> B
     between.bound(state.interval.half, state.drift(deviation), reach)
 }
 
-/// Returns bounds on the distance of two bodies from a bounding sphere of each about its centre. `level`: that of
-/// their reference link; the deviations of their carriers must have been required.
+/// Returns lower bounds on the distance of two bodies over the interval, from a bounding sphere of each about its
+/// centre. `level`: that of their reference link; the deviations of their carriers must have been required.
 pub(super) fn sphere_bound(view: &View, a: &Body, b: &Body, level: u32) -> Bound {
     let state = view.state;
     let (x, y) = (state.centre(a), state.centre(b));

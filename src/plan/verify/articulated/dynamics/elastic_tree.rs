@@ -31,7 +31,7 @@ pub(super) struct Pushing {
     pub limits: Vec<bool>,
 }
 
-/// A motor whose effort is no greater than its limit.
+/// A motor that bears no more than its limit: beyond the deflection at which its effort reaches that, it yields.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LimitedMotor {
     /// Its joint, by [`crate::robot::JointId`].

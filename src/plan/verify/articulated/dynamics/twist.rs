@@ -163,8 +163,8 @@ fn moved(twist: &Vector6<f64>) -> Twist {
     Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() }
 }
 
-/// Returns for each candidate its slip under a twist of the base (m/s) and the force of friction on it (N), both
-/// horizontal, in level axes. Friction is Coulomb's, and viscous below `slip_speed`.
+/// Returns for each candidate (slip, force): its slip under a twist of the base, m/s, and the force of friction on it,
+/// N, both horizontal, in level axes. Friction is Coulomb's, and viscous below `slip_speed`.
 pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3)> {
     let one = |(i, candidate): (usize, &Candidate)| {
         let mut slip = twist.at(&candidate.p) + candidate.by_joints;
