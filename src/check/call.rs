@@ -319,9 +319,9 @@ impl<'a> Checker<'a> {
         self.arguments(scope, span, name, signature, None, args).0
     }
 
-    /// Returns checked arguments in the order of the parameters, and the bindings of the type parameters.
-    /// `object`, if given, is the first argument. Reports arguments that are too many, given twice, misnamed or
-    /// missing; in place of a missing one stands an error.
+    /// Returns (arguments, bindings): the typed arguments in the order of the parameters, and the bindings of the type
+    /// parameters. `object`, if given, is the first argument. Reports arguments that are too many, given twice,
+    /// misnamed or missing; in place of a missing one stands an error node.
     fn arguments(
         &mut self,
         scope: &mut Scope,

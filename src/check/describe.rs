@@ -77,7 +77,7 @@ impl Program {
 }
 
 /// Returns a type as it is written; `def_name` gives the names of declarations, and `params` holds those of the type
-/// parameters that it may mention, in order. Parameters without a name are told in words.
+/// parameters that it may mention, in order. Parameters without a name are described in words.
 fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol, params: &[Symbol]) -> String {
     let name = |ty: &Type| type_name(ty, def_name, params);
     let args = |outer: &str, t: &Type| format!("{outer}<{}>", name(t));

@@ -75,8 +75,8 @@ impl<'c> Call<'c> {
         self.get_named(name, name)
     }
 
-    /// Returns an argument as [`get`](Self::get) does; messages call it `what`: "the edge", "a number of cells".
-    /// `name`: the parameter.
+    /// Returns an argument as [`get`](Self::get) does, and panics as it does; messages call it `what`: "the edge", "a
+    /// number of cells". `name`: the parameter.
     ///
     /// # Errors
     /// A fault at the argument where the value is out of range.
@@ -115,7 +115,7 @@ impl<'c> Call<'c> {
     }
 
     /// Returns the argument of a parameter as a number above zero, in SI units; messages call it `what`. `name`: the
-    /// parameter.
+    /// parameter. Panics as [`get`](Self::get) does.
     ///
     /// # Errors
     /// A fault at the argument where the number is not above zero.
@@ -123,8 +123,8 @@ impl<'c> Call<'c> {
         self.get_named(name, what).map(|Positive(x)| x)
     }
 
-    /// Returns the argument of a parameter as a number above zero, in SI units; `None` if it is missing. Messages
-    /// call it `what`. `name`: the parameter.
+    /// Returns the argument of a parameter as a number above zero, in SI units; `None` if it is missing. Messages call
+    /// it `what`. `name`: the parameter. Panics as [`get`](Self::get) does.
     ///
     /// # Errors
     /// A fault at the argument where there is a number that is not above zero.
@@ -133,7 +133,7 @@ impl<'c> Call<'c> {
     }
 
     /// Returns the argument of a parameter as a whole number of at least zero; messages call it `what`. `name`: the
-    /// parameter.
+    /// parameter. Panics as [`get`](Self::get) does.
     ///
     /// # Errors
     /// A fault at the argument where the number is negative or too large.

@@ -348,8 +348,8 @@ pub(super) fn need_bounded(value: f64, most: f64, what: &'static str) -> Result<
     need(value.abs() <= most, || PlanFault::Bound { what, value, most })
 }
 
-/// Returns `Ok` if all numbers of a part of a plan are finite, so that JSON can hold them; `part`: its name, for the
-/// message.
+/// Returns `Ok` if JSON can hold a part of a plan: all its numbers are finite, and it is not nested too deeply.
+/// `part`: its name, for the message.
 ///
 /// # Errors
 /// [`PlanFault::Unwritable`] otherwise.
