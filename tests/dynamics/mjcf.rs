@@ -108,13 +108,13 @@ pub(super) struct Case {
 }
 
 impl Case {
-    fn new(name: &str, plan: Plan) -> Case {
+    pub(super) fn new(name: &str, plan: Plan) -> Case {
         let model = mjcf::write(&plan).expect("the robot has links and joints");
         Case { name: name.to_owned(), plan, model }
     }
 
     /// The plan of a program that leaves it in `p`, and the model that `save` writes.
-    pub(super) fn of(program: &str) -> Case {
+    fn of(program: &str) -> Case {
         let written = run_clean(&format!("{program}\nemit(p, \"p.json\")\nsave(p, \"p.mjcf.xml\")\n"));
         let plan = file::read(written.text("p.json")).expect("a plan that was written is read");
         Case { name: program.to_owned(), plan, model: written.text("p.mjcf.xml").to_owned() }
