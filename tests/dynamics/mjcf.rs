@@ -104,7 +104,7 @@ let p = plan(Odds().go(), world: world(ground: off, gravity: off))",
 pub(super) struct Case {
     name: String,
     pub(super) plan: Plan,
-    model: String,
+    pub(super) model: String,
 }
 
 impl Case {
@@ -311,7 +311,7 @@ fn names_and_numbers_of_any_kind_leave_a_model_well_formed() {
 
 /// Runs a script on tasks, with the modules of this folder in reach; `None`, with a message, where Python or MuJoCo is
 /// missing.
-fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
+pub(super) fn answers(script: &str, tasks: &[Value]) -> Option<Vec<Value>> {
     let Some(python) = python() else {
         let why = "no Python with mujoco (.ci/run installs it)";
         writeln!(std::io::stderr(), "skipped: models of MuJoCo: {why}").expect("stderr is open");
@@ -456,10 +456,10 @@ fn happens(verdict: &Verdict, simulated: &Value) -> bool {
 }
 
 /// A behaviour of the library: the robot, the call, and the least distance that it gets straight ahead, mm.
-type LibraryBehavior = (&'static str, &'static str, f64);
+pub(super) type LibraryBehavior = (&'static str, &'static str, f64);
 
 /// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
-fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
+pub(super) fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some

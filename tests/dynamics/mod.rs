@@ -1,6 +1,7 @@
 //! Robots as models of MuJoCo, and what a simulation of them shows.
 
 mod gait_programs;
+mod inverse;
 mod library_reserves;
 mod mjcf;
 mod random_gaits;

@@ -2,13 +2,17 @@
 #![allow(non_snake_case)]
 
 use super::urdf::{Urdf, python, run};
+use crate::behavior::behaviors_of_designs::BEHAVIORS;
+use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
+use modl::plan::file;
 use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist};
 use modl::robot::{Assembly, Kinematics};
 use nalgebra::{DVector, Translation3, UnitQuaternion};
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::io::Write as _;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.80665);
@@ -194,6 +198,16 @@ for s in task["states"]:
 json.dump(out, sys.stdout)
 "#;
 
+/// A design of `std.smores` by its name.
+fn of_the_library(name: &str) -> Assembly {
+    let program = format!(
+        "use std.smores.{name}\nconfig D {{ part d: {name}\n  behavior rest = wait(1s) }}\n\
+         emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")"
+    );
+    let plan = file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read");
+    plan.body.tracks().expect("the robot has joints").robot.clone()
+}
+
 /// The relative difference allowed of forces and masses between the two libraries.
 const TOL: f64 = 1e-9;
 
@@ -205,11 +219,19 @@ fn an_independent_library_needs_the_same_forces() {
         return;
     };
     let mut numbers = Numbers(13);
-    for robot in [robots::chain(3), robots::walk4(), robots::car(), robots::backhoe(4), robots::ring12()] {
+    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let mut all =
+        vec![robots::chain(3), robots::walk4(), robots::car(), robots::backhoe(4), robots::ring12()];
+    if whole {
+        let names: BTreeSet<&str> = BEHAVIORS.iter().map(|(robot, ..)| *robot).collect();
+        all.extend(names.into_iter().map(of_the_library));
+    }
+    for robot in all {
         let machine = Machine::new(&robot);
         let urdf = Urdf::new(&robot, &machine.kinematics);
-        let all: Vec<Moving> =
-            (0..200).map(|_| Moving::random(&mut numbers, machine.kinematics.joint_count())).collect();
+        let all: Vec<Moving> = (0..if whole { 1000 } else { 200 })
+            .map(|_| Moving::random(&mut numbers, machine.kinematics.joint_count()))
+            .collect();
         let states: Vec<_> = all
             .iter()
             .map(|m| {

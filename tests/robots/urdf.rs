@@ -80,7 +80,7 @@ impl Urdf {
 
     fn link(&mut self, number: usize, link: &Link) {
         let p = self.X_UL[number].transform_point(&link.com.into());
-        let (roll, pitch, yaw) = self.X_UL[number].rotation.euler_angles();
+        let (roll, pitch, yaw) = roll_pitch_yaw(&self.X_UL[number]);
         let [xx, yy, zz, xy, xz, yz] = link.inertia;
         writeln!(
             self.text,
@@ -128,7 +128,7 @@ impl Urdf {
     }
 
     fn joint(&mut self, name: &str, kind: &str, parent: usize, child: usize, origin: &Pose, axis: &str) {
-        let (p, (roll, pitch, yaw)) = (origin.translation.vector, origin.rotation.euler_angles());
+        let (p, (roll, pitch, yaw)) = (origin.translation.vector, roll_pitch_yaw(origin));
         writeln!(
             self.text,
             "  <joint name=\"{name}\" type=\"{kind}\"><parent link=\"l{parent}\"/><child link=\"l{child}\"/>\
@@ -138,6 +138,17 @@ impl Urdf {
         )
         .expect("text grows");
     }
+}
+
+/// The angles of URDF; where the pitch is a right angle the arc sine would lose half of the digits.
+fn roll_pitch_yaw(pose: &Pose) -> (f64, f64, f64) {
+    let R = *pose.rotation.to_rotation_matrix().matrix();
+    let level = libm::hypot(R[(0, 0)], R[(1, 0)]);
+    let pitch = libm::atan2(-R[(2, 0)], level);
+    if level < 1e-6 {
+        return (libm::atan2(-R[(1, 2)], R[(1, 1)]), pitch, 0.0);
+    }
+    (libm::atan2(R[(2, 1)], R[(2, 2)]), pitch, libm::atan2(R[(1, 0)], R[(0, 0)]))
 }
 
 const POSES: &str = r#"
