@@ -128,8 +128,8 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol, params: &[Symbol]) -
     }
 }
 
-/// Returns a power of a dimension parameter times a dimension in base units: `D`, `D^2`, `D/s`; `None` where an exponent
-/// is too large.
+/// Returns a power of a dimension parameter times a dimension in base units: `D`, `D^2`, `D/s`; `None` where an
+/// exponent is too large.
 fn param_units(param: Symbol, power: i8, times: Dimension) -> Option<String> {
     let whole = Dimension::PARAM.power(i64::from(power))?.times(times)?;
     // No unit has a capital D in it.

@@ -113,7 +113,8 @@ pub(crate) fn param_text(program: &Program, type_params: &[Symbol], param: &Para
     format!("{}: {}{dots}", param.name, program.type_name_with(&param.ty, type_params))
 }
 
-/// Returns the names of the type parameters of a built-in, in order; empty for other declarations, whose types name them.
+/// Returns the names of the type parameters of a built-in, in order; empty for other declarations, whose types name
+/// them.
 pub(crate) fn type_params(kind: &DefKind) -> &[Symbol] {
     match kind {
         DefKind::Native(native) => &native.type_params,

@@ -135,7 +135,8 @@ fn write(
     Ok(Wrote { files: site.files.len(), written, removed, left })
 }
 
-/// Collects the programs of a folder and those below it, by path, but for those in the folder `site` and in other sites.
+/// Collects the programs of a folder and those below it, by path, but for those in the folder `site` and in other
+/// sites.
 fn collect(files: &Project, folder: &str, site: Option<&str>, depth: usize, found: &mut Vec<String>) {
     for name in files.list(folder) {
         let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };

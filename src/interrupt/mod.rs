@@ -149,8 +149,8 @@ pub fn catch<T>(
 }
 
 /// Does two independent pieces of work, `here` on this thread and `beside` on another, and returns both results. A
-/// cancellation of this thread's work ends both, and a panic of either goes on to the caller. Progress is that of `here`
-/// until it is done, then that of `beside`. Without a second thread, `beside` is done after `here`.
+/// cancellation of this thread's work ends both, and a panic of either goes on to the caller. Progress is that of
+/// `here` until it is done, then that of `beside`. Without a second thread, `beside` is done after `here`.
 ///
 /// ```
 /// let (sum, product) = modl::interrupt::join(|| 2 + 3, || 2 * 3);

@@ -22,8 +22,8 @@ pub(super) const TABLE: &[Native] =
 ///
 /// # Errors
 /// A fault where the plan is not of a robot with joints or is not sound, the reserve is not from 0 to below 1, a joint
-/// states no greatest acceleration or moves along a curve of too high a degree, a load is too great at any speed, or the
-/// new plan would last too long.
+/// states no greatest acceleration or moves along a curve of too high a degree, a load is too great at any speed, or
+/// the new plan would last too long.
 fn fastest(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = interpreter.plan_of(call.arg("plan"), call.at("plan"))? else {
         return Ok(Value::Unknown);

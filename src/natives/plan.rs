@@ -199,8 +199,8 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned_value(Some(sliced)))
 }
 
-/// Returns the settings of the judge that the arguments `sample`, `unstable_for`, `stability`, `reserve` and `slip_max` ask
-/// for.
+/// Returns the settings of the judge that the arguments `sample`, `unstable_for`, `stability`, `reserve` and `slip_max`
+/// ask for.
 ///
 /// # Errors
 /// A fault where `unstable_for` or `slip_max` is negative, `sample` is not positive, or `reserve` is not from 0 to 1.

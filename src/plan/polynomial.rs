@@ -87,9 +87,10 @@ pub fn elevated(control: &[f64], degree: usize) -> Vec<f64> {
 }
 
 /// Returns the composition `p(r(w))` of the polynomial with these control points and `r`, which is quadratic with the
-/// control points `[0, middle, 1]` (`middle` from 0 to 1), as control points over 0..1 of twice the degree. The method is
-/// de Casteljau's rule with products of polynomials in Bernstein form (DeRose 1988): each step is a convex combination, so
-/// that the hull of the control points does not grow, and both ends are exact. Panics without control points.
+/// control points `[0, middle, 1]` (`middle` from 0 to 1), as control points over 0..1 of twice the degree. The method
+/// is de Casteljau's rule with products of polynomials in Bernstein form (DeRose 1988): each step is a convex
+/// combination, so that the hull of the control points does not grow, and both ends are exact. Panics without control
+/// points.
 pub fn composed(control: &[f64], middle: f64) -> Vec<f64> {
     let law = [0.0, middle, 1.0];
     let mut points: Vec<Vec<f64>> = control.iter().map(|c| vec![*c]).collect();

@@ -103,8 +103,8 @@ pub struct WorldFrom {
     pub world: World,
 }
 
-/// Returns true if articulated robots are judged under full dynamics: if one of the worlds of a plan asks for them, then
-/// in all.
+/// Returns true if articulated robots are judged under full dynamics: if one of the worlds of a plan asks for them,
+/// then in all.
 pub fn is_full(worlds: &[WorldFrom]) -> bool {
     worlds.iter().any(|from| from.world.dynamics == DynamicsModel::Full)
 }
@@ -168,8 +168,8 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ExemptionKind {
-    /// Stability: the centre of mass may be outside the support polygon, and no forces of the ground need hold the robot in
-    /// its motion.
+    /// Stability: the centre of mass may be outside the support polygon, and no forces of the ground need hold the
+    /// robot in its motion.
     Unstable,
     /// Slip: links in contact may slide over the ground.
     Slip,

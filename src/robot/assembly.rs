@@ -112,8 +112,8 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
-    /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is passive or
-    /// follows others. Panics if there is no such joint.
+    /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is
+    /// passive or follows others. Panics if there is no such joint.
     pub fn effort_limit(&self, owner: JointOwner) -> Option<f64> {
         match owner {
             JointOwner::Module { module, joint } => {
@@ -125,7 +125,8 @@ impl Assembly {
         }
     }
 
-    /// Returns the stiffness of a joint's servo, N·m/rad or N/m ([`Servo::stiffness`]). Panics if there is no such joint.
+    /// Returns the stiffness of a joint's servo, N·m/rad or N/m ([`Servo::stiffness`]). Panics if there is no such
+    /// joint.
     pub fn servo_stiffness(&self, owner: JointOwner) -> f64 {
         self.servo(owner).stiffness(self.slides(owner), self.effort_limit(owner))
     }

@@ -201,8 +201,8 @@ impl Servo {
     pub const SLIDE_STIFFNESS_DEFAULT: f64 = 1.5e4;
     /// The angle by which a servo is assumed to yield under its greatest torque where no stiffness is stated, rad: 1°.
     pub const TURN_YIELD_DEFAULT: f64 = std::f64::consts::PI / 180.0;
-    /// The distance by which a servo is assumed to yield under its greatest force where no stiffness is stated, m: 1° at a
-    /// lever of 0.1 m.
+    /// The distance by which a servo is assumed to yield under its greatest force where no stiffness is stated, m: 1°
+    /// at a lever of 0.1 m.
     pub const SLIDE_YIELD_DEFAULT: f64 = 0.1 * Servo::TURN_YIELD_DEFAULT;
 
     /// Returns true if no fact of the servo is stated.

@@ -113,7 +113,8 @@ pub struct Problem<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The part of the limits of torque and of the loads of bonds that is left unused, without unit, from 0 to below 1.
-    /// Default 0.15: loads are known within some 10 %, and a plan that takes the least time is at its limits throughout.
+    /// Default 0.15: loads are known within some 10 %, and a plan that takes the least time is at its limits
+    /// throughout.
     pub reserve: f64,
     /// The least number of intervals of the first grid of a stretch; finer ones are added beside instants of rest.
     /// Default 250.

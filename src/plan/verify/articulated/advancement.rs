@@ -258,9 +258,9 @@ impl<'a> Advancement<'a> {
         Some(BodyPair { a, b, level, counts, allowed, normal: Vec3::zeros() })
     }
 
-    /// Measures within modules and between neighbours at one instant, whose state is set, so that the search begins with
-    /// a clearance that few pairs can go below. In a large robot of which neither count, it measures between the root and
-    /// others.
+    /// Measures within modules and between neighbours at one instant, whose state is set, so that the search begins
+    /// with a clearance that few pairs can go below. In a large robot of which neither count, it measures between the
+    /// root and others.
     fn guess_clearance(&mut self, region: &Region, time: f64, within: &[BodyPair]) {
         let mut near = within.to_vec();
         for &(module, bond) in &region.kinematics.tree.order {

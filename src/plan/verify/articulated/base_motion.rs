@@ -84,8 +84,8 @@ impl<'a> Monitor<'a> {
         self.last = pose;
     }
 
-    /// Adds to the slip of the links that carry at least the part `slip_load` of the weight. Excused slip counts for the
-    /// greatest slip, and not against the stated one.
+    /// Adds to the slip of the links that carry at least the part `slip_load` of the weight. Excused slip counts for
+    /// the greatest slip, and not against the stated one.
     fn slip(&mut self, sample: &Sample, ledger: &mut Ledger) {
         self.slips.resize(sample.model.bodies.len(), 0.0);
         self.counted.resize(sample.model.bodies.len(), 0.0);

@@ -94,8 +94,8 @@ pub fn collision_point(plan: &Plan, modules: (usize, usize), time: f64) -> Optio
 }
 
 /// Returns by how much the link that is deepest inside another's mesh that is not convex exceeds its allowed depth, m,
-/// and a point that is as deep, in the world, m; `None` if there is no such link. `pairs`: as of [`pairs`]; `poses`: the
-/// world poses of all links.
+/// and a point that is as deep, in the world, m; `None` if there is no such link. `pairs`: as of [`pairs`]; `poses`:
+/// the world poses of all links.
 fn enclosed_point(
     bodies: &Bodies,
     kinematics: &Kinematics,

@@ -5,8 +5,8 @@
 //! An interval of time is examined in its middle, where everything is known exactly; the motion until its ends is
 //! bounded by motion bounds. Pairs that are thereby proved to be separated for the whole interval are discarded;
 //! with the others the interval is halved. Far modules are separated over long intervals, near bodies over short
-//! ones, and a pair between which nothing moves at once; whole clusters of modules are separated together. Intervals are visited in order of time, so that the first
-//! penetration that is found is the first.
+//! ones, and a pair between which nothing moves at once; whole clusters of modules are separated together. Intervals
+//! are visited in order of time, so that the first penetration that is found is the first.
 //!
 //! A proof that a pair is not nearer than the clearance found so far serves both purposes, for
 //! collisions and for the clearance.

@@ -31,8 +31,8 @@ pub(super) fn find(rollout: &Rollout) -> Result<PlannedCollisions, UnsoundLink> 
     Ok(PlannedCollisions { bodies, found })
 }
 
-/// Judges the collisions of the whole plan, those that [`find`] returned: records failures with the actions to blame, the
-/// clearance, and the status of the check. `deflected`: the positions of the joints as soft servos yield, which are
+/// Judges the collisions of the whole plan, those that [`find`] returned: records failures with the actions to blame,
+/// the clearance, and the status of the check. `deflected`: the positions of the joints as soft servos yield, which are
 /// judged besides; `None` where no loads were determined.
 pub(super) fn judge(
     rollout: &Rollout,
@@ -126,8 +126,8 @@ fn docked(tracks: &Tracks, bond: usize, time: f64) -> (Vec<CauseId>, bool) {
 }
 
 /// Returns the actions whose joint, held still from its start, keeps the two links apart at the instant of their
-/// greatest depth; latest first. `needed`: the function that returns the signed distance that they must then have, m, from
-/// that which they have as planned.
+/// greatest depth; latest first. `needed`: the function that returns the signed distance that they must then have, m,
+/// from that which they have as planned.
 fn blamed(
     tracks: &Tracks,
     bodies: &Bodies,
@@ -153,7 +153,8 @@ fn blamed(
 }
 
 /// Returns true if two links meet with the joints `along` at an instant at which their modules are not face to face as
-/// planned. Modules whose ports are within capture of each other, about to dock or just undocked, may press on each other.
+/// planned. Modules whose ports are within capture of each other, about to dock or just undocked, may press on each
+/// other.
 fn parts(
     tracks: &Tracks,
     bodies: &Bodies,
@@ -194,16 +195,16 @@ impl<'a> MeetingLinks<'a> {
         MeetingLinks { tracks, bodies, kinematics, links, poses }
     }
 
-    /// Returns the signed distance of the links (m) with the joints at these positions (rad or m), by the number in their
-    /// [`JointId`].
+    /// Returns the signed distance of the links (m) with the joints at these positions (rad or m), by the number in
+    /// their [`JointId`].
     fn distance(&mut self, joints: &[f64]) -> f64 {
         self.kinematics.link_poses(joints, &Pose::identity(), &mut self.poses);
         self.between(self.links[0], self.links[1])
     }
 
-    /// Returns true if the modules have ports face to face that an open bond could join: within capture of each other with
-    /// the joints at these positions, as in [`distance`](Self::distance). `bonds`: a flag for each bond, true if it
-    /// holds.
+    /// Returns true if the modules have ports face to face that an open bond could join: within capture of each other
+    /// with the joints at these positions, as in [`distance`](Self::distance). `bonds`: a flag for each bond, true if
+    /// it holds.
     fn face(&mut self, joints: &[f64], bonds: &[bool], tolerances: &Tolerances) -> bool {
         self.kinematics.link_poses(joints, &Pose::identity(), &mut self.poses);
         let (robot, [a, b]) = (&self.tracks.robot, self.links);

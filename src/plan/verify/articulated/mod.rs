@@ -2,9 +2,9 @@
 //!
 //! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials;
 //! docking, from the poses at the instants of docking; then one rollout of the plan over the ground, from sample to
-//! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base, or,
-//! under full dynamics, the loads along the recorded attitudes;
-//! collisions, by conservative advancement; and last the blame for the failures.
+//! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base,
+//! or, under full dynamics, the loads along the recorded attitudes; collisions, by conservative advancement; and last
+//! the blame for the failures.
 
 mod tolerances;
 
@@ -120,8 +120,8 @@ fn ground_features_of(plan: &Plan, tracks: &Tracks, samples: usize) -> usize {
 /// The greatest number of checkpoints that are kept for rolling out parts of the plan again.
 const CHECKPOINTS_MAX: usize = 16;
 
-/// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from, and, under full dynamics,
-/// the positions of the joints as servos yield.
+/// Makes all checks that are made from sample to sample. Returns checkpoints to roll out from, and, under full
+/// dynamics, the positions of the joints as servos yield.
 fn check_samples(
     rollout: &Rollout,
     missed: Vec<usize>,

@@ -65,8 +65,8 @@ impl Polyline {
         self.positions[instant * self.joints + joint]
     }
 
-    /// Returns the rate of a joint, rad/s or m/s, in the piece that ends at the instant of this index; 0 before the first
-    /// and after the last.
+    /// Returns the rate of a joint, rad/s or m/s, in the piece that ends at the instant of this index; 0 before the
+    /// first and after the last.
     fn rate(&self, joint: usize, next: usize) -> f64 {
         if next == 0 || next >= self.times.len() {
             return 0.0;

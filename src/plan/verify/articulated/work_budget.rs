@@ -1,4 +1,5 @@
-//! The limit of the work that conservative advancement may do, counted and not timed, so that it is the same everywhere.
+//! The limit of the work that conservative advancement may do, counted and not timed, so that it is the same
+//! everywhere.
 
 /// The work that may be done for each sample that the settings allow, in comparisons of two bounding spheres. Most
 /// intervals of most robots take less.

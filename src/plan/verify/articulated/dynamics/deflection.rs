@@ -12,8 +12,8 @@ pub(in super::super) struct DeflectedMotion {
     pub instants: usize,
 }
 
-/// Returns these positions of the joints with their deflections (rad or m) as great as they are with soft servos; `None`
-/// where one gives way.
+/// Returns these positions of the joints with their deflections (rad or m) as great as they are with soft servos;
+/// `None` where one gives way.
 pub(super) fn deflected(joints: &[f64], deflections: &[f64]) -> Option<Vec<f64>> {
     let softer = PARAMETERS.servo_softer.recip();
     let yields =

@@ -218,8 +218,8 @@ impl<'a> ElasticTree<'a> {
         (0..self.situation.loops.len()).map(|index| wrench(self.relative(index, &displaced.links))).collect()
     }
 
-    /// Returns the gap of each contact, that of each stop, and two of each motor with a limit, upwards and downwards, m or
-    /// rad; negative where it pushes, or where the motor is beyond its limit.
+    /// Returns the gap of each contact, that of each stop, and two of each motor with a limit, upwards and downwards, m
+    /// or rad; negative where it pushes, or where the motor is beyond its limit.
     fn gaps(&self, displaced: &Displaced) -> Vec<f64> {
         let Situation { candidates, stops, .. } = self.situation;
         let contact = candidates.iter().map(|c| c.gap + rise(&c.p).dot(&displaced.links[c.link]));
@@ -246,8 +246,8 @@ impl<'a> ElasticTree<'a> {
         (1.0 - PARAMETERS.yielding_share) * self.situation.stiffness[motor.joint]
     }
 
-    /// Returns true if contacts and stops push, and motors are at their limits, as these gaps say, but for those that just
-    /// touch.
+    /// Returns true if contacts and stops push, and motors are at their limits, as these gaps say, but for those that
+    /// just touch.
     fn agree(&self, gaps: &[f64], pushing: &Pushing) -> bool {
         let flags = pushing.contacts.iter().chain(&pushing.stops).chain(&pushing.limits);
         gaps.iter().zip(flags).all(|(gap, pushes)| (*gap < 0.0) == *pushes || gap.abs() < PARAMETERS.touching)

@@ -101,8 +101,8 @@ fn carry(wrenches: &mut [Wrench], link: usize, p: &Vec3, force: &Vec3) {
     wrenches[link].moment -= p.cross(force);
 }
 
-/// Returns the wrench that each link needs, by its number, besides these forces of friction at the candidates (N, in level
-/// axes).
+/// Returns the wrench that each link needs, by its number, besides these forces of friction at the candidates (N, in
+/// level axes).
 fn under_friction(problem: &Situation, friction: &[Vec3]) -> Vec<Wrench> {
     let mut wrenches = problem.needed.clone();
     for (candidate, force) in problem.candidates.iter().zip(friction) {

@@ -6,8 +6,8 @@
 //! with weight, inertia and friction ([`loads`], by way of [`elastic_tree`]); friction follows from the slip of the
 //! contacts under the twist that friction balances ([`twist`]); loads and friction that belong together are the fixed
 //! point of the two ([`equilibrium`]). [`traction`] follows the base with its planar momentum, and decides the travel;
-//! [`rollout_loads`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than 200
-//! ms.
+//! [`rollout_loads`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than
+//! 200 ms.
 //!
 //! Level axes are those of the stance's heading: z up, and x and y turned from those of the world about the vertical by
 //! the heading. A twist "at the centre of mass" has the velocity of the point of a link, extended as a rigid body, that

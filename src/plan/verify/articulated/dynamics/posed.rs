@@ -151,8 +151,8 @@ impl<'a> Posed<'a> {
             .placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector)
     }
 
-    /// Returns the height of the lowest point of each feature over the centre of mass, m, and the least of these heights;
-    /// infinity without features.
+    /// Returns the height of the lowest point of each feature over the centre of mass, m, and the least of these
+    /// heights; infinity without features.
     fn feature_heights(&self) -> (Vec<f64>, f64) {
         let mut heights = Vec::with_capacity(self.model.features.len());
         for &link in &self.model.attached {
@@ -261,7 +261,8 @@ impl<'a> Posed<'a> {
 }
 
 /// Returns the point in the middle of the line on which a cylinder with these two rims lies, m; `None` if they are not
-/// the rims of one. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore it.
+/// the rims of one. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore
+/// it.
 fn tread(first: &Feature, second: &Feature) -> Option<Vec3> {
     let (Form::Circle(axis, radius), Form::Circle(other, same)) = (first.form, second.form) else {
         return None;

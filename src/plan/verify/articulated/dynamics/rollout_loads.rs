@@ -222,8 +222,8 @@ impl<'a> RolloutLoads<'a> {
         Some(Loaded { held, efforts, deflections, ground, imbalance, bearing, open, slides })
     }
 
-    /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more than
-    /// their limits, and its deflection, rad or m. `None` where no rest is found.
+    /// Returns the joint that sags most at an instant as if the robot stood still in it, with motors that bear no more
+    /// than their limits, and its deflection, rad or m. `None` where no rest is found.
     fn sag(&self, index: usize) -> Option<(usize, f64)> {
         let recorded = &self.instants[index];
         let posed = self.posed(index);
@@ -241,9 +241,8 @@ impl<'a> RolloutLoads<'a> {
         Some((most.0, most.1.abs()))
     }
 
-    /// Returns true if `allows saturation` excuses an overload of a joint at an instant, because the robot then sags little,
-    /// and marks it as needed.
-    /// `sags_little`: whether it does at this instant, once that is known.
+    /// Returns true if `allows saturation` excuses an overload of a joint at an instant, because the robot then sags
+    /// little, and marks it as needed. `sags_little`: whether it does at this instant, once that is known.
     fn is_saturated(
         &self,
         load: &Load,
@@ -331,8 +330,8 @@ impl<'a> RolloutLoads<'a> {
         found.deflected
     }
 
-    /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
-    /// over the time between.
+    /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the
+    /// mean over the time between.
     fn note_impacts(&self, before: usize, index: usize, landed: &[usize], ledger: &mut Ledger) {
         if landed.is_empty() {
             return;

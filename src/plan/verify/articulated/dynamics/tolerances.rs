@@ -96,19 +96,19 @@ pub(super) struct Parameters {
     pub load_error: f64,
     /// The part of the weight from which on a link bears: 0.02, as that which may stay unbalanced.
     pub bearing_min: f64,
-    /// The part of its stiffness that a servo keeps at the limit of its motor, so that what gives way comes to rest: 1/750,
-    /// 0.2 N·m/rad of 150.
+    /// The part of its stiffness that a servo keeps at the limit of its motor, so that what gives way comes to rest:
+    /// 1/750, 0.2 N·m/rad of 150.
     pub yielding_share: f64,
     /// The sag of a joint up to which `allows saturation` excuses an overload, rad or m: 5°.
     pub sag_allowed: f64,
-    /// The greatest deflection of a joint that counts as yielding, rad or m: 20°. Beyond, the robot gives way, and linear
-    /// springs say nothing of where its links are.
+    /// The greatest deflection of a joint that counts as yielding, rad or m: 20°. Beyond, the robot gives way, and
+    /// linear springs say nothing of where its links are.
     pub deflection_max: f64,
     /// The part of the distance travelled by which its end may differ under a variation of friction or servos before it
     /// counts as not determined.
     pub travel_undetermined: f64,
-    /// The difference of the ends up to which it counts as determined, m. 15 mm: as far as contacts that scrub take robots
-    /// in simulations elsewhere.
+    /// The difference of the ends up to which it counts as determined, m. 15 mm: as far as contacts that scrub take
+    /// robots in simulations elsewhere.
     pub travel_undetermined_min: f64,
     /// The part of the distance travelled by which its end may differ under a variation before that is noted.
     pub travel_uncertain: f64,

@@ -116,8 +116,8 @@ impl Resistance {
         self.moments += p * pull.transpose();
     }
 
-    /// Adds the points as they resist along the ground: `Jᵀ W J` with the Jacobian J of their velocities in x and y, and
-    /// `-Jᵀ W v`.
+    /// Adds the points as they resist along the ground: `Jᵀ W J` with the Jacobian J of their velocities in x and y,
+    /// and `-Jᵀ W v`.
     fn along_ground(&self, matrix: &mut Matrix6<f64>, right: &mut Vector6<f64>) {
         let ([x, y, z], [xx, yy, zz]) = (self.p.into(), self.squares.into());
         let [_, xz, yz]: [f64; 3] = self.products.into();
