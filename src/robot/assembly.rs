@@ -113,7 +113,7 @@ impl Assembly {
     }
 
     /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is
-    /// passive or follows others. Panics if there is no such joint.
+    /// passive or follows others and a bond without a hinge. Panics if there is no such module, joint or bond.
     pub fn effort_limit(&self, owner: JointOwner) -> Option<f64> {
         match owner {
             JointOwner::Module { module, joint } => {
@@ -126,12 +126,13 @@ impl Assembly {
     }
 
     /// Returns the stiffness of a joint's servo, N·m/rad or N/m ([`Servo::stiffness`]). Panics if there is no such
-    /// joint.
+    /// module, joint or bond.
     pub fn servo_stiffness(&self, owner: JointOwner) -> f64 {
         self.servo(owner).stiffness(self.slides(owner), self.effort_limit(owner))
     }
 
-    /// Returns the facts of a joint's servo; none are stated of the hinges of bonds. Panics if there is no such joint.
+    /// Returns the facts of a joint's servo; none are stated of the hinges of bonds, whose index is not checked. Panics
+    /// if there is no such module or joint.
     pub fn servo(&self, owner: JointOwner) -> Servo {
         match owner {
             JointOwner::Module { module, joint } => self.module_type(module).joints[joint].servo,
@@ -140,7 +141,7 @@ impl Assembly {
     }
 
     /// Returns true if a joint is prismatic, so that its positions are in metres; those of all others, hinges of bonds
-    /// included, are in radians. Panics if there is no such joint.
+    /// included, are in radians. The index of a bond is not checked. Panics if there is no such module or joint.
     pub fn slides(&self, owner: JointOwner) -> bool {
         match owner {
             JointOwner::Module { module, joint } => {
@@ -158,8 +159,8 @@ impl Assembly {
         self.library.connectors[connector].hinge.as_ref()
     }
 
-    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports: `a.front --
-    /// b.back`. Panics if there is no such joint.
+    /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports, `a.front --
+    /// b.back`, also where the bond has none. Panics if there is no such module, joint or bond.
     pub fn joint_name(&self, owner: JointOwner) -> String {
         match owner {
             JointOwner::Module { module, joint } => {

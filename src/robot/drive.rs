@@ -17,8 +17,9 @@ pub struct Drive {
     pub terms: Vec<(usize, f64)>,
     /// True for positions in rad, false for m.
     pub turns: bool,
-    /// True for a joint that has a motor of its own; false for motors of several joints, and for joints that follow
-    /// others or have none.
+    /// True for a joint that is neither passive nor follows others, also where it shares motors with other joints, and
+    /// for every hinge of a bond; false for passive joints, for joints that follow others, and for the entries of
+    /// motors ([`ModuleType::motors`]).
     pub driven: bool,
 }
 
@@ -67,10 +68,11 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
     joints.chain(motors).collect()
 }
 
-/// Returns how the efforts of the motors of a module type follow from those of its joints: for each motor, in order,
-/// the terms (index of a joint in [`ModuleType::joints`], factor) whose sum is its effort. With `motor = Σ factor ·
-/// joint` the efforts of the joints are `Fᵀ` times those of the motors; `None` where F has no inverse, so that the
-/// motors' do not follow.
+/// Returns for each motor of a module type, in order, the terms (index of a joint in [`ModuleType::joints`], factor)
+/// whose sum is the motor's effort, given the efforts of the joints. Let F be the matrix by which the positions of the
+/// motors follow from those of the joints that they drive: `motor = F joint`, with a row for each motor and a column
+/// for each of these joints. By virtual work `τ_joint = Fᵀ τ_motor`, so the factors returned are the rows of `F⁻ᵀ`.
+/// `None` if F is not square or is singular, so that the efforts of the motors do not follow from those of the joints.
 pub fn motor_efforts(kind: &ModuleType) -> Option<Vec<Vec<(usize, f64)>>> {
     let motors = &kind.motors;
     let mut joints: Vec<usize> = motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();

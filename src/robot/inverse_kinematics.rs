@@ -83,29 +83,30 @@ pub trait IkProblem {
     fn stepped(&mut self, _q: &[f64]) {}
 }
 
-/// The limits and weights of a descent of inverse kinematics. The default is for one frame of a chain ([`reach`]).
+/// The limits and weights of a descent of inverse kinematics. The defaults are for one frame of a chain ([`reach`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The greatest number of iterations of the descent.
+    /// The greatest number of iterations of the descent. Default 200.
     pub iterations_max: usize,
-    /// The greatest number of iterations in a row without [`progress`](Settings::progress); after one more the
-    /// descent counts as stalled.
+    /// The greatest number of iterations in a row without [`progress`](Settings::progress); after one more the descent
+    /// counts as stalled. Default 25.
     pub patience: usize,
-    /// The fraction of the best merit so far below which a merit counts as progress, 0 to 1.
+    /// The fraction of the best merit so far below which a merit counts as progress, 0 to 1. Default 0.9.
     pub progress: f64,
     /// The factor of the damping λ that is added to `J Jᵀ`: λ is this times the squared residual of the task, at most
-    /// this itself (Levenberg–Marquardt damping after Sugihara 2011): strong far away, where the linear model is
-    /// poor, and gone near the solution.
+    /// this itself (Levenberg–Marquardt damping after Sugihara 2011): strong far away, where the linear model is poor,
+    /// and gone near the solution. Default 1e-4.
     pub damping: f64,
-    /// The least damping λ, in the unit of `J Jᵀ`.
+    /// The least damping λ, in the unit of `J Jᵀ`. Default 1e-12.
     pub damping_min: f64,
     /// The fraction, without unit, of the trace of `J Jᵀ` that is added to λ, against rounding where J is singular.
+    /// Default 1e-10.
     pub damping_of_trace: f64,
-    /// The damping of inequality rows, in the unit of `A Aᵀ`.
+    /// The damping of inequality rows, in the unit of `A Aᵀ`. Default 1e-6.
     pub damping_inequality: f64,
-    /// The greatest number of rounds of the active-set method in one step.
+    /// The greatest number of rounds of the active-set method in one step. Default 12.
     pub rounds_max: usize,
-    /// The greatest number of inequality rows that are active at once.
+    /// The greatest number of inequality rows that are active at once. Default 100.
     pub active_max: usize,
 }
 

@@ -87,8 +87,9 @@ impl Kinematics {
         self.joint_count
     }
 
-    /// Returns the number of a module's link among all links, from 0, which are numbered module by module; `module`
-    /// is the index of the module, `link` that of the link in the module. Panics if there is no such module.
+    /// Returns the number of a module's link among all links, from 0, which are numbered module by module; `module` is
+    /// the index of the module, `link` that of the link in the module. The indices are not checked: one out of range
+    /// may give the number of another link, or panic.
     pub fn link(&self, module: usize, link: usize) -> usize {
         self.first_link[module] + link
     }
@@ -99,13 +100,15 @@ impl Kinematics {
         self.first_link[module]..self.first_link[module + 1]
     }
 
-    /// Returns the index in [`Assembly::modules`] of the module of a link, given by its number among all links.
+    /// Returns the index in [`Assembly::modules`] of the module of a link, given by its number among all links; the
+    /// number of modules for a number that is no link's.
     pub fn module_of(&self, link: usize) -> usize {
         self.first_link.partition_point(|&first| first <= link) - 1
     }
 
     /// Returns the number, from 0, of a module's joint among all joints, that of its [`super::JointId`]; `module` is
-    /// the index of the module, `joint` that of the joint in the module. Panics if there is no such module.
+    /// the index of the module, `joint` that of the joint in the module. The indices are not checked: one out of range
+    /// may give the number of another joint, or panic.
     pub fn joint(&self, module: usize, joint: usize) -> usize {
         self.first_joint[module] + joint
     }

@@ -212,7 +212,9 @@ impl Servo {
 
     /// Returns the stiffness, N·m/rad or N/m: as stated, or such that the servo yields by
     /// [`TURN_YIELD_DEFAULT`](Servo::TURN_YIELD_DEFAULT) or [`SLIDE_YIELD_DEFAULT`](Servo::SLIDE_YIELD_DEFAULT) under
-    /// its greatest effort (N·m or N), or the default. `slides`: the joint slides.
+    /// its greatest effort `effort` (N·m or N); where none is stated either,
+    /// [`TURN_STIFFNESS_DEFAULT`](Servo::TURN_STIFFNESS_DEFAULT) or
+    /// [`SLIDE_STIFFNESS_DEFAULT`](Servo::SLIDE_STIFFNESS_DEFAULT). `slides`: true if the joint slides.
     pub fn stiffness(&self, slides: bool, effort: Option<f64>) -> f64 {
         let (yields, unknown) = match slides {
             true => (Servo::SLIDE_YIELD_DEFAULT, Servo::SLIDE_STIFFNESS_DEFAULT),
