@@ -112,7 +112,10 @@ impl Body {
         }
     }
 
-    /// Returns the dynamics that plans of this family are judged under in a world.
+    /// Returns the dynamics that plans of this family are judged under in a world: for articulated robots those of the
+    /// world, though a plan of several worlds is judged under full dynamics in all of them if one asks for them
+    /// ([`is_full`](super::is_full)); [`DynamicsModel::Statics`] for trusses, and [`DynamicsModel::Kinodynamic`] for
+    /// lattices.
     pub fn dynamics(&self, world: &World) -> DynamicsModel {
         match self {
             Body::Tracks(_) => world.dynamics,

@@ -30,8 +30,9 @@ pub struct World {
     pub ground: Ground,
     /// The factor on the coefficient of friction of every link, without unit; not negative.
     pub friction: f64,
-    /// The dynamics that articulated robots are judged under: statics or full. Robots of other families have their
-    /// own ([`Body::dynamics`](super::Body::dynamics)), and do not read it.
+    /// The dynamics that articulated robots are judged under: statics or full, and full in all worlds of a plan if one
+    /// asks for them. Whatever stands here, trusses are judged under statics, and lattices under kinodynamics
+    /// ([`Body::dynamics`](super::Body::dynamics)).
     pub dynamics: DynamicsModel,
 }
 
@@ -120,7 +121,9 @@ pub enum Stability {
     Centres,
 }
 
-/// The settings of the judge. Settings looser than the default are stated in the source and in the plan.
+/// The settings of the judge. Settings looser than the default are stated in the source and in the plan. The default: a
+/// sample every 0.01 s, no time without support, the rule [`Footprint`](Stability::Footprint), no reserve, any slip,
+/// and two million samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {

@@ -152,7 +152,8 @@ fn port(port: PortRef, robot: &Assembly) -> Result<(), PlanFault> {
     need_index(port.port, robot.module_type(port.module).ports.len(), "port")
 }
 
-/// Returns true for a joint that has a motor of its own.
+/// Returns true for a joint that commands may move: it is not fixed, not passive, and follows no other joint; hinges of
+/// bonds always may.
 fn takes_commands(robot: &Assembly, owner: JointOwner) -> bool {
     match owner {
         JointOwner::Module { module, joint } => {

@@ -21,8 +21,8 @@ struct Piece {
 }
 
 /// Judges range, speed and acceleration of every joint and motor that states a limit. Under full dynamics (`full`) a
-/// joint with a motor of its own that states no acceleration limit must not jump in velocity: its torque would have no
-/// bound.
+/// driven joint ([`Drive::driven`]) that states no acceleration limit must not jump in velocity: its torque would have
+/// no bound.
 pub(super) fn judge(tracks: &Tracks, full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
     let drives = drives(&tracks.robot);
     for drive in &drives {
@@ -156,7 +156,7 @@ fn speed(drive: &Drive, pieces: &[Piece], tolerances: &Tolerances, ledger: &mut 
 
 /// Checks the acceleration of a drive (rad/s² or m/s²) against its limit, and reports the greatest excess that no
 /// exemption covers; a jump of the velocity counts as infinite. Without a limit only jumps are checked, and these only
-/// under full dynamics (`full`) and for a joint with a motor of its own.
+/// under full dynamics (`full`) and for a driven joint ([`Drive::driven`]).
 fn acceleration(drive: &Drive, pieces: &[Piece], full: bool, tolerances: &Tolerances, ledger: &mut Ledger) {
     let is_excused = |time: f64, ledger: &mut Ledger| {
         ledger.excuses(CheckKind::Acceleration, time, |kind| *kind == ExemptionKind::Acceleration)

@@ -76,8 +76,9 @@ use crate::plan::{CheckKind, Failure, Plan, Settings, Status, Tracks, Verdict};
 use crate::units::{Dimension, quantity};
 use decimated::Decimated;
 
-/// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. Panics unless the plan passes
-/// [`validation::check`](crate::plan::validation::check).
+/// Returns the verdict on the plan of an articulated robot, whose body is `tracks`. The plan must pass
+/// [`validation::check`](crate::plan::validation::check), which is not done here: for one that does not, the verdict
+/// may be wrong, or this panics.
 pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let tolerances = Tolerances::default();
     let mut ledger = Ledger::new(&plan.exemptions, tracks.duration);

@@ -159,7 +159,10 @@ impl Stance {
         (next, slips)
     }
 
-    /// Returns the robot held in the attitude that it has before it settles, with its lowest point at the ground.
+    /// Returns the next stance after a loss of support: the robot in the posture and the unsettled attitude of
+    /// `attempt`, not settled, at the same place, lowered so that its lowest point touches the ground, with `held` set.
+    /// The contact points of this stance within the tolerance `gap_loaded` are kept, with equal loads, as those that
+    /// later attempts follow; a robot already held keeps the ones from before.
     pub fn holding(&self, model: &Model, attempt: SettleAttempt, tolerances: &Tolerances) -> Stance {
         let mut next = self.lowered(attempt);
         if !self.held {

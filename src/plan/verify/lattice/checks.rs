@@ -201,8 +201,8 @@ impl Judgement<'_> {
         }
     }
 
-    /// Records that two cells overlap (K2) in a stage that lasts from `from` to `to` (s); `stage` is `None` at the
-    /// start of the plan.
+    /// Records that two cells overlap (K2) in a stage that lasts from `from` to `to` (s): at `from` if they overlap
+    /// already at the stage's start, else at `to`. `stage`: `None` at the start of the plan.
     pub(super) fn overlapping(
         &self,
         overlap: &Overlap,

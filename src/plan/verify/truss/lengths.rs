@@ -15,7 +15,7 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// Returns (length, time) of the extreme length, m and s, that is outside the range `low` to `high` (m) by more
+    /// Returns (length in m, time in s) of the extreme length that is outside the range `low` to `high` (m) by more
     /// than `tolerance` (m): the least if that is too short, else the greatest; `None` if both are within.
     pub(super) fn outside(&self, (low, high): (f64, f64), tolerance: f64) -> Option<(f64, f64)> {
         let short = (self.least.0 < low - tolerance).then_some(self.least);

@@ -27,8 +27,9 @@ use sample_budget::SampleBudget;
 use support::StabilityMonitor;
 use tolerances::Tolerances;
 
-/// Returns the verdict on a truss plan, whose body is `paths`. Panics unless the plan passes
-/// [`validation::check`](crate::plan::validation::check).
+/// Returns the verdict on a truss plan, whose body is `paths`. The plan must pass
+/// [`validation::check`](crate::plan::validation::check), which is not done here: for one that does not, the verdict
+/// may be wrong, or this panics.
 pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, paths.duration());
     let corners = if paths.limits.angle > 0.0 { shape::corners(paths) } else { Vec::new() };

@@ -261,7 +261,8 @@ impl<'a> RolloutLoads<'a> {
 
     /// Returns (efforts, forces) at a time (s): the effort of each joint (N·m or N), by the number in its [`JointId`],
     /// interpolated between the instants about it; and the forces of the ground (N) at the nearer of them, from the
-    /// centre of mass in level axes. `None` if they can't be found, or if no attitude was recorded.
+    /// centre of mass in level axes. Before the first instant and after the last they are those of that instant. `None`
+    /// if they can't be found, or if no attitude was recorded.
     pub(in super::super) fn read(&self, time: f64) -> Option<(Vec<f64>, Vec<LinkWrench>)> {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time).clamp(1, recorded.len().max(1));
