@@ -99,8 +99,8 @@ pub enum IssueKind {
 
 /// Returns the issues of every action of a program on a robot, in the order of [`Graph::actions`], each action once
 /// however often it is repeated. The durations of moves to a position are not checked, since they depend on the
-/// position before: see [`schedule`](super::schedule()). `tol` is the fraction of a limit or range by which it may be
-/// exceeded: rounding, see [`Settings`](super::Settings).
+/// position before: see [`Scheduled::issues`](super::Scheduled::issues). `tol` is the fraction of a limit or range by
+/// which it may be exceeded, for rounding ([`Settings::tol_duration`](super::Settings::tol_duration)).
 pub fn issues(robot: &Assembly, program: &Arc<Node>, tol: f64) -> Vec<Issue> {
     let facts = facts(robot);
     let mut found = Vec::new();

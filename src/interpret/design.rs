@@ -582,7 +582,7 @@ pub fn shorten(names: &[String]) -> String {
 }
 
 impl Robot {
-    /// Returns the number of a joint among those of the assembly, from 0. Panics if the robot has no such joint.
+    /// Returns the number of a joint of this robot (not checked: [`Robot::joint_of`]) in the assembly, from 0.
     pub fn joint(&self, joint: &JointValue) -> JointId {
         self.joint_of(joint.owner)
     }

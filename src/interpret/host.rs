@@ -59,21 +59,23 @@ pub enum Mode {
 /// The choices of a user for a run, such as seed, limits and threads.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The text that the names of the tests to run contain; `None`: all tests.
+    /// The text that the names of the tests to run contain; `None`, the default: all tests.
     pub filter: Option<String>,
-    /// The seed of planners that are given none by `seed:`; every plan records the seed that it was made with.
+    /// The seed of planners that are given none by `seed:`; every plan records the seed that it was made with. Default
+    /// 0.
     pub seed: u64,
     /// True if a page is drawn of every plan that is emitted, and of the declared robots if the run wrote no `.html`.
+    /// Default false.
     pub pages: bool,
-    /// The command that runs the program again, for the pages that the run draws; may be empty.
+    /// The command that runs the program again, for the pages that the run draws; may be empty, as by default.
     pub command: String,
-    /// The width and the height of still pictures, pixels; `None`: their natural size.
+    /// The width and the height of still pictures, pixels; `None`, the default: their natural size.
     pub picture: Option<(usize, usize)>,
-    /// The bounds on what the program may use.
+    /// The bounds on what the program may use, with the defaults that its fields state.
     pub limits: Limits,
-    /// True if the host is told the values that are printed, besides their text.
+    /// True if the host is told the values that are printed, besides their text. Default false.
     pub values: bool,
-    /// The number of threads that a planner may use; 0 counts as 1. No result depends on it.
+    /// The number of threads that a planner may use; 0, the default, counts as 1. No result depends on it.
     pub threads: usize,
 }
 
@@ -81,19 +83,19 @@ pub struct Options {
 /// a plan unverified.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// The greatest number of evaluation steps: expressions, and passes of loops over ranges.
+    /// The greatest number of evaluation steps: expressions, and passes of loops over ranges. Default 50 million.
     pub steps: u64,
-    /// The greatest depth of calls within calls.
+    /// The greatest depth of calls within calls. Default 20 000.
     pub recursion: usize,
-    /// The greatest number of elements of one list.
+    /// The greatest number of elements of one list. Default 1 million.
     pub list: usize,
-    /// The greatest length of one text, bytes.
+    /// The greatest length of one text, bytes. Default 2^24.
     pub text: usize,
-    /// The greatest number of decimal digits of one whole number.
+    /// The greatest number of decimal digits of one whole number. Default 10 000.
     pub digits: usize,
-    /// The greatest number of modules of one robot.
+    /// The greatest number of modules of one robot. Default 10 000.
     pub modules: usize,
-    /// The greatest number of samples of one verification.
+    /// The greatest number of samples of one verification. Default 2 million.
     pub samples: usize,
 }
 

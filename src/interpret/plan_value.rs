@@ -49,8 +49,8 @@ pub(super) struct Judged {
 
 /// A planner's report of its plan: the fields of a record type that `is Plan`.
 pub trait PlannerReport: Any {
-    /// Reads a field of the report; `None` for a field that all plans have. `plan`: the plan that the report is
-    /// about; `interpreter`: the run.
+    /// Returns the value of a field of the report, by its name; `None` if the report has no such field, as with those
+    /// that all plans have. `plan`: the plan that the report is about; `interpreter`: the evaluator of the run.
     fn read(&self, interpreter: &mut Interpreter, plan: &Rc<PlanValue>, field: &str) -> Option<Value>;
 }
 

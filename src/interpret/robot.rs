@@ -18,7 +18,9 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// Returns the number of the joint of a module or a bond among those of the assembly. Panics if there is none.
+    /// Returns the number of the joint of a module or a bond among those of the assembly. The indices of a module and
+    /// its joint are not checked: one out of range may give the number of another joint, or panic. Panics for a bond
+    /// that is not there or has no hinge.
     pub fn joint_of(&self, owner: JointOwner) -> JointId {
         let index = joint_index(&self.kinematics, owner);
         JointId(u32::try_from(index).expect("joints are counted in 32 bits"))
@@ -44,7 +46,8 @@ impl Robot {
 }
 
 /// Returns the number of a joint, from 0, among those of the assembly, as in a [`JointId`]. `kinematics`: the
-/// kinematics of the assembly; `owner`: the module or bond that has the joint. Panics if there is no such joint.
+/// kinematics of the assembly; `owner`: the module or bond that has the joint. An `owner` out of range is treated as in
+/// [`Robot::joint_of`].
 pub fn joint_index(kinematics: &Kinematics, owner: JointOwner) -> usize {
     match owner {
         JointOwner::Module { module, joint } => kinematics.joint(module, joint),

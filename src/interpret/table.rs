@@ -116,7 +116,8 @@ impl Column {
 }
 
 /// Returns the number that gives `value` (SI) back to the bit when it is read in a unit with this factor to SI: the
-/// shortest, if there is one of ten digits; `None` if none of those near it does.
+/// quotient of `value` and one unit, rounded to ten significant digits if that reads back exactly, else the quotient
+/// itself or one of the two doubles next to it; `None` if none of these does. With the factor 1 it is `value` itself.
 pub fn in_unit(value: f64, factor: f64) -> Option<f64> {
     if factor == 1.0 {
         return Some(value);
