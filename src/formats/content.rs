@@ -11,8 +11,8 @@ pub struct Content {
 }
 
 /// Splits faces into triangles over the same indices of vertices: one with more than three corners into the fan from
-/// its first corner, which is exact for a convex face. Panics for a face without corners, and on an index of 2^32 or
-/// more.
+/// its first corner, which is exact for a convex face; faces of one or two corners give none. Panics for a face without
+/// corners, and on an index of 2^32 or more.
 pub fn triangles(faces: &[Vec<usize>]) -> Vec<[u32; 3]> {
     let place = |corner: usize| u32::try_from(corner).expect("a file has fewer than 2^32 vertices");
     let fan = |face: &Vec<usize>| -> Vec<[u32; 3]> {

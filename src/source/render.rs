@@ -11,13 +11,13 @@ use std::fmt;
 /// The style in which diagnostics are drawn.
 #[derive(Clone, Debug)]
 pub struct Style {
-    /// The width of the terminal in columns; one below [`WIDTH_MIN`] counts as that.
+    /// The width of the terminal in columns; one below [`WIDTH_MIN`] counts as that. Default 100.
     pub width: usize,
-    /// True if the text is coloured by escape sequences.
+    /// True if the text is coloured by escape sequences. Default false.
     pub color: bool,
-    /// The project folder as the user would name it, put before the names of its files; may be empty.
+    /// The project folder as the user would name it, put before the names of its files; may be empty, as by default.
     pub folder: String,
-    /// The most diagnostics that [`render`] draws; the rest are counted.
+    /// The most diagnostics that [`render`] draws; the rest are counted. Default 50.
     pub shown_max: usize,
 }
 

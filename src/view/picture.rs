@@ -63,13 +63,13 @@ impl Side {
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
     /// The time of the picture in the plan, s; clamped to the part that is played, from 0 to the first failure or the
-    /// end.
+    /// end. Default 0.
     pub time: f64,
-    /// The viewpoint from which the picture is taken.
+    /// The viewpoint from which the picture is taken. Default [`Side::Corner`].
     pub side: Side,
-    /// The width of the picture in pixels, at least 1.
+    /// The width of the picture in pixels, at least 1. Default 1280.
     pub width: usize,
-    /// The height of the picture in pixels, at least 1.
+    /// The height of the picture in pixels, at least 1. Default 800.
     pub height: usize,
 }
 

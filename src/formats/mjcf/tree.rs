@@ -201,7 +201,8 @@ impl<'a> Trees<'a> {
         self.robot.slides(self.joints[joint])
     }
 
-    /// Returns true if a joint has a motor of its own: it is not passive, not fixed, and follows no other joint.
+    /// Returns true if a joint has an actuator in the model: it is not passive, not fixed, and follows no other joint.
+    /// Joints that share motors have one each, and hinges of bonds always have one.
     pub(super) fn is_driven(&self, joint: usize) -> bool {
         match self.joints[joint] {
             JointOwner::Module { module, joint } => {

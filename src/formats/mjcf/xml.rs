@@ -95,12 +95,12 @@ pub(super) fn number(x: f64) -> String {
     }
 }
 
-/// Returns numbers as text, with one blank between any two, each as by [`number`].
+/// Returns numbers as text, each as by [`number`], with one space between any two.
 pub(super) fn numbers(all: impl IntoIterator<Item = f64>) -> String {
     all.into_iter().map(number).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns a vector as text: x, y and z with blanks between.
+/// Returns a vector as text: x, y and z with one space between.
 pub(super) fn vector(v: &Vec3) -> String {
     numbers(v.iter().copied())
 }
