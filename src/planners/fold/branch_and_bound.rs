@@ -49,15 +49,15 @@ const FLAT_BUDGET_SHARE: u64 = 4;
 /// The options of branch and bound for the layout of least energy.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The root of the layout, an index in [`Target::faces`]; `None`: the best of all roots. No such face: a panic.
+    /// The root of the layout, an index in [`Target::faces`] (else a panic); `None`, the default: the best of all.
     pub root: Option<usize>,
-    /// True leaves out layouts whose patterns overlap in the plane.
+    /// True leaves out layouts whose patterns overlap in the plane. Default false.
     pub flat: bool,
-    /// The greatest number of hinges on a path from the root; `None`: any number.
+    /// The greatest number of hinges on a path from the root; `None`, the default: any number.
     pub height: Option<usize>,
-    /// The greatest number of search steps: faces settled on paths, exchanges weighed, and nodes.
+    /// The greatest number of search steps: nodes, faces settled on paths, exchanges evaluated. Default 100 million.
     pub budget: u64,
-    /// The seed of the perturbations, which choose among layouts that tie.
+    /// The seed of the perturbations, which choose among layouts that tie. Default 0.
     pub seed: u64,
 }
 

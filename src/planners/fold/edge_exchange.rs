@@ -9,7 +9,7 @@ use super::weights::Weights;
 /// The number of exchanges that gain, the best first, of which the first that is allowed is made.
 const TRIED_MAX: usize = 256;
 
-/// The number of sums that take about as long as one exchange that is weighed.
+/// The number of sums that take about as long as the evaluation of one exchange.
 const SUMS: usize = 64;
 
 /// Returns a greedy layout (a spanning tree of the faces) grown from `root` (an index in [`Target::faces`]): in each
@@ -46,10 +46,10 @@ pub fn grown(target: &Target, weights: &Weights, root: usize) -> Layout {
     Layout::of_hinges(target, &hinges, root).expect("every face was added by one hinge")
 }
 
-/// Returns a layout of no greater energy with the same root, improved by exchanges of one hinge of the tree for
-/// another on the cycle that it closes, as long as that lowers the energy (steepest descent). `steps` counts down the
-/// exchanges weighed and the sums that are computed anew after each exchange made; at 0 the search ends with what it
-/// has. `target`: the surface; `weights`: the costs of its hinges for the faces that they carry.
+/// Returns a layout of no greater energy with the same root, improved by exchanges of one hinge of the tree for another
+/// on the cycle that it closes, as long as that lowers the energy (steepest descent). `steps` counts down by one for
+/// each exchange evaluated, and for every `SUMS` sums that are computed anew after each exchange made; at 0 the search
+/// ends with what it has. `target`: the surface; `weights`: the costs of its hinges for the faces that they carry.
 pub fn improved(target: &Target, weights: &Weights, layout: Layout, steps: &mut u64) -> Layout {
     improved_where(target, weights, layout, steps, &|_| true)
 }
@@ -92,7 +92,7 @@ pub fn improved_by(
     layout
 }
 
-/// The costs of the branches of a layout, by which an exchange is weighed without making its layout.
+/// The costs of the branches of a layout, by which an exchange is evaluated without making its layout.
 struct Branches {
     hinges: usize,
     faces: usize,

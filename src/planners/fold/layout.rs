@@ -32,7 +32,7 @@ pub struct Across {
 impl Layout {
     /// Builds a layout from the indices in [`Target::hinges`] of the hinges that fold, in any order, and its root, an
     /// index in [`Target::faces`]; `None` if they are not a spanning tree of the faces. Panics if an index is none of
-    /// the target.
+    /// the target, but not if there are too many or too few hinges.
     pub fn of_hinges(target: &Target, hinges: &[usize], root: usize) -> Option<Layout> {
         let n = target.faces.len();
         if hinges.len() + 1 != n {
@@ -59,8 +59,8 @@ impl Layout {
     }
 
     /// Builds a layout from the pairs of faces (indices in [`Target::faces`]) whose hinges fold, in any order; `None`
-    /// if a pair shares no hinge or the hinges are not a spanning tree of the faces. Panics if a face or the root is
-    /// none of the target.
+    /// if a pair shares no hinge or the hinges are not a spanning tree of the faces. Panics if the first face of a pair
+    /// or the root is none of the target and nothing else is wrong.
     pub fn of_pairs(target: &Target, pairs: &[[usize; 2]], root: usize) -> Option<Layout> {
         let hinges: Option<Vec<usize>> = pairs.iter().map(|&[a, b]| target.hinge_between(a, b)).collect();
         Layout::of_hinges(target, &hinges?, root)

@@ -22,7 +22,7 @@ use std::cmp::Ordering;
 /// The greatest number of roots from which local search starts.
 const STARTS: usize = 8;
 
-/// The number of exchanges that are weighed by energy alone for each start.
+/// The number of exchanges that are evaluated by energy alone for each start.
 const EXCHANGES: u64 = 1_000_000;
 
 /// The options of [`search`]: which layouts count, how many are measured, and how many are kept.

@@ -27,7 +27,8 @@ pub fn has_equal_sides(target: &Target) -> bool {
 }
 
 impl Pattern {
-    /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if all sides are equal.
+    /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if all sides are equal (up
+    /// to `TOLERANCES.equal_sides`); else laid out face by face from the root on, in floating point.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
         if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }

@@ -18,16 +18,18 @@ const FOLD_MAX: f64 = 2.0 * PI / 3.0;
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate {
-    /// The thickness of the plate, m.
+    /// The thickness of the plate, m. Default 6 mm.
     pub thickness: f64,
     /// The distance by which the plate ends inside the sides of its face, so that plates side by side do not meet, m.
+    /// Default 0.1 mm.
     pub gap: f64,
-    /// The mass of the motors of one plate, whatever its size, spread evenly over the plate, kg.
+    /// The mass of the motors of one plate, whatever its size, spread evenly over the plate, kg. Default 18 g.
     pub motors: f64,
-    /// The mass of the plate per area, without its motors, kg/m².
+    /// The mass of the plate per area, without its motors, kg/m². Default some 2.887: 8 g for an equilateral triangle
+    /// with sides of 80 mm.
     pub density: f64,
     /// The limits of the hinges at the plate's edges: range (rad), speed (rad/s), acceleration (rad/s²) and torque
-    /// (N·m).
+    /// (N·m). Default 120° to both sides, 90°/s, no limit of acceleration, and 0.1 N·m.
     pub limits: Limits,
 }
 

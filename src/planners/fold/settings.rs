@@ -75,31 +75,32 @@ pub enum MassModel {
     Point,
 }
 
-/// The options of [`plan`](super::plan()). The defaults are those of the function `fold` of the language.
+/// The options of [`plan`](super::plan()).
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The method by which layouts are searched.
+    /// The method by which layouts are searched. Default [`Method::Exact`].
     pub method: Method,
-    /// The quantity to minimise: energy, peak torque, or steps.
+    /// The quantity to minimise: energy, peak torque, or steps. Default [`Minimise::Energy`].
     pub minimise: Minimise,
-    /// The order of folding that is tried first.
+    /// The order of folding that is tried first. Default [`Sequence::LeavesFirst`].
     pub sequence: Sequence,
-    /// The duration of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold
-    /// angle.
+    /// The duration of each step, s; `None`, the default: the least that the limits of all hinges allow for the
+    /// greatest fold angle.
     pub step: Option<f64>,
-    /// The model of the distribution of a panel's mass.
+    /// The model of the distribution of a panel's mass. Default [`MassModel::Lamina`].
     pub inertia: MassModel,
-    /// The joints whose torques count: those that move, or all.
+    /// The joints whose torques count: those that move, or all. Default [`Count::Moving`].
     pub count: Count,
-    /// The radius of the hinges, m, for the report of panels that are too thick (Eq. 1 of [Yao et al.](super));
-    /// `None` leaves that report empty.
+    /// The radius of the hinges, m, for the report of panels that are too thick (Eq. 1 of [Yao et al.](super)); `None`,
+    /// the default, leaves that report empty.
     pub hinge_radius: Option<f64>,
-    /// The seed of choices among equal layouts and of random searches.
+    /// The seed of choices among equal layouts and of random searches. Default 0.
     pub seed: u64,
-    /// The greatest number of search steps: faces settled on paths, layouts measured, exchanges weighed. The search
-    /// of 100 million takes 5 to 8 s.
+    /// The greatest number of search steps. One is, in branch and bound, a node of the search tree, a face settled on a
+    /// path, the evaluation of an exchange of two hinges, or as many sums as take that long; in local search, a layout
+    /// measured with one root; in enumeration, a layout visited. Default 100 million, which take 5 to 8 s.
     pub budget: u64,
-    /// The settings of the judge that every plan has to pass.
+    /// The settings of the judge that every plan has to pass. Default [`plan::Settings::default`].
     pub judge: plan::Settings,
 }
 

@@ -106,8 +106,8 @@ pub fn quintic(x: f64, time: f64) -> Hinging {
 }
 
 impl Torques {
-    /// Returns the energy (Eq. 5 of [Yao et al.](super)), N·m: the sum over all steps of the mean torques of the joints
-    /// that count. `count`: the joints whose torques count; `steps`: those that were simulated.
+    /// Returns the energy (Eq. 5 of [Yao et al.](super)), N·m: the sum over all steps of the mean absolute torques of
+    /// the joints that count. `count`: the joints whose torques count; `steps`: those that were simulated.
     pub fn energy(&self, count: Count, steps: &[Vec<usize>]) -> f64 {
         self.counted(count, steps).map(|size| size.mean).sum()
     }

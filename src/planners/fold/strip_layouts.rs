@@ -40,7 +40,7 @@ const LEVEL_HINGE_WORTH: f64 = 2.0;
 /// The parts of the worth of a tree that may be given up for less energy.
 const SLACKS: [f64; 4] = [0.002, 0.02, 0.08, 0.25];
 
-/// The number of exchanges weighed in one improvement of a layout's energy.
+/// The number of exchanges of hinges evaluated in one improvement of a layout's energy.
 const STEPS_IMPROVING: u64 = 2_000_000;
 /// The number of improvements of one tree, each from the best root.
 const ROOTS_TRIED: usize = 3;

@@ -74,7 +74,8 @@ pub struct Report {
     pub rolls: usize,
     /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,
-    /// The number of steps that were relaxed because no ordinary step was found, those included that were taken back.
+    /// The number of steps that were easier ones of [`Settings::fallbacks`], since no ordinary step was found, those
+    /// included that were taken back.
     pub relaxed_steps: usize,
     /// The distance that nodes in contact slid over the ground in steps, summed over nodes, m.
     pub slip: f64,

@@ -50,18 +50,23 @@ pub struct Settings {
     /// where it can, as variable topology trusses roll without impact. Default true, as in [Usevitch et
     /// al.](crate::planners::truss).
     pub impact: bool,
-    /// The number of steps for which each policy is tried before the best is taken; 0 for no lookahead. Default 0:
-    /// lookahead takes five times the work.
+    /// The number of steps for which each policy is tried before the best is taken; 0 for none. A policy is an
+    /// objective with a value of `impact`: the present objective, the one set here, [`Objective::Springs`],
+    /// [`Objective::LENGTHS`] and [`Objective::RESTORING`], each with `impact` as set here, and the present objective
+    /// without impact. So `objective` and `impact` are only the first choice. Default 0: lookahead takes five times the
+    /// work.
     pub lookahead: usize,
-    /// True if relaxed steps are tried where no step is found. Default true.
+    /// True if easier steps are tried where none is found: with a half or a quarter of the stride, with free height of
+    /// the centre of mass, with the other choice of [`Hold`], or with the objective [`Objective::Springs`] and the
+    /// whole, half or none of the stride. Default true.
     pub fallbacks: bool,
     /// The greatest number of steps. Default 100 000: a distance of five thousand units.
     pub steps_max: usize,
-    /// The settings of placing nodes without impact.
+    /// The settings of placing nodes without impact, with the defaults that its fields state.
     pub foothold: Foothold,
-    /// The time law by which the moves of the plan are timed.
+    /// The time law by which the moves of the plan are timed, with the defaults that its fields state.
     pub time_law: TimeLaw,
-    /// The tolerances of the steps of trusses.
+    /// The tolerances of the steps of trusses. Default [`Tolerances::DEFAULT`].
     pub tolerances: Tolerances,
 }
 
@@ -102,8 +107,8 @@ impl Default for Settings {
 pub enum End {
     /// The centre of mass reached the last point of the path.
     Arrived,
-    /// No step was found, not even a relaxed one, or too many relaxed steps in a row were taken; the error is that of
-    /// the ordinary step.
+    /// No step was found, not even an easier one of [`Settings::fallbacks`], or too many of these in a row were taken;
+    /// the error is that of the ordinary step.
     Stuck(StepError),
     /// The truss stands on one node, has no contact, or rolls without end.
     Falls,
@@ -128,7 +133,7 @@ pub struct Travel {
     pub steps: usize,
     /// The number of rolls made, those included that were taken back.
     pub rolls: usize,
-    /// The number of steps that were relaxed, among those made.
+    /// The number of steps, among those made, that were easier ones of [`Settings::fallbacks`].
     pub relaxed_steps: usize,
     /// The number of nodes placed beyond an edge before the centre of mass went there.
     pub footholds: usize,

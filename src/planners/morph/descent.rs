@@ -30,7 +30,7 @@ pub struct Settings {
     pub orientations: usize,
     /// The number of steps for which an orientation is screened. Default 60: the order of fits rarely changes later.
     pub screening_steps: usize,
-    /// The seed of the random orientations.
+    /// The seed of the random orientations. Default 0.
     pub seed: u64,
     /// The spacing of sample points on a target mesh, units. Default 0.125: the root mean square changes by 1.5
     /// percent from 0.25 to 0.0625.
@@ -47,9 +47,9 @@ pub struct Settings {
     /// The fraction, 0 to 1, of a squared distance that counts only across the surface (point to plane), so that
     /// points may slide along it. Default 0.9.
     pub point_to_plane: f64,
-    /// The time law by which the steps of the plan are timed.
+    /// The time law by which the steps of the plan are timed, with the defaults that its fields state.
     pub time_law: TimeLaw,
-    /// The tolerances of the steps of trusses.
+    /// The tolerances of the steps of trusses. Default [`Tolerances::DEFAULT`].
     pub tolerances: Tolerances,
 }
 
@@ -102,8 +102,9 @@ pub struct Descent {
 /// Morphs a truss with its nodes at `start` (m, in the world's frame, by index) into a target, which is moved so that
 /// its centroid is the mean of the nodes (Section V of [Usevitch et al.](crate::planners::truss)). With
 /// [`Settings::orientations`], each is screened for some steps, and the truss descends to the best. The truss must have
-/// nodes and struts. If `progress` ends it, the result is the descent at hand, so far. `truss`: the truss with its
-/// limits; `settings`: the settings of the descent.
+/// nodes and struts. If `progress` ends it, the result is the descent under way up to its best fit so far: that of the
+/// orientation being screened, if it is still at those. `truss`: the truss with its limits; `settings`: the settings of
+/// the descent.
 ///
 /// This is the search beneath [`plan`](super::plan), for callers who have a [`Structure`] of their own.
 ///

@@ -44,11 +44,11 @@ pub struct Problem<'a> {
 /// The settings of [`plan`](plan()): those of the searches for both halves of the motion, and of the judge.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
-    /// The settings of the search for either half.
+    /// The settings of the search for either half, with the defaults that its fields state.
     pub search: tosnake::Settings,
-    /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is
-    /// held (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
-    /// accepts is the result. Without gravity nothing is judged.
+    /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is held
+    /// (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
+    /// accepts is the result. Without gravity nothing is judged. Default [`plan::Settings::default`].
     pub judge: plan::Settings,
 }
 

@@ -36,17 +36,18 @@ pub struct Problem {
     pub panels: Panels,
 }
 
-/// The settings of [`plan()`]. The defaults are those of the function `refold` of the language.
+/// The settings of [`plan()`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The time of each step, s; `None`: the least that the limits of all hinges allow for the greatest fold angle of
-    /// both shapes. Steps that close or open a fan in the plane take longer if their hinges need it.
+    /// both shapes. Steps that close or open a fan in the plane take longer if their hinges need it. Default `None`.
     pub step: Option<f64>,
-    /// The seed of random choices among equals.
+    /// The seed of random choices among equals. Default 0.
     pub seed: u64,
-    /// The greatest number of cells weighed in the search for sheets, half of it for the lower bound.
+    /// The greatest number of sides of panels on growing sheets that are examined for a panel that may come next there:
+    /// one half in the search for sheets, the other for the lower bound. Default 20 million.
     pub budget: u64,
-    /// The settings of the judge that every plan has to pass.
+    /// The settings of the judge that every plan has to pass. Default [`plan::Settings::default`].
     pub judge: plan::Settings,
 }
 

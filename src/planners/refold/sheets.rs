@@ -76,7 +76,7 @@ pub struct Found {
 /// The settings of [`sheets`].
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// The greatest number of lattice cells weighed, half of it for sheets and half for the bound.
+    /// The greatest number of sides of panels examined for a next panel: one half for sheets, one for the bound.
     pub budget: u64,
     /// The seed of random choices among equals.
     pub seed: u64,

@@ -119,7 +119,8 @@ pub struct Problem {
     pub goal: Vec<[i64; 3]>,
 }
 
-/// The settings of `squeeze`, whose defaults are those of [Reif and Slee](self).
+/// The settings of `squeeze`. By default the method and the model are chosen for the shapes, and the limits are those
+/// of [Reif and Slee](self).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settings {
     /// The method. Default [`Method::Auto`], the fastest that the model allows.

@@ -17,12 +17,15 @@ const SPEED_SQUARED_MAX: f64 = 1e6;
 
 /// Plans a motion from one shape to the other, after [Reif and Slee](super): the fastest candidate that the model
 /// allows. The body is lattice stages, in exact rational numbers of cells and units of time. If `progress` ends the
-/// search, the result is the fastest candidate so far. `problem`: the two shapes and the cell; `settings`: the method
-/// and the limits.
+/// search, the result is the fastest candidate so far. The lattice sites of the shapes are not checked to be different
+/// and connected. `problem`: the two shapes and the cell; `settings`: the method and the limits.
 ///
 /// # Errors
-/// A [`Refusal`]: shapes of different numbers of cells, cells or settings that no method allows, or numbers that do not
-/// fit. [`Refusal::Defect`] alone is a failure of the planner, not of the problem.
+/// A [`Refusal`]: [`Counts`](Refusal::Counts) for shapes of different numbers of cells; [`Stiff`](Refusal::Stiff),
+/// [`Solid`](Refusal::Solid) or [`Method`](Refusal::Method) if no construction asked for applies;
+/// [`Unbalanced`](Refusal::Unbalanced) if the model allows none of the motions; [`TooLarge`](Refusal::TooLarge) for
+/// numbers that do not fit 64 bits; [`Cancelled`](Refusal::Cancelled) if `progress` ends the search before the first
+/// candidate. [`Defect`](Refusal::Defect) alone is a failure of the planner, not of the problem.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,

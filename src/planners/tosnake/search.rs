@@ -64,8 +64,8 @@ const LOAD_SHARE_BETWEEN_MERGES: f64 = 0.6;
 /// Cost of a pair whose joints hold all that they can, in modules of the loop.
 const LOAD_COST: f64 = 8.0;
 
-/// Cost of each failed attempt at a pair, as a logit; see [`merging::pairs`]. Forgotten when another
-/// number of modules bends between the ends.
+/// Cost of each failed attempt at a pair, as a logit; added to [`merging::Pair::cost`]. Forgotten when another number
+/// of modules bends between the ends.
 const FAILED_ATTEMPT_COST: f64 = 0.7;
 
 /// A sequence of steps from a start to the snake, as a search found it.

@@ -3,7 +3,7 @@
 use super::fabrik;
 use super::inverse_kinematics;
 
-/// The settings of the whole search of `tosnake`. The defaults are those of the language.
+/// The settings of the whole search of `tosnake`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// The seed of all random numbers; the same seed gives the same plan. Default 0.
@@ -23,12 +23,13 @@ pub struct Settings {
     /// Number of pairs, the most promising first, for which RRT-Connect looks for a detour after all other
     /// attempts of a round failed. Default 10: detours are expensive.
     pub detour_pairs_max: usize,
-    /// Settings of the inverse kinematics that closes loops.
+    /// Settings of the inverse kinematics that closes loops, with the defaults that its fields state.
     pub inverse_kinematics: inverse_kinematics::Settings,
-    /// The states in which collisions are checked; everything but the default is the method of [Mrázek et al.](super)
-    /// itself.
+    /// The states in which collisions are checked; everything but the default, [`Collisions::Motion`], is the method of
+    /// [Mrázek et al.](super) itself.
     pub collisions: Collisions,
-    /// The settings of FABRIK, the inverse kinematics of [Mrázek et al.](super).
+    /// The settings of FABRIK, the inverse kinematics of [Mrázek et al.](super), with the defaults that its fields
+    /// state.
     pub fabrik: fabrik::Settings,
     /// Number of threads that may work at once, on floating robots of 16 modules or more; the plan does not depend on
     /// it. Default 1; 0 counts as 1.

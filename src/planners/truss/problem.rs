@@ -145,7 +145,8 @@ impl TrussProblem {
     }
 
     /// Returns the truss with its limits and surroundings. Struts may be half their clearance below uneven ground:
-    /// nodes are taken to be thicker by that much. Panics if a limit names a strut that is not there.
+    /// nodes are taken to be thicker by that much. Panics if a limit names a strut that is not there and nothing else
+    /// is wrong.
     ///
     /// # Errors
     /// [`InvalidTruss`] of any kind but [`NearObstacle`](InvalidTruss::NearObstacle),
