@@ -4,6 +4,7 @@
 //! Parts that overlap: the penetration depth, the length of the shortest shift that separates them, by parry's
 //! expanding polytope and by directions of our own, of which each is a valid bound; see [`separation_along`].
 
+pub use super::gjk::Needed;
 use super::gjk::closest_cores;
 use super::part::Part;
 use super::pose::{Pose, Vec3};
@@ -42,7 +43,19 @@ pub fn signed_distance_within(
     normal: Option<Vec3>,
     enough: f64,
 ) -> SignedDistance {
-    distance_apart(a, b, X_AB, normal, enough).unwrap_or_else(|| penetration(a, b, X_AB))
+    signed_distance_as_needed(a, b, X_AB, normal, &Needed::exact_up_to(enough))
+}
+
+/// Returns the signed distance (m) of two parts as well as it is `needed`; what is not exact is a lower bound, with the
+/// direction in which it holds. Otherwise as [`signed_distance_within`].
+pub fn signed_distance_as_needed(
+    a: &Part,
+    b: &Part,
+    X_AB: &Pose,
+    normal: Option<Vec3>,
+    needed: &Needed,
+) -> SignedDistance {
+    apart_as_needed(a, b, X_AB, normal, needed).unwrap_or_else(|| penetration(a, b, X_AB))
 }
 
 /// Returns the distance by the nearest points of the cores ([`Part::rounding`]), m, or a lower bound of at least
@@ -54,10 +67,19 @@ pub(super) fn distance_apart(
     normal: Option<Vec3>,
     enough: f64,
 ) -> Option<SignedDistance> {
-    let rounding = a.rounding() + b.rounding();
+    apart_as_needed(a, b, X_AB, normal, &Needed::exact_up_to(enough))
+}
+
+fn apart_as_needed(
+    a: &Part,
+    b: &Part,
+    X_AB: &Pose,
+    normal: Option<Vec3>,
+    needed: &Needed,
+) -> Option<SignedDistance> {
     let towards = normal.unwrap_or_else(|| X_AB.transform_point(&b.centre.into()).coords - a.centre);
-    let found = closest_cores(a, b, X_AB, &towards, enough + rounding)?;
-    Some(SignedDistance { distance: found.distance - rounding, normal: found.normal })
+    let found = closest_cores(a, b, X_AB, &towards, needed)?;
+    Some(SignedDistance { distance: found.distance - a.rounding() - b.rounding(), normal: found.normal })
 }
 
 /// Returns the penetration of parts whose cores overlap: the least depth that two methods find, each of which misses

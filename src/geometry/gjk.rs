@@ -20,24 +20,50 @@ const TOL_ORIGIN: f64 = 1e-12;
 /// The greatest number of iterations: polytopes take about ten, round parts about thirty.
 const ROUNDS_MAX: usize = 100;
 
+/// The accuracy that a distance is needed with: exact below one distance, within a tolerance from there on, and from
+/// another distance on any bound.
+#[derive(Clone, Copy, Debug)]
+pub struct Needed {
+    /// The distance below which the distance must be exact, m.
+    pub exact_below: f64,
+    /// The greatest error of a distance that is not exact, m: a lower bound, too small by no more, is then returned.
+    pub within: f64,
+    /// The distance from which on any lower bound of at least that suffices, m.
+    pub enough: f64,
+}
+
+impl Needed {
+    /// Returns the need of exact distances below `enough` (m), and of any bound of at least `enough` beyond.
+    pub fn exact_up_to(enough: f64) -> Needed {
+        Needed { exact_below: enough, within: 0.0, enough }
+    }
+
+    /// Returns the same need of distances that are greater by `more` (m).
+    fn beyond(&self, more: f64) -> Needed {
+        Needed { exact_below: self.exact_below + more, enough: self.enough + more, ..*self }
+    }
+}
+
 /// Returns the distance between the cores ([`Part::rounding`]) of two parts (m) and its direction in a's frame, by
 /// the method of Gilbert, Johnson and Keerthi (1988); `None` where the cores overlap or touch. `X_AB` is the pose of
-/// b's frame in a's. Stops where the distance is known to be at least `enough` (m), and then returns that lower
-/// bound. `towards`: a first guess of the direction from a to b, in a's frame.
+/// b's frame in a's. Stops where the distance is known as well as it is `needed`; what is not exact is a lower bound.
+/// `towards`: a first guess of the direction from a to b, in a's frame.
 pub(super) fn closest_cores(
     a: &Part,
     b: &Part,
     X_AB: &Pose,
     towards: &Vec3,
-    enough: f64,
+    needed: &Needed,
 ) -> Option<SignedDistance> {
-    let R_BA = X_AB.rotation.inverse();
+    let needed = needed.beyond(a.rounding() + b.rounding());
+    let R_AB = *X_AB.rotation.to_rotation_matrix().matrix();
     // The point of the difference (b minus a) that is lowest along v.
     let lowest =
-        |v: &Vec3| X_AB.transform_point(&b.core_support(&(R_BA * -v)).into()).coords - a.core_support(v);
+        |v: &Vec3| R_AB * b.core_support(&-R_AB.tr_mul(v)) + X_AB.translation.vector - a.core_support(v);
     let mut simplex = Simplex { corners: [lowest(towards); 4], count: 1 };
     let mut nearest = simplex.corners[0];
     let mut gap = SignedDistance { distance: f64::NEG_INFINITY, normal: Vec3::x() };
+    let mut exact = true;
     for _ in 0..ROUNDS_MAX {
         let distance = nearest.norm();
         if distance < TOL_ORIGIN {
@@ -49,8 +75,11 @@ pub(super) fn closest_cores(
         if along > gap.distance {
             gap = SignedDistance { distance: along, normal };
         }
-        let close = distance - gap.distance <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
-        if close || gap.distance >= enough || simplex.has(&point) {
+        let width = distance - gap.distance;
+        let close = width <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
+        let suffices = gap.distance >= needed.exact_below && width <= needed.within;
+        if close || suffices || gap.distance >= needed.enough || simplex.has(&point) {
+            exact = gap.distance < needed.enough && (close || !suffices);
             break;
         }
         simplex.corners[simplex.count] = point;
@@ -64,7 +93,7 @@ pub(super) fn closest_cores(
     if gap.distance <= TOL_ORIGIN {
         return None;
     }
-    let distance = if gap.distance >= enough { gap.distance } else { nearest.norm() };
+    let distance = if exact { nearest.norm() } else { gap.distance };
     Some(SignedDistance { distance, normal: gap.normal })
 }
 

@@ -71,7 +71,7 @@ pub fn drives(robot: &Assembly) -> Vec<Drive> {
 /// Returns for each motor of a module type, in order, the terms (index of a joint in [`ModuleType::joints`], factor)
 /// whose sum is the motor's effort, given the efforts of the joints. Let F be the matrix by which the positions of the
 /// motors follow from those of the joints that they drive: `motor = F joint`, with a row for each motor and a column
-/// for each of these joints. By virtual work `τ_joint = Fᵀ τ_motor`, so the factors returned are the rows of `F⁻ᵀ`.
+/// for each of these joints. The factors returned are the rows of `F⁻ᵀ`, as `τ_joint = Fᵀ τ_motor` by virtual work.
 /// `None` if F is not square or is singular, so that the efforts of the motors do not follow from those of the joints.
 pub fn motor_efforts(kind: &ModuleType) -> Option<Vec<Vec<(usize, f64)>>> {
     let motors = &kind.motors;

@@ -14,6 +14,7 @@ use super::separation::{self, BodyPair, Bound, ModulePair, Slab, View};
 use super::tolerances::Precision;
 use super::work_budget::{DISTANCE_WORK, LINK_WORK, MODULES_SMALL, SLAB_WORK, WorkBudget};
 use crate::geometry::Vec3;
+use crate::geometry::distance::Needed;
 use crate::interrupt;
 use crate::plan::tolerances::TOLERANCES;
 use crate::plan::{Exemption, Status, Tracks, Worst};
@@ -84,6 +85,10 @@ pub(super) struct Instant {
     /// The bond at whose nominal pose the links penetrate each other; `None` if a motion brings them there.
     pub bond: Option<usize>,
 }
+
+/// The error of a distance that need not be exact, as a part of the distance that the pair may come nearer by in the
+/// interval: a direction that is so good does not need many more halvings than the best.
+const MOTION_PART: f64 = 0.1;
 
 /// The state of two modules over an interval.
 enum ModuleProximity {
@@ -287,11 +292,11 @@ impl<'a> Advancement<'a> {
     /// Measures the distances that count for the clearance at the instant whose state is set.
     fn measure_all(&mut self, region: &Region, mut pairs: Vec<BodyPair>, time: f64) {
         for pair in pairs.iter_mut().filter(|pair| pair.counts) {
-            let enough = self.least();
+            let exact = (0.0, self.least());
             for body in [pair.a, pair.b] {
                 self.state.require(&region.kinematics, self.bodies.bodies[body as usize].carrier);
             }
-            self.measure(pair, enough, time);
+            self.measure(pair, exact, time);
         }
     }
 
@@ -456,7 +461,8 @@ impl<'a> Advancement<'a> {
         }
         self.work.spend(DISTANCE_WORK + SLAB_WORK);
         let time = self.state.interval.middle;
-        let distance = self.measure(pair, need + 2.0 * (bound.middle - bound.least), time);
+        let motion = bound.middle - bound.least;
+        let distance = self.measure(pair, (MOTION_PART * motion, need + 2.0 * motion), time);
         if distance < -pair.allowed {
             let instant = (length <= self.precision.tol_time).then(Instant::default);
             self.collide(region, pair, distance, instant);
@@ -503,14 +509,15 @@ impl<'a> Advancement<'a> {
         region.excused.iter().find(|excuse| excuse.covers(a, b))
     }
 
-    /// Measures the distance of a pair in the middle of the interval, m, exactly below `enough` and below the
-    /// clearance, and keeps the least. A distance beyond is but a lower bound, which proves a separation and is no
-    /// clearance.
-    fn measure(&mut self, pair: &mut BodyPair, enough: f64, time: f64) -> f64 {
+    /// Measures the distance of a pair in the middle of the interval, m, and keeps the least: exactly below the
+    /// clearance, elsewhere a lower bound, which is too small by at most `within` (m) below `enough` (m) and proves a
+    /// separation.
+    fn measure(&mut self, pair: &mut BodyPair, (within, enough): (f64, f64), time: f64) -> f64 {
         let (a, b) = (&self.bodies.bodies[pair.a as usize], &self.bodies.bodies[pair.b as usize]);
-        let enough = if pair.counts { enough.max(self.least()) } else { enough };
-        let distance = separation::measure(&self.state, a, b, pair, enough);
-        if distance < enough {
+        let exact_below = if pair.counts { self.least() } else { 0.0 };
+        let needed = Needed { exact_below, within, enough: enough.max(exact_below) };
+        let distance = separation::measure(&self.state, a, b, pair, &needed);
+        if distance < exact_below {
             self.count(pair, distance, time);
         }
         distance

@@ -5,7 +5,7 @@ use super::bodies::{Bodies, Body};
 use super::interval_state::{IntervalState, Moving};
 use super::reference_links::ReferenceLinks;
 use crate::geometry::Vec3;
-use crate::geometry::distance::signed_distance_within;
+use crate::geometry::distance::{Needed, signed_distance_as_needed};
 use crate::robot::Kinematics;
 
 /// A pair of modules that are not proved to be separated over the present interval.
@@ -170,13 +170,18 @@ impl<'a> Slab<'a> {
     }
 }
 
-/// Returns the signed distance of two bodies in the middle of the interval, m; once it is known to be at least
-/// `enough` (m), a lower bound on it of at least that. Sets `pair.normal` to the direction of the distance, the first
-/// guess of the next call.
-pub(super) fn measure(state: &IntervalState, a: &Body, b: &Body, pair: &mut BodyPair, enough: f64) -> f64 {
+/// Returns the signed distance of two bodies in the middle of the interval, m, as well as it is `needed`; what is not
+/// exact is a lower bound. Sets `pair.normal` to the direction of the distance, the first guess of the next call.
+pub(super) fn measure(
+    state: &IntervalState,
+    a: &Body,
+    b: &Body,
+    pair: &mut BodyPair,
+    needed: &Needed,
+) -> f64 {
     let X_AB = state.relative(a.carrier, b.carrier);
     let start = (pair.normal != Vec3::zeros()).then_some(pair.normal);
-    let found = signed_distance_within(&a.part, &b.part, &X_AB, start, enough);
+    let found = signed_distance_as_needed(&a.part, &b.part, &X_AB, start, needed);
     pair.normal = found.normal;
     found.distance
 }
