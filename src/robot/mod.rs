@@ -2,8 +2,9 @@
 //!
 //! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
-//! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]) and dynamics ([`dynamics`]), the isomorphism of two
-//! robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of RoFI modules ([`rofi`]).
+//! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]), inverse dynamics ([`dynamics`]) and forward dynamics
+//! ([`articulated_bodies`]), the isomorphism of two robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of
+//! RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
 mod assembly;
@@ -20,6 +21,7 @@ mod tree;
 pub mod inverse_kinematics;
 pub mod jacobian;
 
+pub mod articulated_bodies;
 pub mod dynamics;
 
 mod matching;

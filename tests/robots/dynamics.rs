@@ -8,12 +8,14 @@ use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::file;
-use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist};
+use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
+use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
 use nalgebra::{DVector, Translation3, UnitQuaternion};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::io::Write as _;
+use std::sync::Arc;
 
 const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.80665);
 
@@ -25,6 +27,8 @@ struct Moving {
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
+    /// The wrench on the base, N and N·m, and the effort of each joint: not those of the motion.
+    forces: Vec<f64>,
 }
 
 fn random_vec(numbers: &mut Numbers, size: f64) -> Vec3 {
@@ -38,7 +42,9 @@ impl Moving {
         let (velocity, acceleration) = (twist(), twist());
         let base = Pose::from_parts(Translation3::from(random_vec(numbers, 2.0)), turn);
         let mut list = |size: f64| (0..joints).map(|_| (numbers.next() - 0.5) * size).collect();
-        Moving { base, twist: velocity, acceleration, q: list(3.0), v: list(6.0), a: list(20.0) }
+        let (q, v, a) = (list(3.0), list(6.0), list(20.0));
+        let forces = [0.0; 6].into_iter().chain(list(4.0)).collect();
+        Moving { base, twist: velocity, acceleration, q, v, a, forces }
     }
 
     fn poses(&self, kinematics: &Kinematics) -> Vec<Pose> {
@@ -64,6 +70,7 @@ impl Moving {
             q,
             v: step(&self.v, &self.a),
             a: self.a.clone(),
+            forces: self.forces.clone(),
         }
     }
 
@@ -100,6 +107,29 @@ impl Machine {
             accelerations: &moving.a,
         };
         self.dynamics.inverse(&self.kinematics, &state, gravity)
+    }
+
+    /// The acceleration of base and joints under a wrench on the base and efforts of joints, in one list.
+    fn forward(&self, moving: &Moving, forces: &[f64], gravity: &Vec3) -> Vec<f64> {
+        let poses = moving.poses(&self.kinematics);
+        let root = self.kinematics.link(self.kinematics.root, 0);
+        let mut wrenches = vec![Wrench::default(); poses.len()];
+        wrenches[root] = Wrench {
+            force: Vec3::from_column_slice(&forces[..3]),
+            moment: Vec3::from_column_slice(&forces[3..6]),
+        };
+        let state = ForcedState {
+            poses: &poses,
+            base: moving.twist,
+            held: false,
+            velocities: &moving.v,
+            efforts: &forces[6..],
+            armatures: &vec![0.0; moving.v.len()],
+            wrenches: &wrenches,
+        };
+        let mut bodies = ArticulatedBodies::new(self.dynamics.clone(), self.kinematics.clone());
+        let (base, joints) = bodies.accelerations(&state, gravity).expect("all links have masses");
+        base.linear.iter().chain(&base.angular).copied().chain(joints).collect()
     }
 
     /// Kinetic and potential energy, summed over the bodies' own velocities by differences of their poses.
@@ -170,6 +200,109 @@ fn the_mass_matrix_gives_the_kinetic_energy_and_the_change_of_forces() {
     }
 }
 
+/// Joints that follow others, with factors, and that slide.
+const FOLLOWERS: &str = "module Odd {
+  link rail = box(200mm, 50mm, 50mm, mass: 1kg)
+  link cart = box(20mm, 30mm, 20mm, mass: 200g) at [0mm, 0mm, 80mm]
+  link twin = cylinder(radius: 20mm, length: 30mm, axis: Y, mass: 200g) at [0mm, 0mm, 130mm]
+  link arm = box(100mm, 10mm, 10mm, mass: 100g) at [50mm, 90mm, 0mm]
+  link lever = box(10mm, 60mm, 10mm, mass: 50g) at [0mm, -80mm, 0mm]
+  joint x : rail -> cart = prismatic(axis: X)
+  joint y : cart -> twin = prismatic(axis: X + Y)
+  joint y = 0.5 * x
+  joint a : rail -> arm = revolute(axis: Z) at [0mm, 90mm, 0mm]
+  joint b : rail -> lever = revolute(axis: X) at [0mm, -40mm, 10mm]
+  joint b = a - 0.5 * x
+}
+config D { part d: Odd
+  behavior rest = wait(1s) }
+emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")";
+
+#[test]
+fn the_efforts_of_a_motion_give_back_the_motion() {
+    let mut numbers = Numbers(15);
+    let followers = file::read(run_clean(FOLLOWERS).text("p.json")).expect("a plan that was written is read");
+    let followers = followers.body.tracks().expect("the robot has joints").robot.clone();
+    for robot in [robots::chain(3), robots::walk4(), robots::ring12(), followers] {
+        let machine = Machine::new(&robot);
+        for held in [false, true] {
+            let mut moving = Moving::random(&mut numbers, machine.kinematics.joint_count());
+            let poses = moving.poses(&machine.kinematics);
+            let armatures: Vec<f64> = moving.v.iter().map(|_| numbers.next() * 0.01).collect();
+            let M = machine.dynamics.mass_matrix(&machine.kinematics, &poses);
+            let follows = |joint: usize| M[(6 + joint, 6 + joint)] == 0.0;
+            (0..moving.a.len()).filter(|&joint| follows(joint)).for_each(|joint| moving.a[joint] = 0.0);
+            if held {
+                moving.acceleration = Twist::default();
+            }
+            let needed = machine.inverse(&moving, &GRAVITY);
+            let root = machine.kinematics.link(machine.kinematics.root, 0);
+            let mut wrenches = vec![Wrench::default(); poses.len()];
+            // A wrench on the last link is felt by the base and by the joints on the way.
+            let outer =
+                Wrench { force: random_vec(&mut numbers, 2.0), moment: random_vec(&mut numbers, 1.0) };
+            let last = poses.len() - 1;
+            let mut carried = vec![Wrench::default(); poses.len()];
+            carried[last] = outer;
+            let origin = poses[root].translation.vector;
+            let felt = machine.dynamics.efforts(&machine.kinematics, &poses, &mut carried, &origin);
+            wrenches[last] = outer;
+            if !held {
+                wrenches[root].force += needed.base.force - carried[root].force;
+                wrenches[root].moment += needed.base.moment - carried[root].moment;
+            }
+            let own = |joint: usize| needed.efforts[joint] - felt[joint] + armatures[joint] * moving.a[joint];
+            let efforts: Vec<f64> = (0..moving.a.len()).map(own).collect();
+            let state = ForcedState {
+                poses: &poses,
+                base: moving.twist,
+                held,
+                velocities: &moving.v,
+                efforts: &efforts,
+                armatures: &armatures,
+                wrenches: &wrenches,
+            };
+            let mut bodies = ArticulatedBodies::new(machine.dynamics.clone(), machine.kinematics.clone());
+            let (base, joints) = bodies.accelerations(&state, &GRAVITY).expect("all links have masses");
+            let off = (base.linear - moving.acceleration.linear).norm()
+                + (base.angular - moving.acceleration.angular).norm();
+            let error = joints.iter().zip(&moving.a).fold(off, |e, (x, y)| e.max((x - y).abs()));
+            assert!(error < 1e-8, "{} held {held}: {error:e}", robot.name);
+        }
+    }
+}
+
+#[test]
+fn what_has_no_inertia_has_no_acceleration() {
+    let mut robot = robots::chain(1);
+    let mut library = (*robot.library).clone();
+    let disc = library.modules[robot.modules[0].kind].links.last_mut().expect("a module has links");
+    (disc.mass, disc.inertia) = (0.0, [0.0; 6]);
+    robot.library = Arc::new(library);
+    let machine = Machine::new(&robot);
+    let moving = Moving::random(&mut Numbers(16), machine.kinematics.joint_count());
+    let poses = moving.poses(&machine.kinematics);
+    let zero = vec![0.0; moving.v.len()];
+    let wrenches = vec![Wrench::default(); poses.len()];
+    let state = ForcedState {
+        poses: &poses,
+        base: Twist::default(),
+        held: false,
+        velocities: &zero,
+        efforts: &zero,
+        armatures: &zero,
+        wrenches: &wrenches,
+    };
+    let mut bodies = ArticulatedBodies::new(machine.dynamics, machine.kinematics);
+    assert_eq!(bodies.accelerations(&state, &GRAVITY), None, "a wheel without mass");
+    let geared = vec![1e-3; zero.len()];
+    let (base, joints) = bodies
+        .accelerations(&ForcedState { armatures: &geared, ..state }, &GRAVITY)
+        .expect("the motors have inertia");
+    assert!((base.linear - GRAVITY).norm() < 1e-12, "it falls");
+    assert!(joints.iter().all(|a| a.abs() < 1e-9), "as one body");
+}
+
 const THEIRS: &str = r#"
 import json, sys, numpy as np, pinocchio as pin
 task = json.load(sys.stdin)
@@ -191,10 +324,15 @@ for s in task["states"]:
     T = np.eye(model.nv)
     T[0:3, 0:3] = T[3:6, 3:6] = R
     tau = T @ pin.rnea(model, data, q, v, a)
+    efforts = np.zeros(model.nv)
+    efforts[order] = s["f"]
+    free = pin.aba(model, data, q, v, T.T @ efforts)
+    free[0:3] = R @ (free[0:3] + np.cross(ang, lin))
+    free[3:6] = R @ free[3:6]
     M = pin.crba(model, data, q)
     M = np.triu(M) + np.triu(M, 1).T
     M = (T @ M @ T.T)[np.ix_(order, order)]
-    out.append({"tau": tau[order].tolist(), "M": M.flatten().tolist()})
+    out.append({"tau": tau[order].tolist(), "M": M.flatten().tolist(), "free": free[order].tolist()})
 json.dump(out, sys.stdout)
 "#;
 
@@ -237,7 +375,7 @@ fn an_independent_library_needs_the_same_forces() {
             .map(|m| {
                 let (p, r) = (m.base.translation.vector, m.base.rotation);
                 json!({ "place": [p.x, p.y, p.z], "turn": [r.i, r.j, r.k, r.w], "q": m.q,
-                    "v": m.u().as_slice(), "a": m.udot().as_slice() })
+                    "v": m.u().as_slice(), "a": m.udot().as_slice(), "f": m.forces })
             })
             .collect();
         let gravity = [GRAVITY.x, GRAVITY.y, GRAVITY.z];
@@ -256,7 +394,9 @@ fn an_independent_library_needs_the_same_forces() {
             let base = ours.base.force.iter().chain(ours.base.moment.iter());
             let forces: Vec<f64> = base.chain(&ours.efforts).copied().collect();
             let M = machine.dynamics.mass_matrix(&machine.kinematics, &moving.poses(&machine.kinematics));
-            for (ours, theirs) in [(&forces, numbers("tau")), (&M.as_slice().to_vec(), numbers("M"))] {
+            let free = machine.forward(moving, &moving.forces, &GRAVITY);
+            let ours = [&forces, &M.as_slice().to_vec(), &free];
+            for (ours, theirs) in ours.into_iter().zip(["tau", "M", "free"].map(numbers)) {
                 let scale = theirs.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
                 assert_eq!(ours.len(), theirs.len());
                 let error = ours.iter().zip(&theirs).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs()));

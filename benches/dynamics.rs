@@ -1,0 +1,122 @@
+//! Forward and inverse dynamics, each with the forward kinematics that it needs, beside pinocchio's on the same robots in
+//! the same run.
+//!
+//! `cargo bench --bench dynamics`. The other library is used if `MODL_PYTHON` or `target/python/bin/python` has it
+//! (`.ci/run` makes that environment).
+
+#![allow(non_snake_case)]
+
+#[path = "../tests/support"]
+mod support {
+    #[allow(dead_code)]
+    pub mod numbers;
+    pub mod robots;
+}
+#[allow(dead_code, unused_imports)]
+#[path = "../tests/robots/urdf.rs"]
+mod urdf;
+
+use support::robots;
+
+use modl::geometry::{Pose, Vec3};
+use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
+use modl::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
+use modl::robot::{Assembly, Kinematics};
+use serde_json::json;
+use std::hint::black_box;
+use std::time::Instant;
+use urdf::{Urdf, python, run};
+
+/// Runs of which the fastest counts: the machine is shared.
+const RUNS: usize = 9;
+/// Evaluations of one link in a run.
+const LINKS: usize = 400_000;
+
+const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.80665);
+
+/// Pinocchio's times, in seconds for an evaluation: articulated bodies, and recursive Newton-Euler.
+const THEIRS: &str = r#"
+import json, sys, time, numpy as np, pinocchio as pin
+task = json.load(sys.stdin)
+model = pin.buildModelFromXML(task["urdf"], pin.JointModelFreeFlyer())
+data = model.createData()
+q, v, a = pin.neutral(model), np.full(model.nv, 0.1), np.full(model.nv, 0.2)
+def least(call):
+    best = float("inf")
+    for _ in range(task["runs"]):
+        begin = time.perf_counter()
+        for _ in range(task["rounds"]):
+            call(model, data, q, v, a)
+        best = min(best, (time.perf_counter() - begin) / task["rounds"])
+    return best
+json.dump([least(pin.aba), least(pin.rnea)], sys.stdout)
+"#;
+
+fn main() {
+    for robot in [robots::chain(1), robots::walk4(), robots::snake(100)] {
+        beside(&robot);
+    }
+}
+
+/// Prints the times of one robot.
+fn beside(robot: &Assembly) {
+    let kinematics = Kinematics::new(robot, &vec![true; robot.bonds.len()], robot.base);
+    let dynamics = Dynamics::new(robot);
+    let (links, joints) = (kinematics.link_count(), kinematics.joint_count());
+    let mut poses = vec![Pose::identity(); links];
+    let (q, v, a, zero) = (vec![0.1; joints], vec![0.1; joints], vec![0.2; joints], vec![0.0; joints]);
+    let wrenches = vec![Wrench::default(); links];
+    let base = Twist::default();
+    let mut bodies = ArticulatedBodies::new(dynamics.clone(), kinematics.clone());
+    let rounds = LINKS / links;
+    let forward = fastest(rounds, || {
+        kinematics.link_poses(black_box(&q), &Pose::identity(), &mut poses);
+        let state = ForcedState {
+            poses: &poses,
+            base,
+            held: false,
+            velocities: &v,
+            efforts: &a,
+            armatures: &zero,
+            wrenches: &wrenches,
+        };
+        black_box(bodies.accelerations(&state, &GRAVITY));
+    });
+    let inverse = fastest(rounds, || {
+        kinematics.link_poses(black_box(&q), &Pose::identity(), &mut poses);
+        let motion =
+            MotionState { poses: &poses, base, base_acceleration: base, velocities: &v, accelerations: &a };
+        black_box(dynamics.inverse(&kinematics, &motion, &GRAVITY));
+    });
+    let us = |seconds: f64| seconds * 1e6;
+    print!(
+        "{:3} modules, {links:4} links: forward {:7.1} us, inverse {:7.1} us",
+        robot.modules.len(),
+        us(forward),
+        us(inverse)
+    );
+    let Some(python) = python() else {
+        println!("; no Python with pinocchio");
+        return;
+    };
+    let urdf = Urdf::new(robot, &kinematics);
+    let theirs = run(&python, THEIRS, &json!({ "urdf": urdf.text, "rounds": rounds, "runs": RUNS }));
+    let [aba, rnea] = [0, 1].map(|i| theirs[i].as_f64().expect("a time"));
+    println!(
+        "; pinocchio {:7.1} us and {:7.1} us: x{:.2} and x{:.2}",
+        us(aba),
+        us(rnea),
+        forward / aba,
+        inverse / rnea
+    );
+}
+
+/// Returns the least time of one evaluation, s.
+fn fastest(rounds: usize, mut run: impl FnMut()) -> f64 {
+    let once = |_| {
+        let begin = Instant::now();
+        (0..rounds).for_each(|_| run());
+        begin.elapsed().as_secs_f64() / rounds as f64
+    };
+    (0..RUNS).map(once).fold(f64::INFINITY, f64::min)
+}
