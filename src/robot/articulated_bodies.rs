@@ -175,9 +175,9 @@ impl ArticulatedBodies {
 
     /// Returns (acceleration of the base's frame, acceleration of each joint) of a robot under `gravity` (m/s² in the
     /// world, the vector of free fall): m/s² and rad/s² in the world, and rad/s² or m/s² by
-    /// [`JointId`](super::JointId), 0 for mimics. By articulated bodies, in time linear in the links; where joints
-    /// move several steps, by the mass matrix and its Cholesky decomposition. `None` where a joint or the base has no
-    /// inertia. Panics if a slice of `state` is too short.
+    /// [`JointId`](super::JointId), 0 for mimics. The method is that of articulated bodies (Featherstone 2008, table
+    /// 7.1), in time linear in the links; where joints move several steps, it is the mass matrix with its Cholesky
+    /// decomposition. `None` where a joint or the base has no inertia. Panics if a slice of `state` is too short.
     pub fn accelerations(&mut self, state: &ForcedState, gravity: &Vec3) -> Option<(Twist, Vec<f64>)> {
         if self.simple { self.by_passes(state, gravity) } else { self.by_mass_matrix(state, gravity) }
     }
