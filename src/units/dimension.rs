@@ -91,7 +91,7 @@ impl Dimension {
     /// The dimension of a frequency, Hz.
     pub const FREQUENCY: Dimension = dim(0, 0, -1, 0);
 
-    /// Returns the dimension of this name in [`Dimension::NAMED`], such as `AngularSpeed`; `None` if none has it.
+    /// Returns the dimension of this name in [`NAMED`], such as `AngularSpeed`; `None` if none has it.
     pub fn named(name: &str) -> Option<Dimension> {
         NAMED.iter().find(|(n, _)| *n == name).map(|(_, d)| *d)
     }
