@@ -63,7 +63,6 @@ pub(super) fn closest_cores(
     let mut simplex = Simplex { corners: [lowest(towards); 4], count: 1 };
     let mut nearest = simplex.corners[0];
     let mut gap = SignedDistance { distance: f64::NEG_INFINITY, normal: Vec3::x() };
-    let mut exact = true;
     for _ in 0..ROUNDS_MAX {
         let distance = nearest.norm();
         if distance < TOL_ORIGIN {
@@ -77,9 +76,12 @@ pub(super) fn closest_cores(
         }
         let width = distance - gap.distance;
         let close = width <= TOL_BRACKET.0 * distance + TOL_BRACKET.1;
-        let suffices = gap.distance >= needed.exact_below && width <= needed.within;
-        if close || suffices || gap.distance >= needed.enough || simplex.has(&point) {
-            exact = gap.distance < needed.enough && (close || !suffices);
+        let within = gap.distance >= needed.exact_below && width <= needed.within;
+        // A lower bound suffices, unless the bracket is so narrow that the distance is exact besides.
+        if gap.distance >= needed.enough || (within && !close) {
+            return (gap.distance > TOL_ORIGIN).then_some(gap);
+        }
+        if close || simplex.has(&point) {
             break;
         }
         simplex.corners[simplex.count] = point;
@@ -90,11 +92,7 @@ pub(super) fn closest_cores(
             None => return None,
         }
     }
-    if gap.distance <= TOL_ORIGIN {
-        return None;
-    }
-    let distance = if exact { nearest.norm() } else { gap.distance };
-    Some(SignedDistance { distance, normal: gap.normal })
+    (gap.distance > TOL_ORIGIN).then_some(SignedDistance { distance: nearest.norm(), normal: gap.normal })
 }
 
 /// A simplex of up to four points of the Minkowski difference.
