@@ -135,7 +135,7 @@ fn blamed(
     needed: impl Fn(f64) -> f64,
 ) -> Vec<CauseId> {
     let state = tracks.state(meeting.deepest);
-    let mut links = MeetingLinks::new(tracks, bodies, meeting, &state.bonds);
+    let mut links = MeetingLinks::new(tracks, bodies, meeting, state.bonds);
     let needed = needed(links.distance(&state.joints));
     let mut blamed = vec![];
     for suspect in blame::suspects(tracks, meeting.deepest) {
@@ -162,16 +162,14 @@ fn parts(
     along: &Polyline,
     tolerances: &Tolerances,
 ) -> bool {
-    let mut known: Option<(Vec<bool>, MeetingLinks)> = None;
+    let mut links = MeetingLinks::new(tracks, bodies, meeting, tracks.start.bonds.clone());
     let allowed = meeting.allowed + tolerances.deflected_depth;
     along.instants().any(|(time, deflected)| {
         let state = tracks.state(time);
-        if known.as_ref().is_none_or(|(bonds, _)| *bonds != state.bonds) {
-            let links = MeetingLinks::new(tracks, bodies, meeting, &state.bonds);
-            known = Some((state.bonds.clone(), links));
+        if links.bonds != state.bonds {
+            links = MeetingLinks::new(tracks, bodies, meeting, state.bonds);
         }
-        let Some((_, links)) = &mut known else { return true };
-        links.distance(deflected) < -allowed && !links.face(&state.joints, &state.bonds, tolerances)
+        links.distance(deflected) < -allowed && !links.face(&state.joints, tolerances)
     })
 }
 
@@ -179,6 +177,8 @@ fn parts(
 struct MeetingLinks<'a> {
     tracks: &'a Tracks,
     bodies: &'a Bodies,
+    /// A flag for each bond, true if it holds.
+    bonds: Vec<bool>,
     kinematics: Kinematics,
     /// The links, each by its module's index in the assembly and its own in the module.
     links: [(usize, usize); 2],
@@ -188,11 +188,16 @@ struct MeetingLinks<'a> {
 
 impl<'a> MeetingLinks<'a> {
     /// Returns the links of a collision of the plan's robot with these bonds, a flag for each, true if it holds.
-    fn new(tracks: &'a Tracks, bodies: &'a Bodies, meeting: &Collision, bonds: &[bool]) -> MeetingLinks<'a> {
-        let kinematics = Kinematics::new(&tracks.robot, bonds, 0);
+    fn new(
+        tracks: &'a Tracks,
+        bodies: &'a Bodies,
+        meeting: &Collision,
+        bonds: Vec<bool>,
+    ) -> MeetingLinks<'a> {
+        let kinematics = Kinematics::new(&tracks.robot, &bonds, 0);
         let links = [(meeting.modules.0, meeting.links.0), (meeting.modules.1, meeting.links.1)];
         let poses = vec![Pose::identity(); kinematics.link_count()];
-        MeetingLinks { tracks, bodies, kinematics, links, poses }
+        MeetingLinks { tracks, bodies, bonds, kinematics, links, poses }
     }
 
     /// Returns the signed distance of the links (m) with the joints at these positions (rad or m), by the number in
@@ -203,13 +208,12 @@ impl<'a> MeetingLinks<'a> {
     }
 
     /// Returns true if the modules have ports face to face that an open bond could join: within capture of each other
-    /// with the joints at these positions, as in [`distance`](Self::distance). `bonds`: a flag for each bond, true if
-    /// it holds.
-    fn face(&mut self, joints: &[f64], bonds: &[bool], tolerances: &Tolerances) -> bool {
+    /// with the joints at these positions, as in [`distance`](Self::distance).
+    fn face(&mut self, joints: &[f64], tolerances: &Tolerances) -> bool {
         self.kinematics.link_poses(joints, &Pose::identity(), &mut self.poses);
         let (robot, [a, b]) = (&self.tracks.robot, self.links);
         let join = |bond: &Bond| [(a.0, b.0), (b.0, a.0)].contains(&(bond.a.module, bond.b.module));
-        let open = (0..bonds.len()).filter(|&bond| !bonds[bond] && join(&robot.bonds[bond]));
+        let open = (0..self.bonds.len()).filter(|&bond| !self.bonds[bond] && join(&robot.bonds[bond]));
         let residual = |bond| self.kinematics.residual(robot, bond, joints, &self.poses);
         open.map(residual).any(|residual| docking::within(robot, &residual, tolerances))
     }
