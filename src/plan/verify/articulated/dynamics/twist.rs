@@ -74,8 +74,7 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
             let (p, v) = (&candidate.p, &candidate.by_joints);
             let x = twist[0] + twist[4] * p.z - twist[5] * p.y + v.x;
             let y = twist[1] + twist[5] * p.x - twist[3] * p.z + v.y;
-            let speed = libm::sqrt(x * x + y * y + PARAMETERS.slip_speed * PARAMETERS.slip_speed);
-            along.add(p, v, candidate.friction * load / speed);
+            along.add(p, v, candidate.friction * load / regularized_speed(x * x + y * y));
         }
         along.along_ground(&mut matrix, &mut right);
         let Some(next) = matrix.cholesky().map(|c| c.solve(&right)) else { break };
@@ -163,13 +162,19 @@ fn moved(twist: &Vector6<f64>) -> Twist {
     Twist { linear: twist.fixed_rows::<3>(0).into(), angular: twist.fixed_rows::<3>(3).into() }
 }
 
+/// Returns the speed by which the friction on a slip is divided, `sqrt(s² + v_s²)` with the `slip_speed` v_s, m/s.
+/// `squared`: the square s² of the slip, m²/s².
+fn regularized_speed(squared: f64) -> f64 {
+    libm::sqrt(squared + PARAMETERS.slip_speed * PARAMETERS.slip_speed)
+}
+
 /// Returns for each candidate (slip, force): its slip under a twist of the base, m/s, and the force of friction on it,
 /// N, both horizontal, in level axes. Friction is Coulomb's, and viscous below `slip_speed`.
 pub(super) fn friction(problem: &TwistProblem, twist: &Twist) -> Vec<(Vec3, Vec3)> {
     let one = |(i, candidate): (usize, &Candidate)| {
         let mut slip = twist.at(&candidate.p) + candidate.by_joints;
         slip.z = 0.0;
-        let speed = libm::sqrt(slip.norm_squared() + PARAMETERS.slip_speed * PARAMETERS.slip_speed);
+        let speed = regularized_speed(slip.norm_squared());
         (slip, slip * (-candidate.friction * problem.loads[i] / speed))
     };
     problem.candidates.iter().enumerate().map(one).collect()
