@@ -104,23 +104,27 @@ impl<'a> Posed<'a> {
         let up = Vec3::z();
         let (heights, lowest) = self.feature_heights();
         let mut near = Vec::new();
-        let mut before: Option<(usize, Feature)> = None;
-        for (index, height) in heights.iter().enumerate() {
-            if height - lowest > PARAMETERS.gap_max {
-                continue;
-            }
-            let (link, feature) = (self.model.link_of[index], self.placed(index));
-            for k in 0..feature.points() {
-                let p = feature.point(k, &up);
-                if p.z - lowest <= PARAMETERS.gap_max {
-                    near.push((p.z - lowest, link, index, k, p));
+        for &link in &self.model.attached {
+            let pose = &self.poses[link];
+            let R = *pose.rotation.to_rotation_matrix().matrix();
+            let mut before: Option<(usize, Feature)> = None;
+            for index in self.model.bodies[link].features.clone() {
+                if heights[index] - lowest > PARAMETERS.gap_max {
+                    continue;
                 }
+                let feature = self.model.features[index].placed(&R, &pose.translation.vector);
+                for k in 0..feature.points() {
+                    let p = feature.point(k, &up);
+                    if p.z - lowest <= PARAMETERS.gap_max {
+                        near.push((p.z - lowest, link, index, k, p));
+                    }
+                }
+                let rims = before.filter(|(other, _)| other + 1 == index);
+                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature)) {
+                    near.push((p.z - lowest, link, index - 1, feature.points(), p));
+                }
+                before = Some((index, feature));
             }
-            let rims = before.filter(|(other, _)| other + 1 == index && self.model.link_of[*other] == link);
-            if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature)) {
-                near.push((p.z - lowest, link, index - 1, feature.points(), p));
-            }
-            before = Some((index, feature));
         }
         near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2, a.3).cmp(&(b.1, b.2, b.3))));
         let by_joints = self.by_joints();
@@ -142,13 +146,6 @@ impl<'a> Posed<'a> {
             });
         }
         kept
-    }
-
-    /// Returns the feature of an index in level axes about the centre of mass.
-    fn placed(&self, index: usize) -> Feature {
-        let pose = &self.poses[self.model.link_of[index]];
-        self.model.features[index]
-            .placed(pose.rotation.to_rotation_matrix().matrix(), &pose.translation.vector)
     }
 
     /// Returns the height of the lowest point of each feature over the centre of mass, m, and the least of these
