@@ -5,7 +5,7 @@
 //! articulated inertia is added to that of its parent as it is. A twist about O is the angular velocity, and the
 //! velocity of the link's point that is at O.
 
-use super::dynamics::{Dynamics, Twist, Wrench};
+use super::dynamics::{Composite, Dynamics, MotionState, Twist, Wrench};
 use super::jacobian::JointAxis;
 use super::kinematics::Kinematics;
 use crate::geometry::{Pose, Vec3};
@@ -51,8 +51,10 @@ struct LinkState {
     velocity: Spatial,
     /// The articulated inertia.
     inertia: Inertia,
-    /// The articulated bias force; at last, the acceleration.
+    /// The articulated bias force.
     bias: Spatial,
+    /// The spatial acceleration, less that of free fall.
+    acceleration: Spatial,
 }
 
 /// A step of the tree on the way through the passes.
@@ -114,14 +116,12 @@ struct Inertia {
 }
 
 impl Inertia {
-    /// Returns the inertia of a rigid body: its mass (kg), its centre of mass `c` from O (m), and its inertia about that
-    /// (kg·m²).
-    fn of(mass: f64, c: &Vec3, about_centre: &Matrix3<f64>) -> Inertia {
-        let shifted = (Matrix3::identity() * c.norm_squared() - c * c.transpose()) * mass;
+    /// Returns the inertia of bodies that move as one, whose moments are about O.
+    fn of(composite: &Composite) -> Inertia {
         Inertia {
-            angular: about_centre + shifted,
-            mixed: (c * mass).cross_matrix(),
-            linear: Matrix3::from_diagonal_element(mass),
+            angular: composite.inertia,
+            mixed: composite.first.cross_matrix(),
+            linear: Matrix3::from_diagonal_element(composite.mass),
         }
     }
 
@@ -197,16 +197,16 @@ impl ArticulatedBodies {
             let solved = base.inertia.matrix().cholesky()?.solve(&right);
             Spatial { angular: solved.fixed_rows::<3>(0).into(), linear: solved.fixed_rows::<3>(3).into() }
         };
-        self.links[root].bias = start;
+        self.links[root].acceleration = start;
         let mut accelerations = vec![0.0; self.kinematics.joint_count()];
         for (step, at) in self.kinematics.steps.iter().zip(&self.steps) {
-            let mut acceleration = self.links[step.parent].bias.plus(&at.product, 1.0);
+            let mut acceleration = self.links[step.parent].acceleration.plus(&at.product, 1.0);
             if let [(joint, factor)] = step.terms() {
                 let relative = (at.effort - at.force.dot(&acceleration)) / at.inertia;
                 acceleration = acceleration.plus(&at.axis, relative);
                 accelerations[*joint] = relative / factor;
             }
-            self.links[step.link].bias = acceleration;
+            self.links[step.link].acceleration = acceleration;
         }
         let linear = start.linear + gravity + turning;
         Some((Twist { linear, angular: start.angular }, accelerations))
@@ -235,14 +235,11 @@ impl ArticulatedBodies {
     }
 
     fn link(&self, state: &ForcedState, link: usize, velocity: Spatial, origin: &Vec3) -> LinkState {
-        let (body, pose) = (&self.dynamics.bodies()[link], &state.poses[link]);
-        let R = *pose.rotation.to_rotation_matrix().matrix();
-        let c = pose.translation.vector + R * body.com - origin;
-        let inertia = Inertia::of(body.mass, &c, &(R * body.inertia * R.transpose()));
+        let inertia = Inertia::of(&self.dynamics.composite(link, &state.poses[link], origin));
         let Wrench { force, moment } = state.wrenches[link];
         let outer = Spatial { angular: moment, linear: force };
         let bias = velocity.cross_force(&inertia.times(&velocity)).plus(&outer, -1.0);
-        LinkState { velocity, inertia, bias }
+        LinkState { velocity, inertia, bias, acceleration: Spatial::default() }
     }
 
     /// Finds the articulated inertias and bias forces, from the leaves to the root; `None` where a joint has no inertia.
@@ -278,7 +275,7 @@ impl ArticulatedBodies {
         let origin = state.poses[root].translation.vector;
         let n = kinematics.joint_count();
         let still = vec![0.0; n];
-        let motion = super::dynamics::MotionState {
+        let motion = MotionState {
             poses: state.poses,
             base: state.base,
             base_acceleration: Twist::default(),

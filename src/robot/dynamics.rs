@@ -293,7 +293,7 @@ impl Dynamics {
     }
 
     /// Returns the inertia of one body about `origin` (m), in the world.
-    fn composite(&self, link: usize, pose: &Pose, origin: &Vec3) -> Composite {
+    pub(super) fn composite(&self, link: usize, pose: &Pose, origin: &Vec3) -> Composite {
         let body = &self.bodies[link];
         let R = *pose.rotation.to_rotation_matrix().matrix();
         let d = pose.translation.vector + R * body.com - origin;
@@ -308,13 +308,13 @@ impl Dynamics {
 
 /// A composite rigid body: bodies that move as one.
 #[derive(Clone, Copy, Debug, Default)]
-struct Composite {
+pub(super) struct Composite {
     /// The mass, kg.
-    mass: f64,
+    pub mass: f64,
     /// The first moment of mass about the origin of the base's frame, in the world, kg·m.
-    first: Vec3,
+    pub first: Vec3,
     /// The inertia about that origin, in the world, kg·m².
-    inertia: Matrix3<f64>,
+    pub inertia: Matrix3<f64>,
 }
 
 impl Composite {
