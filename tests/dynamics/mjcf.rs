@@ -104,7 +104,7 @@ let p = plan(Odds().go(), world: world(ground: off, gravity: off))",
 pub(super) struct Case {
     name: String,
     pub(super) plan: Plan,
-    pub(super) model: String,
+    model: String,
 }
 
 impl Case {
@@ -456,10 +456,10 @@ fn happens(verdict: &Verdict, simulated: &Value) -> bool {
 }
 
 /// A behaviour of the library: the robot, the call, and the least distance that it gets straight ahead, mm.
-pub(super) type LibraryBehavior = (&'static str, &'static str, f64);
+type LibraryBehavior = (&'static str, &'static str, f64);
 
 /// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
-pub(super) fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
+fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some

@@ -7,20 +7,20 @@ use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
-use modl::plan::file;
+use modl::plan::{Plan, file};
 use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
 use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
 use nalgebra::{DVector, Translation3, UnitQuaternion};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::sync::Arc;
 
-const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.80665);
+pub const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.80665);
 
 /// A random motion at an instant: base pose, twist and its derivative, joints with velocities and accelerations.
-struct Moving {
+pub struct Moving {
     base: Pose,
     twist: Twist,
     acceleration: Twist,
@@ -36,7 +36,7 @@ fn random_vec(numbers: &mut Numbers, size: f64) -> Vec3 {
 }
 
 impl Moving {
-    fn random(numbers: &mut Numbers, joints: usize) -> Moving {
+    pub fn random(numbers: &mut Numbers, joints: usize) -> Moving {
         let turn = UnitQuaternion::from_scaled_axis(random_vec(numbers, 4.0));
         let mut twist = || Twist { linear: random_vec(numbers, 2.0), angular: random_vec(numbers, 4.0) };
         let (velocity, acceleration) = (twist(), twist());
@@ -84,15 +84,23 @@ impl Moving {
         let base = self.acceleration.linear.iter().chain(self.acceleration.angular.iter());
         DVector::from_iterator(6 + self.a.len(), base.chain(&self.a).copied())
     }
+
+    /// The motion as a script reads it: joints in the order of the assembly, everything along the axes of the world.
+    pub fn json(&self) -> Value {
+        let (p, r) = (self.base.translation.vector, self.base.rotation);
+        json!({ "place": [p.x, p.y, p.z], "turn": [r.i, r.j, r.k, r.w], "q": self.q,
+            "v": self.u().as_slice(), "a": self.udot().as_slice(), "f": self.forces })
+    }
 }
 
-struct Machine {
-    kinematics: Kinematics,
+/// A robot compiled for dynamics, with all of its bonds.
+pub struct Machine {
+    pub kinematics: Kinematics,
     dynamics: Dynamics,
 }
 
 impl Machine {
-    fn new(robot: &Assembly) -> Machine {
+    pub fn new(robot: &Assembly) -> Machine {
         let kinematics = Kinematics::new(robot, &vec![true; robot.bonds.len()], robot.base);
         Machine { dynamics: Dynamics::new(robot), kinematics }
     }
@@ -107,6 +115,13 @@ impl Machine {
             accelerations: &moving.a,
         };
         self.dynamics.inverse(&self.kinematics, &state, gravity)
+    }
+
+    /// The force and the moment on the base and the effort of each joint that a motion needs, in one list.
+    pub fn forces(&self, moving: &Moving, gravity: &Vec3) -> Vec<f64> {
+        let needed = self.inverse(moving, gravity);
+        let base = needed.base.force.iter().chain(needed.base.moment.iter());
+        base.chain(&needed.efforts).copied().collect()
     }
 
     /// The acceleration of base and joints under a wrench on the base and efforts of joints, in one list.
@@ -180,13 +195,8 @@ fn the_mass_matrix_gives_the_kinetic_energy_and_the_change_of_forces() {
         // Inverse dynamics without gravity is linear in the accelerations, and M is that map.
         let still =
             Moving { acceleration: Twist::default(), a: vec![0.0; moving.a.len()], ..moving.after(0.0) };
-        let (with, without) =
-            (machine.inverse(&moving, &Vec3::zeros()), machine.inverse(&still, &Vec3::zeros()));
-        let stacked = |f: &InverseDynamics| {
-            let base = f.base.force.iter().chain(f.base.moment.iter());
-            DVector::from_iterator(6 + f.efforts.len(), base.chain(&f.efforts).copied())
-        };
-        let difference = stacked(&with) - stacked(&without) - &M * moving.udot();
+        let forces = |moving: &Moving| DVector::from_vec(machine.forces(moving, &Vec3::zeros()));
+        let difference = forces(&moving) - forces(&still) - &M * moving.udot();
         assert!(difference.amax() < 1e-10, "{}: {:e}", robot.name, difference.amax());
         let u = moving.u();
         let kinetic = (u.transpose() * &M * &u)[(0, 0)] / 2.0;
@@ -222,7 +232,7 @@ emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")";
 fn the_efforts_of_a_motion_give_back_the_motion() {
     let mut numbers = Numbers(15);
     let followers = file::read(run_clean(FOLLOWERS).text("p.json")).expect("a plan that was written is read");
-    let followers = followers.body.tracks().expect("the robot has joints").robot.clone();
+    let followers = robot_of(&followers).clone();
     for robot in [robots::chain(3), robots::walk4(), robots::ring12(), followers] {
         let machine = Machine::new(&robot);
         for held in [false, true] {
@@ -336,14 +346,18 @@ for s in task["states"]:
 json.dump(out, sys.stdout)
 "#;
 
-/// A design of `std.smores` by its name.
-fn of_the_library(name: &str) -> Assembly {
+/// The plan of a design of `std.smores` that floats at rest, by the design's name.
+pub fn library_plan(name: &str) -> Plan {
     let program = format!(
         "use std.smores.{name}\nconfig D {{ part d: {name}\n  behavior rest = wait(1s) }}\n\
          emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")"
     );
-    let plan = file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read");
-    plan.body.tracks().expect("the robot has joints").robot.clone()
+    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+}
+
+/// The robot of a plan.
+pub fn robot_of(plan: &Plan) -> &Assembly {
+    &plan.body.tracks().expect("the robot has joints").robot
 }
 
 /// The relative difference allowed of forces and masses between the two libraries.
@@ -362,7 +376,7 @@ fn an_independent_library_needs_the_same_forces() {
         vec![robots::chain(3), robots::walk4(), robots::car(), robots::backhoe(4), robots::ring12()];
     if whole {
         let names: BTreeSet<&str> = BEHAVIORS.iter().map(|(robot, ..)| *robot).collect();
-        all.extend(names.into_iter().map(of_the_library));
+        all.extend(names.into_iter().map(|name| robot_of(&library_plan(name)).clone()));
     }
     for robot in all {
         let machine = Machine::new(&robot);
@@ -370,15 +384,8 @@ fn an_independent_library_needs_the_same_forces() {
         let all: Vec<Moving> = (0..if whole { 1000 } else { 200 })
             .map(|_| Moving::random(&mut numbers, machine.kinematics.joint_count()))
             .collect();
-        let states: Vec<_> = all
-            .iter()
-            .map(|m| {
-                let (p, r) = (m.base.translation.vector, m.base.rotation);
-                json!({ "place": [p.x, p.y, p.z], "turn": [r.i, r.j, r.k, r.w], "q": m.q,
-                    "v": m.u().as_slice(), "a": m.udot().as_slice(), "f": m.forces })
-            })
-            .collect();
-        let gravity = [GRAVITY.x, GRAVITY.y, GRAVITY.z];
+        let states: Vec<Value> = all.iter().map(Moving::json).collect();
+        let gravity = GRAVITY.as_slice();
         let task = json!({ "urdf": urdf.text, "joints": urdf.joints, "states": states, "gravity": gravity });
         let theirs = run(&python, THEIRS, &task);
         for (moving, theirs) in all.iter().zip(theirs.as_array().expect("a list of states")) {
@@ -390,9 +397,7 @@ fn an_independent_library_needs_the_same_forces() {
                     .map(|x| x.as_f64().expect("a number"))
                     .collect()
             };
-            let ours = machine.inverse(moving, &GRAVITY);
-            let base = ours.base.force.iter().chain(ours.base.moment.iter());
-            let forces: Vec<f64> = base.chain(&ours.efforts).copied().collect();
+            let forces = machine.forces(moving, &GRAVITY);
             let M = machine.dynamics.mass_matrix(&machine.kinematics, &moving.poses(&machine.kinematics));
             let free = machine.forward(moving, &moving.forces, &GRAVITY);
             let ours = [&forces, &M.as_slice().to_vec(), &free];
