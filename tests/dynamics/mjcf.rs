@@ -445,7 +445,7 @@ pub(super) fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str
 
 /// Returns true if a simulation travels and turns as a verdict says, within 10 %, 5 mm or a fifth of the slip and 10 % or 3
 /// degrees, with no joint more than 10 degrees behind the plan.
-fn happens(verdict: &Verdict, simulated: &Value) -> bool {
+pub(super) fn happens(verdict: &Verdict, simulated: &Value) -> bool {
     let travel = Vec3::from([0, 1, 2].map(|axis| number(&simulated["travel"][axis])));
     let yaw = number(&simulated["yaw"]);
     let slip = verdict.slip.as_ref().map_or(0.0, |worst| worst.value);
