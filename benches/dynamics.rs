@@ -6,29 +6,18 @@
 
 #![allow(non_snake_case)]
 
-#[path = "../tests/support"]
-mod support {
-    #[allow(dead_code)]
-    pub mod numbers;
-    pub mod robots;
-}
-#[allow(dead_code, unused_imports)]
-#[path = "../tests/robots/urdf.rs"]
-mod urdf;
+mod beside_pinocchio;
 
-use support::robots;
-
+use beside_pinocchio::{RUNS, fastest, support, urdf};
 use modl::geometry::{Pose, Vec3};
 use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
 use modl::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
 use serde_json::json;
 use std::hint::black_box;
-use std::time::Instant;
+use support::robots;
 use urdf::{Urdf, python, run};
 
-/// Runs of which the fastest counts: the machine is shared.
-const RUNS: usize = 9;
 /// Evaluations of one link in a run.
 const LINKS: usize = 400_000;
 
@@ -109,14 +98,4 @@ fn beside(robot: &Assembly) {
         forward / aba,
         inverse / rnea
     );
-}
-
-/// Returns the least time of one evaluation, s.
-fn fastest(rounds: usize, mut run: impl FnMut()) -> f64 {
-    let once = |_| {
-        let begin = Instant::now();
-        (0..rounds).for_each(|_| run());
-        begin.elapsed().as_secs_f64() / rounds as f64
-    };
-    (0..RUNS).map(once).fold(f64::INFINITY, f64::min)
 }

@@ -6,18 +6,9 @@
 
 #![allow(non_snake_case)]
 
-#[path = "../tests/support"]
-mod support {
-    #[allow(dead_code)]
-    pub mod numbers;
-    pub mod robots;
-}
-#[allow(dead_code, unused_imports)]
-#[path = "../tests/robots/urdf.rs"]
-mod urdf;
+mod beside_pinocchio;
 
-use support::robots;
-
+use beside_pinocchio::{fastest, support, urdf};
 use modl::geometry::{Placed, Pose, Shape};
 use modl::plan::verify::articulated::Precision;
 use modl::plan::verify::articulated::collision::judge;
@@ -26,10 +17,7 @@ use modl::robot::{Assembly, JointId, Kinematics};
 use serde_json::{Value, json};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
-use std::time::Instant;
-
-/// Runs of which the fastest counts: the machine is shared.
-const RUNS: usize = 9;
+use support::robots;
 
 fn main() {
     place();
@@ -63,7 +51,7 @@ fn place() {
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
         let mut joints = vec![0.0; robot.joints().count()];
         let rounds = 300_000 / robot.modules.len();
-        let least = fastest(|| {
+        let least = fastest(1, || {
             for round in 0..rounds {
                 let q = round as f64 * 1e-4;
                 joints.iter_mut().enumerate().for_each(|(i, joint)| *joint = q + i as f64 * 1e-3);
@@ -80,7 +68,7 @@ fn place() {
 fn verify(name: &str, tracks: &Tracks) -> f64 {
     let settings = Settings::default();
     let mut stretches = 0;
-    let least = fastest(|| {
+    let least = fastest(1, || {
         let found = judge(tracks, &settings, &[], &Precision::default()).expect("sound shapes");
         assert!(found.collisions.is_empty(), "{name} collides: {:?}", found.collisions);
         stretches = found.samples;
@@ -89,15 +77,6 @@ fn verify(name: &str, tracks: &Tracks) -> f64 {
     let rate = states / least;
     println!("{name:<16} modl           {rate:10.0} states/s  ({stretches} stretches for {states} states)");
     rate
-}
-
-fn fastest(mut run: impl FnMut()) -> f64 {
-    let once = |_| {
-        let begin = Instant::now();
-        run();
-        begin.elapsed().as_secs_f64()
-    };
-    (0..RUNS).map(once).fold(f64::INFINITY, f64::min)
 }
 
 fn plan(robot: Assembly, motions: Vec<(usize, Vec<Segment>)>, duration: f64) -> Tracks {
