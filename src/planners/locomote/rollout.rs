@@ -403,7 +403,7 @@ impl Rollout<'_> {
             ground: true,
             displacement_max: f64::INFINITY,
         };
-        let y = tried(&problem, &mut self.warm_start).ok()?;
+        let y = step(&problem, &mut self.warm_start).ok()?;
         (self.x[node].z - y[node].z > 0.1 * down).then_some(y)
     }
 
@@ -461,7 +461,7 @@ impl Rollout<'_> {
             ground: true,
             displacement_max: f64::INFINITY,
         };
-        tried(&problem, &mut self.warm_start)
+        step(&problem, &mut self.warm_start)
     }
 
     /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
@@ -537,15 +537,4 @@ impl Rollout<'_> {
         }
         Err(End::Falls)
     }
-}
-
-/// Returns the positions after a step, as [`step`] does; where none is found, the active constraints of `warm_start` stay
-/// as they were.
-fn tried(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
-    let before = warm_start.active.clone();
-    let stepped = step(problem, warm_start);
-    if stepped.is_err() {
-        warm_start.active = before;
-    }
-    stepped
 }

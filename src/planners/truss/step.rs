@@ -83,7 +83,7 @@ pub struct WarmStart {
 /// ([`Structure::tightened`] makes up for it). `problem`: the truss, its positions and the cost.
 ///
 /// # Errors
-/// [`StepError`] if no step is found; the active constraints of `warm_start` are then of no use.
+/// [`StepError`] if no step is found; the active constraints of `warm_start` then stay as they were.
 pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
     let StepProblem { truss, .. } = *problem;
     let tolerances = &truss.tolerances;
