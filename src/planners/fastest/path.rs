@@ -140,13 +140,14 @@ fn within(moving: &[Track], from: f64, to: f64) -> Vec<Track> {
 /// `TOLERANCES.straight`, along which no joint turns back; `None` otherwise. `start`: the positions of all joints at
 /// `from`, rad or m.
 fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stretch> {
-    let way = |t: &Track| t.segments.last().map_or(0.0, Segment::last) - start[t.joint.0 as usize];
-    let leader = tracks.iter().fold(&tracks[0], |a, b| if way(b).abs() > way(a).abs() { b } else { a });
-    let length = way(leader).abs();
+    let displacement = |t: &Track| t.segments.last().map_or(0.0, Segment::last) - start[t.joint.0 as usize];
+    let farther = |a, b| if displacement(b).abs() > displacement(a).abs() { b } else { a };
+    let leader = tracks.iter().fold(&tracks[0], farther);
+    let length = displacement(leader).abs();
     if length <= TOLERANCES.straight {
         return None;
     }
-    let sign = way(leader).signum();
+    let sign = displacement(leader).signum();
     let forward = |s: &Segment| derivative(&s.control).iter().all(|rate| sign * rate >= 0.0);
     if !leader.segments.iter().all(forward) {
         return None;
@@ -154,7 +155,7 @@ fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stret
     let mut path = Vec::with_capacity(tracks.len());
     for track in tracks {
         let at = start[track.joint.0 as usize];
-        let ratio = way(track) / way(leader);
+        let ratio = displacement(track) / displacement(leader);
         let aligned = leader.segments.iter().all(|s| {
             let origin = start[leader.joint.0 as usize];
             follows(track, at, s, origin, ratio)
@@ -165,17 +166,8 @@ fn straight(tracks: &[Track], start: &[f64], from: f64, to: f64) -> Option<Stret
         }
         path.push(lines(track, leader, start));
     }
-    let ways = Places::Distances(vec![(0.0, leader.segments.clone())]);
-    Some(Stretch {
-        from,
-        to,
-        start: start.to_vec(),
-        path,
-        length,
-        straight: true,
-        free: [false; 2],
-        places: ways,
-    })
+    let places = Places::Distances(vec![(0.0, leader.segments.clone())]);
+    Some(Stretch { from, to, start: start.to_vec(), path, length, straight: true, free: [false; 2], places })
 }
 
 /// Returns true if at each instant of a segment of the leader a joint has gone `ratio` times as far from `at` as the
@@ -214,12 +206,12 @@ fn covered(list: &[Segment], segment: &Segment) -> bool {
 /// `start`: the positions of all joints at the beginning, rad or m.
 fn lines(track: &Track, leader: &Track, start: &[f64]) -> Track {
     let origin = start[leader.joint.0 as usize];
-    let way = |t: f64| (leader.position(origin, t) - origin).abs();
+    let distance = |t: f64| (leader.position(origin, t) - origin).abs();
     let mut at = start[track.joint.0 as usize];
     let mut reached = 0.0;
     let mut segments = Vec::with_capacity(track.segments.len());
     for s in &track.segments {
-        let end = way(s.end);
+        let end = distance(s.end);
         if end > reached {
             segments.push(Segment { start: reached, end, control: vec![at, s.last()], cause: s.cause });
             (reached, at) = (end, s.last());
@@ -261,8 +253,8 @@ impl Stretch {
         let time = time.clamp(self.from, self.to);
         match &self.places {
             Places::Time => time - self.from,
-            Places::Distances(ways) => {
-                let begun = ways.iter().rev().find(|(_, segments)| segments[0].start <= time);
+            Places::Distances(distances) => {
+                let begun = distances.iter().rev().find(|(_, segments)| segments[0].start <= time);
                 let Some((before, segments)) = begun else { return 0.0 };
                 let origin = segments[0].control[0];
                 let last = segments.partition_point(|s| s.start <= time).max(1);
@@ -287,8 +279,8 @@ impl Stretch {
     /// Returns the derivative of a joint's position by the parameter on a straight path, the mean over the stretch: rad
     /// or m of the joint per rad or m of the leader.
     pub(super) fn slope(&self, track: &Track) -> f64 {
-        let way = |s: &Segment| s.last() - s.control[0];
-        track.segments.iter().map(way).sum::<f64>() / self.length
+        let displacement = |s: &Segment| s.last() - s.control[0];
+        track.segments.iter().map(displacement).sum::<f64>() / self.length
     }
 
     /// Appends a straight stretch that goes on in the same direction.
@@ -300,8 +292,8 @@ impl Stretch {
                 ..s
             }));
         }
-        if let (Places::Distances(ways), Places::Distances(more)) = (&mut self.places, next.places) {
-            ways.extend(more.into_iter().map(|(before, segments)| (before + self.length, segments)));
+        if let (Places::Distances(distances), Places::Distances(more)) = (&mut self.places, next.places) {
+            distances.extend(more.into_iter().map(|(before, segments)| (before + self.length, segments)));
         }
         (self.length, self.to) = (self.length + next.length, next.to);
     }
