@@ -2,7 +2,8 @@
 //!
 //! In reading order: vectors and poses ([`pose`], [`rigid_transform`]), declared shapes ([`Shape`]) and what makes them
 //! solids ([`soundness`]), convex parts and solids compiled from them ([`Part`], [`Solid`]), distances ([`distance`],
-//! [`closest_points`], [`contact_point()`], [`protrusion()`]) and the search for near pairs ([`broad_phase`]).
+//! [`closest_points`], [`contact_point()`], [`protrusion()`]), the search for near pairs ([`broad_phase`]), and the parts
+//! of a surface that can touch the ground ([`ground_features`]).
 #![allow(non_snake_case)]
 
 mod angle;
@@ -26,6 +27,7 @@ mod contact_point;
 pub mod distance;
 
 mod gjk;
+pub mod ground_features;
 pub mod hull;
 mod protrusion;
 
@@ -35,7 +37,7 @@ pub use distance::SignedDistance;
 pub use height_field::HeightField;
 pub use part::Part;
 pub use polygon::triangulate;
-pub use pose::{Pose, Vec3};
+pub use pose::{Mat3, Pose, Vec3};
 pub use protrusion::protrusion;
 pub use rigid_transform::RigidTransform;
 pub use shape::{Placed, Shape};

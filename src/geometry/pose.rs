@@ -9,6 +9,9 @@ pub type Pose = nalgebra::Isometry3<f64>;
 /// N·m, as the user of the type states.
 pub type Vec3 = nalgebra::Vector3<f64>;
 
+/// A 3×3 matrix of `f64`, mostly a rotation `R_AB`, whose columns are the axes of frame B in frame A.
+pub type Mat3 = nalgebra::Matrix3<f64>;
+
 /// Returns the rotation about an axis through the origin by an angle in radians, by the right-hand rule, as a pose
 /// without translation. The axis need not be of unit length; a zero axis gives no rotation.
 pub fn turned(axis: Vec3, angle: f64) -> Pose {

@@ -2,10 +2,11 @@
 //! loaded contacts at their heights.
 
 use super::contact::ContactPoint;
-use super::ground_features::{Feature, Mat3};
 use super::model::{Model, Posture};
 use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
+use crate::geometry::Mat3;
+use crate::geometry::ground_features::Feature;
 use crate::geometry::{Vec3, pose::turned};
 
 /// The number of linearised rounds of [`height_keeping_turn`].

@@ -1,10 +1,10 @@
 //! Contact points on the ground, and the distribution of normal forces over them.
 
-use super::ground_features::Feature;
 use super::model::Model;
 use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
+use crate::geometry::ground_features::Feature;
 use crate::plan::verify::support_polygon::{self, Margin};
 
 /// A point of a ground feature that is near the ground, with its normal force.
@@ -174,7 +174,7 @@ fn newton(springs: &[(f64, Vec3, usize)], before: Vec3) -> Vec3 {
     let mut lambda = before;
     for _ in 0..NEWTON_ROUNDS_MAX {
         let mut gradient = (lambda - before) * NUMERICS.proximal_weight - Vec3::x();
-        let mut hessian = super::ground_features::Mat3::from_diagonal_element(NUMERICS.proximal_weight);
+        let mut hessian = crate::geometry::Mat3::from_diagonal_element(NUMERICS.proximal_weight);
         for (kappa, g, _) in springs {
             let pressed = lambda.dot(g);
             if pressed > 0.0 {

@@ -6,10 +6,10 @@
 //! this one count half each, which makes it reversible in time.
 
 use super::contact::ContactPatch;
-use super::ground_features::Mat3;
 use super::model::{Model, Posture};
 use super::stance::Stance;
 use super::tolerances::NUMERICS;
+use crate::geometry::Mat3;
 use crate::geometry::Vec3;
 
 /// A pose in the plane: the horizontal position of the centre of mass, m, and the heading, rad, in the world.

@@ -11,8 +11,6 @@ mod tolerances;
 mod limits;
 mod rest;
 
-mod ground_features;
-
 mod model;
 
 mod alignment;

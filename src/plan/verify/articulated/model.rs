@@ -1,7 +1,8 @@
 //! The model of a robot for the judge: kinematics with the bonds that hold, masses, and features that can touch
 //! the ground.
 
-use super::ground_features::{self, Feature, Mat3};
+use crate::geometry::Mat3;
+use crate::geometry::ground_features::{self, Feature};
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{Assembly, JointOwner, Kinematics, Step};
 use std::ops::Range;

@@ -6,10 +6,11 @@
 //! planes, not too far away, is the next trial.
 
 use super::alignment::rotation;
-use super::ground_features::{Feature, Mat3};
 use super::tolerances::NUMERICS;
 use super::tolerances::Tolerances;
+use crate::geometry::Mat3;
 use crate::geometry::Vec3;
+use crate::geometry::ground_features::Feature;
 use crate::plan::verify::support_polygon;
 
 /// The greatest trial turn, rad (2°).

@@ -2,11 +2,12 @@
 
 use super::alignment::{height_keeping_turn, mass_alignment};
 use super::contact::{self, ContactPatch, ContactPoint};
-use super::ground_features::{Feature, Mat3};
 use super::minimum_power::{PlanarPose, displacement};
 use super::model::{Model, Posture};
 use super::settle::{SettledAttitude, height, settle};
 use super::tolerances::Tolerances;
+use crate::geometry::Mat3;
+use crate::geometry::ground_features::Feature;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::World;
 use crate::plan::verify::support_polygon::Margin;

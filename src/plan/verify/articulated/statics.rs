@@ -8,9 +8,9 @@
 //! Level axes are those of the stance's heading: z up, and x and y turned from those of the world about the vertical by
 //! the heading.
 
-use super::ground_features::Mat3;
 use super::model::Model;
 use super::stance::Stance;
+use crate::geometry::Mat3;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::{JointId, Motion, PortRef, Step, motor_efforts};
 

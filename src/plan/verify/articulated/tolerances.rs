@@ -148,9 +148,6 @@ pub(super) struct Numerics {
     /// The weight of a turn in the alignment on contacts, m²: it keeps a robot on one or two contacts from being
     /// turned about them.
     pub turn_weight: f64,
-    /// The sine of the angle to the level within which the plane of a circle counts as level, so that no point of it
-    /// is lowest. 1e-9: rounding.
-    pub level_sine: f64,
     /// The height above the model of the bundle method from which on a support plane counts as violated, m. 1e-12:
     /// rounding of coordinates.
     pub plane_violation: f64,
@@ -195,7 +192,6 @@ pub(super) struct Numerics {
 pub(super) const NUMERICS: Numerics = Numerics {
     orientation_weight: 1e-3 * 0.04 * 0.04,
     turn_weight: 1e-8,
-    level_sine: 1e-9,
     plane_violation: 1e-12,
     multiplier: 1e-10,
     proximal_weight: 1e-8,

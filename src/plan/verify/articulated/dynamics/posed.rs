@@ -1,11 +1,12 @@
 //! The robot at an instant: poses in level axes about its centre of mass, joints in motion, and the points at which the
 //! ground may bear it.
 
-use super::super::ground_features::{Feature, Form, Mat3};
 use super::super::model::Model;
 use super::super::rollout::Rollout;
 use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
+use crate::geometry::Mat3;
+use crate::geometry::ground_features::{Feature, tread};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, World};
 use crate::robot::JointOwner;
@@ -120,7 +121,7 @@ impl<'a> Posed<'a> {
                     }
                 }
                 let rims = before.filter(|(other, _)| other + 1 == index);
-                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature)) {
+                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature, &up)) {
                     near.push((p.z - lowest, link, index - 1, feature.points(), p));
                 }
                 before = Some((index, feature));
@@ -255,17 +256,6 @@ impl<'a> Posed<'a> {
         let down = Vec3::new(0.0, 0.0, -gravity);
         self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros())
     }
-}
-
-/// Returns the point in the middle of the line on which a cylinder with these two rims lies, m; `None` if they are not
-/// the rims of one. A wheel that turns on the spot sticks there, and not at a rim, as it would if only its rims bore
-/// it.
-fn tread(first: &Feature, second: &Feature) -> Option<Vec3> {
-    let (Form::Circle(axis, radius), Form::Circle(other, same)) = (first.form, second.form) else {
-        return None;
-    };
-    let up = Vec3::z();
-    (axis == other && radius == same).then(|| (first.point(0, &up) + second.point(0, &up)) / 2.0)
 }
 
 /// The way in which the surroundings support the robot.

@@ -1,9 +1,9 @@
 //! The attitudes of the robot along a rollout, at whose instants loads are determined.
 
-use super::super::ground_features::Mat3;
 use super::super::rollout::Sample;
 use super::tolerances::PARAMETERS;
 use super::traction::TravelSummary;
+use crate::geometry::Mat3;
 use crate::plan::World;
 
 /// The attitude of the robot at an instant of a rollout, as settling found it.

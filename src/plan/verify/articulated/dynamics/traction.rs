@@ -1,7 +1,6 @@
 //! Travel over the ground with friction and momentum: the base moves by the twist that the friction of its loaded
 //! contacts gives it.
 
-use super::super::ground_features::Mat3;
 use super::super::minimum_power::PlanarPose;
 use super::super::model::Model;
 use super::super::rollout::Rollout;
@@ -9,6 +8,7 @@ use super::equilibrium::{self, Equilibrium, Warm};
 use super::posed::{Posed, Situation};
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
+use crate::geometry::Mat3;
 use crate::geometry::Vec3;
 use crate::plan::{Exemption, ExemptionKind, Verdict, World};
 use crate::robot::dynamics::{Dynamics, Twist};

@@ -3,15 +3,17 @@
 //! Wheels are exact circles: with a polygon a chassis would rest on its sides; and a wheel's own spin changes no
 //! feature at all, which makes rolling cheap and exact.
 
-use super::tolerances::NUMERICS;
-use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
+use super::hull;
+use super::pose::{Mat3, Pose, Vec3};
+use super::shape::{Placed, Shape};
 
-/// A 3×3 matrix of `f64`, mostly a rotation `R_AB`, whose columns are the axes of frame B in frame A.
-pub(super) type Mat3 = nalgebra::Matrix3<f64>;
+/// Threshold: the sine of the angle to the level within which the plane of a circle counts as level, so that no point of
+/// it is lowest: rounding.
+const TOL_LEVEL: f64 = 1e-9;
 
 /// The number of points that represent a circle: its lowest, and seven more at eighths of a turn, so that a disc that
 /// lies flat touches the ground at more than one point.
-pub(super) const CIRCLE_POINTS: u8 = 8;
+pub const CIRCLE_POINTS: u8 = 8;
 
 /// A part of a link's surface that can touch the ground: a vertex, circle or sphere, in the frame of the link or in
 /// another one.
@@ -119,16 +121,26 @@ const EIGHTHS: [(f64, f64); 8] = [
 fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     let e = axis * up.dot(axis) - up;
     let n = e.norm();
-    if n > NUMERICS.level_sine {
+    if n > TOL_LEVEL {
         return e / n;
     }
     let across = if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };
     (across - axis * across.dot(axis)).normalize()
 }
 
+/// Returns the point in the middle of the line on which a cylinder with these two rims lies, in their frame (m), with
+/// `up` the unit vector upwards in that frame; `None` if they are not the rims of one. A wheel that turns on the spot
+/// sticks there, and not at a rim, as it would if only its rims bore it.
+pub fn tread(first: &Feature, second: &Feature, up: &Vec3) -> Option<Vec3> {
+    let (Form::Circle(axis, radius), Form::Circle(other, same)) = (first.form, second.form) else {
+        return None;
+    };
+    (axis == other && radius == same).then(|| (first.point(0, up) + second.point(0, up)) / 2.0)
+}
+
 /// Returns the features of all shapes of a link, in the frame of the link, in the order in which the shapes are
 /// declared: corners of boxes, hulls and meshes, rims of cylinders, spheres, and the end spheres of capsules.
-pub(super) fn features(shapes: &[Placed]) -> Vec<Feature> {
+pub fn features(shapes: &[Placed]) -> Vec<Feature> {
     let mut found = Vec::new();
     let mut open: Vec<(Pose, &Shape)> = shapes.iter().rev().map(|s| (s.pose, &s.shape)).collect();
     while let Some((pose, shape)) = open.pop() {
