@@ -205,6 +205,12 @@ impl Servo {
     /// at a lever of 0.1 m.
     pub const SLIDE_YIELD_DEFAULT: f64 = 0.1 * Servo::TURN_YIELD_DEFAULT;
 
+    /// The damping of a servo of unit stiffness where none is stated, s: 6 N·m·s/rad for 150 N·m/rad.
+    pub const DAMPING_DEFAULT: f64 = 1.0 / 25.0;
+    /// The armature of a servo of unit stiffness where none is stated, s²: 2e-3 kg·m² for 150 N·m/rad, so that the
+    /// shortest period of a servo is that of a step of 1 ms or more.
+    pub const ARMATURE_DEFAULT: f64 = 2e-3 / 150.0;
+
     /// Returns true if no fact of the servo is stated.
     pub fn is_unstated(&self) -> bool {
         *self == Servo::default()

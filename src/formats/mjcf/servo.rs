@@ -17,19 +17,13 @@ struct Servo {
     armature: f64,
 }
 
-/// The damping of a servo of unit stiffness where none is stated, s: 6 N·m·s/rad for 150 N·m/rad.
-const DAMPING_DEFAULT: f64 = 1.0 / 25.0;
-/// The armature of a servo of unit stiffness where none is stated, s²: 2e-3 kg·m² for 150 N·m/rad, so that the shortest
-/// period of a servo is that of a step of 1 ms or more.
-const ARMATURE_DEFAULT: f64 = 2e-3 / 150.0;
-
 impl Servo {
     fn of_stiffness(class: &'static str, stiffness: f64) -> Servo {
         Servo {
             class,
             stiffness,
-            damping: DAMPING_DEFAULT * stiffness,
-            armature: ARMATURE_DEFAULT * stiffness,
+            damping: Facts::DAMPING_DEFAULT * stiffness,
+            armature: Facts::ARMATURE_DEFAULT * stiffness,
         }
     }
 

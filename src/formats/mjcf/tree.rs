@@ -1,7 +1,7 @@
 //! The robot as MuJoCo sees it: trees of links that hang together during the whole plan, and the bonds besides.
 
 use crate::geometry::Pose;
-use crate::plan::{DockingKind, Tracks};
+use crate::plan::{LastingTrees, Tracks};
 use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Step};
 
 /// The least extent of a joint's range, rad or m.
@@ -42,82 +42,37 @@ impl<'a> Trees<'a> {
         let links: Vec<(usize, usize)> = (0..robot.modules.len())
             .flat_map(|module| (0..robot.module_type(module).links.len()).map(move |link| (module, link)))
             .collect();
+        let LastingTrees { trees: kinematics, joint_of, constraints, start, poses } =
+            LastingTrees::new(tracks, X_WB);
         let mut trees = Trees {
             robot,
             roots: Vec::new(),
             children: vec![Vec::new(); links.len()],
             steps: vec![None; links.len()],
-            joint_of: vec![None; links.len()],
-            constraints: Vec::new(),
+            joint_of,
+            constraints,
             constraints_at: vec![Vec::new(); links.len()],
             zero: vec![0.0; tracks.start.joints.len()],
-            start: Kinematics::new(robot, &tracks.start.bonds, robot.base),
+            start,
             links,
             joints: robot.joints().collect(),
         };
-        let poses = trees.start_poses(tracks, X_WB);
-        let mut lasting = tracks.start.bonds.clone();
-        let mut ever = lasting.clone();
-        for event in &tracks.events {
-            lasting[event.bond] = false;
-            ever[event.bond] |= event.kind == DockingKind::Dock;
-        }
-        let mut reached = vec![false; robot.modules.len()];
-        let mut next = Some(robot.base);
-        while let Some(root) = next {
-            let kinematics = Kinematics::new(robot, &lasting, root);
-            for &(module, bond) in &kinematics.tree.order {
-                reached[module] = true;
-                bond.into_iter().for_each(|bond| ever[bond] = false);
-            }
-            let root = kinematics.link(root, 0);
+        for kinematics in kinematics {
+            let root = kinematics.link(kinematics.root, 0);
             trees.roots.push((root, poses[root]));
-            trees.add(kinematics);
-            next = reached.iter().position(|reached| !reached);
+            for step in kinematics.steps {
+                trees.children[step.parent].push(step.link);
+                let link = step.link;
+                trees.steps[link] = Some(step);
+            }
         }
-        for bond in (0..ever.len()).filter(|&bond| ever[bond]) {
-            trees.constraints.push(bond);
+        for &bond in &trees.constraints {
             for (port, second) in [(robot.bonds[bond].a, false), (robot.bonds[bond].b, true)] {
                 let link = trees.start.port_link(robot, port);
                 trees.constraints_at[link].push((bond, second));
             }
         }
         trees
-    }
-
-    /// Returns the world poses of all links at the start. Modules that no bond connects with the base then are where
-    /// the other bonds would put them.
-    fn start_poses(&self, tracks: &Tracks, X_WB: &Pose) -> Vec<Pose> {
-        let all = Kinematics::new(self.robot, &vec![true; self.robot.bonds.len()], self.robot.base);
-        let mut poses = vec![Pose::identity(); self.links.len()];
-        all.link_poses(&tracks.start.joints, X_WB, &mut poses);
-        self.start.link_poses(&tracks.start.joints, X_WB, &mut poses);
-        poses
-    }
-
-    fn add(&mut self, kinematics: Kinematics) {
-        for &(module, bond) in &kinematics.tree.order {
-            if let Some(bond) = bond {
-                let declared = &self.robot.bonds[bond];
-                let at = if declared.b.module == module { declared.b } else { declared.a };
-                let link = kinematics.port_link(self.robot, at);
-                self.joint_of[link] = kinematics.hinge(bond);
-            }
-            for (index, joint) in self.robot.module_type(module).joints.iter().enumerate() {
-                let [a, b] = [joint.parent, joint.child].map(|link| kinematics.link(module, link));
-                let step = |link, parent| kinematics.step(link).filter(|step| step.parent == parent);
-                let moved = step(b, a).or_else(|| step(a, b));
-                let moved = moved.filter(|step| joint.kind != JointKind::Fixed && !step.terms().is_empty());
-                if let Some(step) = moved {
-                    self.joint_of[step.link] = Some(kinematics.joint(module, index));
-                }
-            }
-        }
-        for step in kinematics.steps {
-            self.children[step.parent].push(step.link);
-            let link = step.link;
-            self.steps[link] = Some(step);
-        }
     }
 
     /// Returns the indices of the links of all trees in the order of MuJoCo's bodies: tree by tree, depth first.

@@ -3,6 +3,7 @@
 
 mod join;
 mod json;
+mod lasting_trees;
 mod motion;
 mod names;
 mod remap;
@@ -13,6 +14,7 @@ mod validation;
 
 pub(super) use join::fitted;
 pub(super) use json::TracksJson;
+pub use lasting_trees::LastingTrees;
 pub use motion::{DockingEvent, DockingKind, Segment, Track, Tracks};
 pub(super) use names::RobotNames;
 pub use remap::Remap;
