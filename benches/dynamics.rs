@@ -10,7 +10,7 @@ mod beside_pinocchio;
 
 use beside_pinocchio::{RUNS, fastest, support, urdf};
 use modl::geometry::{Pose, Vec3};
-use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
+use modl::robot::articulated_bodies::{ForcedState, ForwardDynamics};
 use modl::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
 use serde_json::json;
@@ -56,7 +56,7 @@ fn beside(robot: &Assembly) {
     let (q, v, a, zero) = (vec![0.1; joints], vec![0.1; joints], vec![0.2; joints], vec![0.0; joints]);
     let wrenches = vec![Wrench::default(); links];
     let base = Twist::default();
-    let mut bodies = ArticulatedBodies::new(dynamics.clone(), kinematics.clone());
+    let mut bodies = ForwardDynamics::new(dynamics.clone(), kinematics.clone());
     let rounds = LINKS / links;
     let forward = fastest(rounds, || {
         kinematics.link_poses(black_box(&q), &Pose::identity(), &mut poses);

@@ -1,17 +1,324 @@
-//! Forward dynamics of a robot as a tree of rigid bodies on a floating or held base: the accelerations that efforts and
-//! outer forces give it, by articulated bodies (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, ch. 7).
+//! Forward dynamics of robots as trees of rigid bodies on floating or held bases: the accelerations that efforts and
+//! outer forces give them, by articulated bodies (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, ch. 7).
 //!
-//! All spatial quantities are along the axes of the world and about one point, the origin O of the base's frame: a link's
-//! articulated inertia is added to that of its parent as it is. A twist about O is the angular velocity, and the
-//! velocity of the link's point that is at O.
+//! [`ArticulatedBodies`] takes trees of bodies with axes and inertias in the world, as a simulation has them;
+//! [`ForwardDynamics`] the state of one robot, as a question about an instant has it.
 
-use super::dynamics::{Composite, Dynamics, MotionState, Twist, Wrench};
-use super::jacobian::JointAxis;
+use super::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use super::kinematics::Kinematics;
+use super::spatial::{SpatialInertia, SpatialVector};
 use crate::geometry::{Pose, Vec3};
-use nalgebra::{DVector, Matrix3, Matrix6, Vector6};
+use nalgebra::{Cholesky, Const, DVector};
 
-/// A robot at an instant with the forces that act on it: the input of [`ArticulatedBodies::accelerations`].
+/// The way in which a body hangs on others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attachment {
+    /// The body is the base of a tree, and moves freely.
+    Floating,
+    /// The body is the base of a tree, and keeps its velocity, whatever force that takes.
+    Held,
+    /// A joint carries the body on the body of this index.
+    Joint(usize),
+    /// The body is fixed to the body of this index.
+    Fixed(usize),
+}
+
+/// A body on the way through the passes.
+#[derive(Clone, Copy, Debug)]
+struct Body {
+    attachment: Attachment,
+    /// The twist of the body for a unit velocity of its joint; zero without one.
+    axis: SpatialVector,
+    velocity: SpatialVector,
+    /// The velocity-product acceleration.
+    product: SpatialVector,
+    /// The inertia and the bias force of the body itself, with what was added.
+    own_inertia: SpatialInertia,
+    own_bias: SpatialVector,
+    /// The effort of the joint, and the inertia that it has besides that of the bodies.
+    effort: f64,
+    armature: f64,
+    /// The articulated inertia and bias force.
+    inertia: SpatialInertia,
+    bias: SpatialVector,
+    /// The articulated inertia times the axis, and the axis times that with the armature.
+    force: SpatialVector,
+    joint_inertia: f64,
+    /// The effort that is left to accelerate the joint.
+    joint_effort: f64,
+    acceleration: SpatialVector,
+    joint_acceleration: f64,
+}
+
+/// Trees of rigid bodies with the memory that their forward dynamics needs. Bodies go by their indices; those that
+/// carry come before those that they carry.
+#[derive(Clone, Debug)]
+pub struct ArticulatedBodies {
+    bodies: Vec<Body>,
+    /// The bases, with the decomposition of their articulated inertia where they float.
+    bases: Vec<(usize, Option<Cholesky<f64, Const<6>>>)>,
+}
+
+impl ArticulatedBodies {
+    /// Returns the trees in which bodies are attached so, by their indices; all without inertia. Panics if a body does
+    /// not come after that which carries it.
+    pub fn new(attachments: &[Attachment]) -> ArticulatedBodies {
+        let body = |(index, attachment): (usize, &Attachment)| {
+            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = attachment {
+                assert!(*parent < index, "bodies come after those that carry them");
+            }
+            Body {
+                attachment: *attachment,
+                axis: SpatialVector::default(),
+                velocity: SpatialVector::default(),
+                product: SpatialVector::default(),
+                own_inertia: SpatialInertia::default(),
+                own_bias: SpatialVector::default(),
+                effort: 0.0,
+                armature: 0.0,
+                inertia: SpatialInertia::default(),
+                bias: SpatialVector::default(),
+                force: SpatialVector::default(),
+                joint_inertia: 0.0,
+                joint_effort: 0.0,
+                acceleration: SpatialVector::default(),
+                joint_acceleration: 0.0,
+            }
+        };
+        let bodies: Vec<Body> = attachments.iter().enumerate().map(body).collect();
+        let base = |b: &Body| matches!(b.attachment, Attachment::Floating | Attachment::Held);
+        let bases = (0..bodies.len()).filter(|&b| base(&bodies[b])).map(|b| (b, None)).collect();
+        ArticulatedBodies { bodies, bases }
+    }
+
+    /// Sets the motion of a base: its twist (rad/s, m/s), which it keeps if `held` is true, whatever force that takes.
+    pub fn set_base(&mut self, body: usize, twist: SpatialVector, held: bool) {
+        self.bodies[body].attachment = if held { Attachment::Held } else { Attachment::Floating };
+        self.bodies[body].velocity = twist;
+        self.bodies[body].product = SpatialVector::default();
+    }
+
+    /// Sets the spatial acceleration of a held base about O, rad/s² and m/s²: minus `ω × v` where its point at O keeps its
+    /// velocity; it is 0 unless set.
+    pub fn set_held_acceleration(&mut self, body: usize, acceleration: SpatialVector) {
+        self.bodies[body].acceleration = acceleration;
+    }
+
+    /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
+    /// velocity of its joint, and `rate` that velocity, rad/s or m/s.
+    #[inline]
+    pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64) {
+        let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = self.bodies[body].attachment else {
+            return;
+        };
+        let own = SpatialVector { angular: axis.angular * rate, linear: axis.linear * rate };
+        let carried = self.bodies[parent].velocity;
+        let body = &mut self.bodies[body];
+        body.axis = axis;
+        body.velocity = carried.plus(&own, 1.0);
+        body.product = body.velocity.cross(&own);
+    }
+
+    /// Sets the rigid inertia of a body, whose motion must have been set, and the outer wrench on it (N·m, N). The bias
+    /// force follows; what was added to the body before is gone.
+    #[inline]
+    pub fn set_inertia(&mut self, body: usize, inertia: SpatialInertia, wrench: &SpatialVector) {
+        let body = &mut self.bodies[body];
+        body.own_bias = body.velocity.cross_force(&inertia.times(&body.velocity)).plus(wrench, -1.0);
+        body.own_inertia = inertia;
+    }
+
+    /// Adds an inertia, such as that of an implicit contact, to a body, and a wrench that acts on it (N·m, N).
+    #[inline]
+    pub fn add(&mut self, body: usize, inertia: &SpatialInertia, wrench: &SpatialVector) {
+        let body = &mut self.bodies[body];
+        body.own_inertia.add(inertia);
+        body.own_bias = body.own_bias.plus(wrench, -1.0);
+    }
+
+    /// Returns the inertia and the bias force of a body itself, with what was added to it, for
+    /// [`restore`](Self::restore).
+    pub fn own(&self, body: usize) -> (SpatialInertia, SpatialVector) {
+        (self.bodies[body].own_inertia, self.bodies[body].own_bias)
+    }
+
+    /// Sets inertia and bias force of a body back to what they were: takes back what was added since.
+    pub fn restore(&mut self, body: usize, (inertia, bias): (SpatialInertia, SpatialVector)) {
+        self.bodies[body].own_inertia = inertia;
+        self.bodies[body].own_bias = bias;
+    }
+
+    /// Sets the effort of a body's joint (N·m or N), and its armature: the inertia (kg·m² or kg) that it has besides that
+    /// of the bodies, of its rotor or of an implicit servo.
+    #[inline]
+    pub fn set_effort(&mut self, body: usize, effort: f64, armature: f64) {
+        self.bodies[body].effort = effort;
+        self.bodies[body].armature = armature;
+    }
+
+    /// Returns the twist of a body about O, rad/s and m/s.
+    pub fn velocity(&self, body: usize) -> &SpatialVector {
+        &self.bodies[body].velocity
+    }
+
+    /// Returns the spatial acceleration of a body about O, rad/s² and m/s², as found last. The acceleration of the body's
+    /// point at `p` is that of [`SpatialVector::at`] with `ω × v` of that point besides.
+    pub fn acceleration(&self, body: usize) -> &SpatialVector {
+        &self.bodies[body].acceleration
+    }
+
+    /// Returns the acceleration of a body's joint, rad/s² or m/s², as found last; 0 without a joint.
+    pub fn joint_acceleration(&self, body: usize) -> f64 {
+        self.bodies[body].joint_acceleration
+    }
+
+    /// Returns the wrench about O that a body's joint or fixing exerts on it, N·m and N, as found last; for a base what
+    /// holds it, which is zero if it floats.
+    pub fn transmitted(&self, body: usize) -> SpatialVector {
+        let body = &self.bodies[body];
+        body.inertia.times(&body.acceleration).plus(&body.bias, 1.0)
+    }
+
+    /// Finds the accelerations of all bodies, in time linear in their number (Featherstone 2008, table 7.1). `None` where
+    /// a joint or a floating base has no inertia.
+    #[must_use]
+    pub fn accelerate(&mut self) -> Option<()> {
+        for body in &mut self.bodies {
+            body.inertia = body.own_inertia;
+            body.bias = body.own_bias;
+        }
+        for index in (0..self.bodies.len()).rev() {
+            let (before, after) = self.bodies.split_at_mut(index);
+            let body = &mut after[0];
+            match body.attachment {
+                Attachment::Joint(parent) => {
+                    body.force = body.inertia.times(&body.axis);
+                    body.joint_inertia = body.axis.dot(&body.force) + body.armature;
+                    body.joint_effort = body.effort - body.axis.dot(&body.bias);
+                    if body.joint_inertia.is_nan() || body.joint_inertia <= 0.0 {
+                        return None;
+                    }
+                    let left = body.inertia.less(&body.force, body.joint_inertia);
+                    let bias = body.bias.plus(&left.times(&body.product), 1.0);
+                    let parent = &mut before[parent];
+                    parent.inertia.add(&left);
+                    let pushed = bias.plus(&body.force, body.joint_effort / body.joint_inertia);
+                    parent.bias = parent.bias.plus(&pushed, 1.0);
+                }
+                Attachment::Fixed(parent) => {
+                    let parent = &mut before[parent];
+                    parent.inertia.add(&body.inertia);
+                    parent.bias = parent.bias.plus(&body.bias, 1.0);
+                }
+                Attachment::Floating | Attachment::Held => {}
+            }
+        }
+        for (base, decomposed) in &mut self.bases {
+            let body = &mut self.bodies[*base];
+            *decomposed = None;
+            if body.attachment == Attachment::Floating {
+                let cholesky = body.inertia.matrix().cholesky()?;
+                let solved = cholesky.solve(&-body.bias.vector());
+                body.acceleration = SpatialVector::from_vector(&solved);
+                *decomposed = Some(cholesky);
+            }
+        }
+        for index in 0..self.bodies.len() {
+            let (before, after) = self.bodies.split_at_mut(index);
+            let body = &mut after[0];
+            match body.attachment {
+                Attachment::Joint(parent) => {
+                    let carried = before[parent].acceleration.plus(&body.product, 1.0);
+                    let relative = (body.joint_effort - body.force.dot(&carried)) / body.joint_inertia;
+                    body.joint_acceleration = relative;
+                    body.acceleration = carried.plus(&body.axis, relative);
+                }
+                Attachment::Fixed(parent) => body.acceleration = before[parent].acceleration,
+                Attachment::Floating | Attachment::Held => {}
+            }
+        }
+        Some(())
+    }
+
+    /// Adds to the accelerations found last what wrenches on bodies (N·m and N about O, by the index of the body), and
+    /// efforts of joints (N·m or N), change in them. `out` receives the changes of all bodies' accelerations and of
+    /// their joints', by index; it is resized. The inertias are those of the last call of
+    /// [`accelerate`](Self::accelerate).
+    pub fn respond(&self, loads: &[Load], out: &mut Response) {
+        out.bias.clear();
+        out.bias.resize(self.bodies.len(), SpatialVector::default());
+        out.efforts.clear();
+        out.efforts.resize(self.bodies.len(), 0.0);
+        out.bodies.resize(self.bodies.len(), SpatialVector::default());
+        out.joints.resize(self.bodies.len(), 0.0);
+        for load in loads {
+            match *load {
+                Load::Wrench(body, wrench) => out.bias[body] = out.bias[body].plus(&wrench, -1.0),
+                Load::Effort(body, effort) => out.efforts[body] += effort,
+            }
+        }
+        for (index, body) in self.bodies.iter().enumerate().rev() {
+            let bias = out.bias[index];
+            match body.attachment {
+                Attachment::Joint(parent) => {
+                    let effort = out.efforts[index] - body.axis.dot(&bias);
+                    out.efforts[index] = effort;
+                    let pushed = bias.plus(&body.force, effort / body.joint_inertia);
+                    out.bias[parent] = out.bias[parent].plus(&pushed, 1.0);
+                }
+                Attachment::Fixed(parent) => out.bias[parent] = out.bias[parent].plus(&bias, 1.0),
+                Attachment::Floating | Attachment::Held => {}
+            }
+        }
+        for (base, cholesky) in &self.bases {
+            out.bodies[*base] = cholesky.as_ref().map_or(SpatialVector::default(), |cholesky| {
+                SpatialVector::from_vector(&cholesky.solve(&-out.bias[*base].vector()))
+            });
+        }
+        for (index, body) in self.bodies.iter().enumerate() {
+            match body.attachment {
+                Attachment::Joint(parent) => {
+                    let carried = out.bodies[parent];
+                    let relative = (out.efforts[index] - body.force.dot(&carried)) / body.joint_inertia;
+                    out.joints[index] = relative;
+                    out.bodies[index] = carried.plus(&body.axis, relative);
+                }
+                Attachment::Fixed(parent) => out.bodies[index] = out.bodies[parent],
+                Attachment::Floating | Attachment::Held => {}
+            }
+        }
+    }
+
+    /// Adds changes of accelerations, as [`respond`](Self::respond) finds them, to those found last.
+    pub fn add_response(&mut self, response: &Response) {
+        for ((body, change), joint) in self.bodies.iter_mut().zip(&response.bodies).zip(&response.joints) {
+            body.acceleration = body.acceleration.plus(change, 1.0);
+            body.joint_acceleration += joint;
+        }
+    }
+}
+
+/// A load besides those of the last accelerations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Load {
+    /// A wrench about O on the body of this index, N·m and N.
+    Wrench(usize, SpatialVector),
+    /// An effort of the joint of the body of this index, N·m or N.
+    Effort(usize, f64),
+}
+
+/// The changes of accelerations under additional loads, with the memory that they are found in.
+#[derive(Clone, Debug, Default)]
+pub struct Response {
+    /// The change of the spatial acceleration of each body about O, rad/s² and m/s².
+    pub bodies: Vec<SpatialVector>,
+    /// The change of the acceleration of each body's joint, rad/s² or m/s²; 0 without a joint.
+    pub joints: Vec<f64>,
+    bias: Vec<SpatialVector>,
+    efforts: Vec<f64>,
+}
+
+/// A robot at an instant with the forces that act on it: the input of [`ForwardDynamics::accelerations`].
 #[derive(Clone, Copy, Debug)]
 pub struct ForcedState<'a> {
     /// The world poses of all links, by their numbers ([`Kinematics::link`]).
@@ -33,134 +340,17 @@ pub struct ForcedState<'a> {
 
 /// A robot compiled for forward dynamics, with the memory that it needs.
 #[derive(Clone, Debug)]
-pub struct ArticulatedBodies {
+pub struct ForwardDynamics {
     dynamics: Dynamics,
     kinematics: Kinematics,
-    /// True if each joint moves one step: only then one pass up and one down suffice.
-    simple: bool,
-    /// The state of each link, by its number.
-    links: Vec<LinkState>,
-    /// The state of each step of the tree.
-    steps: Vec<StepState>,
+    /// The links that are connected with the root as bodies, the root first, then in the order of the steps; `None` if a
+    /// joint moves several steps: passes up and down do not suffice then.
+    bodies: Option<ArticulatedBodies>,
 }
 
-/// A link on the way through the passes.
-#[derive(Clone, Copy, Debug, Default)]
-struct LinkState {
-    /// The twist of the link.
-    velocity: Spatial,
-    /// The articulated inertia.
-    inertia: Inertia,
-    /// The articulated bias force.
-    bias: Spatial,
-    /// The spatial acceleration, less that of free fall.
-    acceleration: Spatial,
-}
-
-/// A step of the tree on the way through the passes.
-#[derive(Clone, Copy, Debug, Default)]
-struct StepState {
-    /// The twist of the child for a unit velocity of the joint; zero for a fixed step.
-    axis: Spatial,
-    /// The velocity-product acceleration.
-    product: Spatial,
-    /// The articulated inertia times the axis, and the axis times that with the armature.
-    force: Spatial,
-    inertia: f64,
-    /// The effort that is left to accelerate the joint, N·m or N.
-    effort: f64,
-}
-
-/// A spatial vector about O: a twist (rad/s, m/s), an acceleration, or a wrench (N·m, N).
-#[derive(Clone, Copy, Debug, Default)]
-struct Spatial {
-    angular: Vec3,
-    linear: Vec3,
-}
-
-impl Spatial {
-    fn dot(&self, other: &Spatial) -> f64 {
-        self.angular.dot(&other.angular) + self.linear.dot(&other.linear)
-    }
-
-    fn plus(&self, other: &Spatial, factor: f64) -> Spatial {
-        Spatial {
-            angular: self.angular + other.angular * factor,
-            linear: self.linear + other.linear * factor,
-        }
-    }
-
-    /// Returns the cross product of this twist with another (Featherstone, eq. 2.31).
-    fn cross(&self, other: &Spatial) -> Spatial {
-        Spatial {
-            angular: self.angular.cross(&other.angular),
-            linear: self.linear.cross(&other.angular) + self.angular.cross(&other.linear),
-        }
-    }
-
-    /// Returns the cross product of this twist with a wrench or momentum (Featherstone, eq. 2.32).
-    fn cross_force(&self, force: &Spatial) -> Spatial {
-        Spatial {
-            angular: self.angular.cross(&force.angular) + self.linear.cross(&force.linear),
-            linear: self.angular.cross(&force.linear),
-        }
-    }
-}
-
-/// A spatial inertia about O, symmetric: rows angular and linear, `[[angular, mixed], [mixedᵀ, linear]]`.
-#[derive(Clone, Copy, Debug, Default)]
-struct Inertia {
-    angular: Matrix3<f64>,
-    mixed: Matrix3<f64>,
-    linear: Matrix3<f64>,
-}
-
-impl Inertia {
-    /// Returns the inertia of bodies that move as one, whose moments are about O.
-    fn of(composite: &Composite) -> Inertia {
-        Inertia {
-            angular: composite.inertia,
-            mixed: composite.first.cross_matrix(),
-            linear: Matrix3::from_diagonal_element(composite.mass),
-        }
-    }
-
-    fn times(&self, v: &Spatial) -> Spatial {
-        Spatial {
-            angular: self.angular * v.angular + self.mixed * v.linear,
-            linear: self.mixed.tr_mul(&v.angular) + self.linear * v.linear,
-        }
-    }
-
-    fn add(&mut self, other: &Inertia) {
-        self.angular += other.angular;
-        self.mixed += other.mixed;
-        self.linear += other.linear;
-    }
-
-    /// Returns the inertia less `u uᵀ / d`.
-    fn less(&self, u: &Spatial, d: f64) -> Inertia {
-        let (angular, linear) = (u.angular / d, u.linear / d);
-        Inertia {
-            angular: self.angular - angular * u.angular.transpose(),
-            mixed: self.mixed - angular * u.linear.transpose(),
-            linear: self.linear - linear * u.linear.transpose(),
-        }
-    }
-
-    fn matrix(&self) -> Matrix6<f64> {
-        let mut matrix = Matrix6::zeros();
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.angular);
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.mixed);
-        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.mixed.transpose());
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.linear);
-        matrix
-    }
-}
-
-impl ArticulatedBodies {
+impl ForwardDynamics {
     /// Returns the forward dynamics of a robot; `kinematics` must be that of the same robot.
-    pub fn new(dynamics: Dynamics, kinematics: Kinematics) -> ArticulatedBodies {
+    pub fn new(dynamics: Dynamics, kinematics: Kinematics) -> ForwardDynamics {
         let mut known = vec![false; kinematics.joint_count()];
         let own = |known: &mut Vec<bool>, terms: &[(usize, f64)]| match terms {
             [] => true,
@@ -168,9 +358,16 @@ impl ArticulatedBodies {
             _ => false,
         };
         let simple = kinematics.steps.iter().all(|step| own(&mut known, step.terms()));
-        let links = vec![LinkState::default(); dynamics.bodies().len()];
-        let steps = vec![StepState::default(); kinematics.steps.len()];
-        ArticulatedBodies { dynamics, kinematics, simple, links, steps }
+        let mut body_of = vec![0; kinematics.link_count()];
+        let mut attachments = vec![Attachment::Floating];
+        for step in &kinematics.steps {
+            body_of[step.link] = attachments.len();
+            let parent = body_of[step.parent];
+            let moves = !step.terms().is_empty();
+            attachments.push(if moves { Attachment::Joint(parent) } else { Attachment::Fixed(parent) });
+        }
+        let bodies = simple.then(|| ArticulatedBodies::new(&attachments));
+        ForwardDynamics { dynamics, kinematics, bodies }
     }
 
     /// Returns (acceleration of the base's frame, acceleration of each joint) of a robot under `gravity` (m/s² in the
@@ -179,94 +376,57 @@ impl ArticulatedBodies {
     /// 7.1), in time linear in the links; where joints move several steps, it is the mass matrix with its Cholesky
     /// decomposition. `None` where a joint or the base has no inertia. Panics if a slice of `state` is too short.
     pub fn accelerations(&mut self, state: &ForcedState, gravity: &Vec3) -> Option<(Twist, Vec<f64>)> {
-        if self.simple { self.by_passes(state, gravity) } else { self.by_mass_matrix(state, gravity) }
+        if self.bodies.is_some() {
+            self.by_passes(state, gravity)
+        } else {
+            self.by_mass_matrix(state, gravity)
+        }
     }
 
     fn by_passes(&mut self, state: &ForcedState, gravity: &Vec3) -> Option<(Twist, Vec<f64>)> {
+        let bodies = self.bodies.as_mut()?;
         let root = self.kinematics.link(self.kinematics.root, 0);
         let origin = state.poses[root].translation.vector;
-        self.velocities(state, root, &origin);
-        self.inertias(state)?;
-        // Free fall is an acceleration of the frame: bodies need no weight.
-        let turning = state.base.angular.cross(&state.base.linear);
-        let base = &self.links[root];
-        let start = if state.held {
-            Spatial { angular: Vec3::zeros(), linear: -gravity - turning }
-        } else {
-            let right = Vector6::from_iterator(base.bias.angular.iter().chain(&base.bias.linear).map(|x| -x));
-            let solved = base.inertia.matrix().cholesky()?.solve(&right);
-            Spatial { angular: solved.fixed_rows::<3>(0).into(), linear: solved.fixed_rows::<3>(3).into() }
+        let rigid = |link: usize| {
+            let composite = self.dynamics.bodies()[link].composite(&state.poses[link], &origin);
+            let outer = SpatialVector::from(state.wrenches[link]);
+            let wrench = outer.plus(&SpatialVector::weight(&composite, gravity), 1.0);
+            (SpatialInertia::from(composite), wrench)
         };
-        self.links[root].acceleration = start;
-        let mut accelerations = vec![0.0; self.kinematics.joint_count()];
-        for (step, at) in self.kinematics.steps.iter().zip(&self.steps) {
-            let mut acceleration = self.links[step.parent].acceleration.plus(&at.product, 1.0);
+        let base = SpatialVector { angular: state.base.angular, linear: state.base.linear };
+        bodies.set_base(0, base, state.held);
+        let (inertia, wrench) = rigid(root);
+        bodies.set_inertia(0, inertia, &wrench);
+        for (index, step) in self.kinematics.steps.iter().enumerate() {
+            let axis = step.joint_axis(state.poses);
+            let axis = axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, &origin));
+            bodies.set_joint(1 + index, axis, step.position(state.velocities));
+            let (inertia, wrench) = rigid(step.link);
+            bodies.set_inertia(1 + index, inertia, &wrench);
             if let [(joint, factor)] = step.terms() {
-                let relative = (at.effort - at.force.dot(&acceleration)) / at.inertia;
-                acceleration = acceleration.plus(&at.axis, relative);
-                accelerations[*joint] = relative / factor;
+                // The armature is that of the joint, which the step's motion is a multiple of.
+                let armature = state.armatures[*joint] / (factor * factor);
+                bodies.set_effort(1 + index, state.efforts[*joint] / factor, armature);
             }
-            self.links[step.link].acceleration = acceleration;
         }
-        let linear = start.linear + gravity + turning;
+        if state.held {
+            // The origin keeps its velocity; the point of the body that is there does not accelerate.
+            let turning = SpatialVector {
+                angular: Vec3::zeros(),
+                linear: -state.base.angular.cross(&state.base.linear),
+            };
+            bodies.set_held_acceleration(0, turning);
+        }
+        bodies.accelerate()?;
+        let start = bodies.acceleration(0);
+        let linear = start.linear + state.base.angular.cross(&state.base.linear);
+        let mut accelerations = vec![0.0; self.kinematics.joint_count()];
+        for (index, step) in self.kinematics.steps.iter().enumerate() {
+            if let [(joint, factor)] = step.terms() {
+                accelerations[*joint] = bodies.joint_acceleration(1 + index) / factor;
+            }
+        }
         Some((Twist { linear, angular: start.angular }, accelerations))
-    }
-
-    /// Finds the twists, rigid inertias and bias forces of all links, from the root on.
-    fn velocities(&mut self, state: &ForcedState, root: usize, origin: &Vec3) {
-        let base = Spatial { angular: state.base.angular, linear: state.base.linear };
-        self.links[root] = self.link(state, root, base, origin);
-        for index in 0..self.kinematics.steps.len() {
-            let step = &self.kinematics.steps[index];
-            let axis = match step.joint_axis(state.poses) {
-                None => Spatial::default(),
-                Some(JointAxis::Prismatic { axis }) => Spatial { angular: Vec3::zeros(), linear: axis },
-                Some(JointAxis::Revolute { axis, point }) => {
-                    Spatial { angular: axis, linear: (point - origin).cross(&axis) }
-                }
-            };
-            let rate: f64 =
-                step.terms().iter().map(|&(joint, factor)| factor * state.velocities[joint]).sum();
-            let velocity = self.links[step.parent].velocity.plus(&axis, rate);
-            let own = Spatial::default().plus(&axis, rate);
-            self.steps[index] = StepState { axis, product: velocity.cross(&own), ..StepState::default() };
-            self.links[step.link] = self.link(state, step.link, velocity, origin);
-        }
-    }
-
-    fn link(&self, state: &ForcedState, link: usize, velocity: Spatial, origin: &Vec3) -> LinkState {
-        let inertia = Inertia::of(&self.dynamics.composite(link, &state.poses[link], origin));
-        let Wrench { force, moment } = state.wrenches[link];
-        let outer = Spatial { angular: moment, linear: force };
-        let bias = velocity.cross_force(&inertia.times(&velocity)).plus(&outer, -1.0);
-        LinkState { velocity, inertia, bias, acceleration: Spatial::default() }
-    }
-
-    /// Finds the articulated inertias and bias forces, from the leaves to the root; `None` where a joint has no inertia.
-    fn inertias(&mut self, state: &ForcedState) -> Option<()> {
-        for (step, at) in self.kinematics.steps.iter().zip(&mut self.steps).rev() {
-            let LinkState { inertia, bias, .. } = self.links[step.link];
-            let (inertia, bias) = match step.terms() {
-                [(joint, factor)] => {
-                    // The armature is that of the joint, which the step's motion is a multiple of.
-                    let armature = state.armatures[*joint] / (factor * factor);
-                    at.force = inertia.times(&at.axis);
-                    at.inertia = at.axis.dot(&at.force) + armature;
-                    at.effort = state.efforts[*joint] / factor - at.axis.dot(&bias);
-                    if at.inertia.is_nan() || at.inertia <= 0.0 {
-                        return None;
-                    }
-                    let left = inertia.less(&at.force, at.inertia);
-                    let moved = bias.plus(&left.times(&at.product), 1.0);
-                    (left, moved.plus(&at.force, at.effort / at.inertia))
-                }
-                _ => (inertia, bias),
-            };
-            let parent = &mut self.links[step.parent];
-            parent.inertia.add(&inertia);
-            parent.bias = parent.bias.plus(&bias, 1.0);
-        }
-        Some(())
     }
 
     fn by_mass_matrix(&self, state: &ForcedState, gravity: &Vec3) -> Option<(Twist, Vec<f64>)> {

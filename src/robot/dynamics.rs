@@ -23,6 +23,21 @@ pub struct RigidBody {
     pub inertia: Matrix3<f64>,
 }
 
+impl RigidBody {
+    /// Returns the body as a composite about the point `origin` (m, in the world), with its link at the world pose
+    /// `pose`.
+    pub fn composite(&self, pose: &Pose, origin: &Vec3) -> Composite {
+        let R = *pose.rotation.to_rotation_matrix().matrix();
+        let d = pose.translation.vector + R * self.com - origin;
+        let shifted = (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * self.mass;
+        Composite {
+            mass: self.mass,
+            first: d * self.mass,
+            inertia: R * self.inertia * R.transpose() + shifted,
+        }
+    }
+}
+
 /// The velocity of a frame, linear at its origin and angular, or the time derivative of both; along the axes of the
 /// world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -253,9 +268,9 @@ impl Dynamics {
         let root = kinematics.link(kinematics.root, 0);
         let origin = position(poses, root);
         let mut composites = vec![Composite::default(); self.bodies.len()];
-        composites[root] = self.composite(root, &poses[root], &origin);
+        composites[root] = self.bodies[root].composite(&poses[root], &origin);
         for step in &kinematics.steps {
-            composites[step.link] = self.composite(step.link, &poses[step.link], &origin);
+            composites[step.link] = self.bodies[step.link].composite(&poses[step.link], &origin);
         }
         for step in kinematics.steps.iter().rev() {
             let carried = composites[step.link];
@@ -291,29 +306,16 @@ impl Dynamics {
         }
         matrix
     }
-
-    /// Returns the inertia of one body about `origin` (m), in the world.
-    pub(super) fn composite(&self, link: usize, pose: &Pose, origin: &Vec3) -> Composite {
-        let body = &self.bodies[link];
-        let R = *pose.rotation.to_rotation_matrix().matrix();
-        let d = pose.translation.vector + R * body.com - origin;
-        let shifted = (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * body.mass;
-        Composite {
-            mass: body.mass,
-            first: d * body.mass,
-            inertia: R * body.inertia * R.transpose() + shifted,
-        }
-    }
 }
 
 /// A composite rigid body: bodies that move as one.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Composite {
+pub struct Composite {
     /// The mass, kg.
     pub mass: f64,
-    /// The first moment of mass about the origin of the base's frame, in the world, kg·m.
+    /// The first moment of mass about a stated point, such as the origin of the base's frame, in the world, kg·m.
     pub first: Vec3,
-    /// The inertia about that origin, in the world, kg·m².
+    /// The inertia about that point, in the world, kg·m².
     pub inertia: Matrix3<f64>,
 }
 

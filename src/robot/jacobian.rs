@@ -69,7 +69,11 @@ impl Step {
     /// position grows; `None` where the joint is fixed. `poses` are the world poses of all links, by their numbers
     /// ([`Kinematics::link`]).
     pub fn joint_axis(&self, poses: &[Pose]) -> Option<JointAxis> {
-        let (X_WA, X_WB) = (&poses[self.parent], &poses[self.link]);
+        self.axis_between(&poses[self.parent], &poses[self.link])
+    }
+
+    /// Returns the axis as [`joint_axis`](Self::joint_axis) does, from the world poses of the parent and the child.
+    pub fn axis_between(&self, X_WA: &Pose, X_WB: &Pose) -> Option<JointAxis> {
         match (self.motion, self.motion.axis()) {
             (Motion::Along(direction), _) => Some(JointAxis::Prismatic { axis: X_WA.rotation * direction }),
             (_, Some(axis)) => {

@@ -3,7 +3,7 @@
 //! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
 //! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]), inverse dynamics ([`dynamics`]) and forward dynamics
-//! ([`articulated_bodies`]), the isomorphism of two robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of
+//! ([`articulated_bodies`], on [`spatial`] vectors), the isomorphism of two robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of
 //! RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
@@ -23,6 +23,7 @@ pub mod jacobian;
 
 pub mod articulated_bodies;
 pub mod dynamics;
+pub mod spatial;
 
 mod matching;
 mod symmetry;

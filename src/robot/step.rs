@@ -163,12 +163,20 @@ impl Step {
     /// all joints of the assembly, by the number in their `JointId`. Panics if `joints` is too short.
     #[inline]
     pub fn child_pose(&self, X_WA: &Pose, joints: &[f64]) -> Pose {
+        let position = if self.motion == Motion::Fixed { 0.0 } else { self.position(joints) };
+        self.child_pose_at(X_WA, position)
+    }
+
+    /// Returns the world pose `X_WB` of the child from that of the parent, `X_WA`, with the step at a position (rad or
+    /// m) of its own, whatever its joints are at.
+    #[inline]
+    pub fn child_pose_at(&self, X_WA: &Pose, position: f64) -> Pose {
         let mut shift = self.shift;
         let mut rotation = if self.turned { X_WA.rotation * self.turn } else { X_WA.rotation };
         match self.motion {
             Motion::Fixed => {}
-            Motion::Along(direction) => shift += direction * self.position(joints),
-            _ => rotation = self.rotated(rotation, self.position(joints)),
+            Motion::Along(direction) => shift += direction * position,
+            _ => rotation = self.rotated(rotation, position),
         }
         let mut p = X_WA.translation.vector;
         if shift != Vec3::zeros() {

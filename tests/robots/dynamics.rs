@@ -8,7 +8,7 @@ use crate::support::numbers::Numbers;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{Plan, file};
-use modl::robot::articulated_bodies::{ArticulatedBodies, ForcedState};
+use modl::robot::articulated_bodies::{ForcedState, ForwardDynamics};
 use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
 use nalgebra::{DVector, Translation3, UnitQuaternion};
@@ -142,7 +142,7 @@ impl Machine {
             armatures: &vec![0.0; moving.v.len()],
             wrenches: &wrenches,
         };
-        let mut bodies = ArticulatedBodies::new(self.dynamics.clone(), self.kinematics.clone());
+        let mut bodies = ForwardDynamics::new(self.dynamics.clone(), self.kinematics.clone());
         let (base, joints) = bodies.accelerations(&state, gravity).expect("all links have masses");
         base.linear.iter().chain(&base.angular).copied().chain(joints).collect()
     }
@@ -272,7 +272,7 @@ fn the_efforts_of_a_motion_give_back_the_motion() {
                 armatures: &armatures,
                 wrenches: &wrenches,
             };
-            let mut bodies = ArticulatedBodies::new(machine.dynamics.clone(), machine.kinematics.clone());
+            let mut bodies = ForwardDynamics::new(machine.dynamics.clone(), machine.kinematics.clone());
             let (base, joints) = bodies.accelerations(&state, &GRAVITY).expect("all links have masses");
             let off = (base.linear - moving.acceleration.linear).norm()
                 + (base.angular - moving.acceleration.angular).norm();
@@ -303,7 +303,7 @@ fn what_has_no_inertia_has_no_acceleration() {
         armatures: &zero,
         wrenches: &wrenches,
     };
-    let mut bodies = ArticulatedBodies::new(machine.dynamics, machine.kinematics);
+    let mut bodies = ForwardDynamics::new(machine.dynamics, machine.kinematics);
     assert_eq!(bodies.accelerations(&state, &GRAVITY), None, "a wheel without mass");
     let geared = vec![1e-3; zero.len()];
     let (base, joints) = bodies
