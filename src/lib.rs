@@ -23,6 +23,7 @@ pub mod optimize;
 pub mod plan;
 pub mod planners;
 pub mod robot;
+pub mod simulate;
 pub mod view;
 
 pub mod interpret;

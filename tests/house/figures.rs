@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 const KNOT_MAX: usize = 8;
 
 /// The rooms of the back end, whose `pub` items are an interface for Rust programs.
-const BACK_END: &[&str] =
-    &["units", "geometry", "optimize", "robot", "plan", "behavior", "planners", "view", "formats"];
+const BACK_END: &[&str] = &[
+    "units", "geometry", "optimize", "robot", "plan", "behavior", "planners", "simulate", "view", "formats",
+];
 
 /// The share of `pub` items of the back end that have a doc comment, at least.
 const DOCUMENTED_MIN: f64 = 0.95;

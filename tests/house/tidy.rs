@@ -34,6 +34,7 @@ const ROOMS: &[Room] = &[
     room("optimize", &["interrupt"], &[]),
     room("robot", &["geometry", "optimize"], &[]),
     room("plan", &["robot"], &[]),
+    room("simulate", &["plan"], &["optimize"]),
     room("behavior", &["plan"], &["optimize"]),
     room("planners", &["behavior", "optimize"], &[]),
     room("view", &["plan"], &["interrupt", "optimize"]),

@@ -24,14 +24,16 @@ pub struct LastingTrees {
 }
 
 impl LastingTrees {
-    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m.
-    pub fn new(tracks: &Tracks, X_WB: &Pose) -> LastingTrees {
+    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m. `apart`: the
+    /// bonds, by their indices, that are constraints although they hold all the time.
+    pub fn new(tracks: &Tracks, X_WB: &Pose, apart: &[usize]) -> LastingTrees {
         let mut ever = tracks.start.bonds.clone();
         let mut lasting = ever.clone();
         for event in &tracks.events {
             lasting[event.bond] = false;
             ever[event.bond] |= event.kind == DockingKind::Dock;
         }
+        apart.iter().for_each(|&bond| lasting[bond] = false);
         let robot = &tracks.robot;
         let start = Kinematics::new(robot, &tracks.start.bonds, robot.base);
         let all = Kinematics::new(robot, &vec![true; robot.bonds.len()], robot.base);

@@ -1,0 +1,302 @@
+//! Contacts between links: which of them meet, and the forces with which they push each other apart.
+
+use super::coupling::{Instant, Row, RowKind};
+use super::model::Model;
+use super::parameters::PARAMETERS;
+use crate::geometry::broad_phase::{Aabb, near_boxes};
+use crate::geometry::distance::signed_distance_within;
+use crate::geometry::{Part, Pose, Solid, Unsound, Vec3, contact_point};
+use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
+use crate::robot::spatial::SpatialVector;
+use crate::robot::{Assembly, PortRef};
+use std::collections::BTreeSet;
+
+/// A convex part of a link, in the frame of the link.
+#[derive(Clone, Debug)]
+struct Shape {
+    body: usize,
+    part: Part,
+    /// The depth to which others may be inside of it without a contact, m.
+    touch: f64,
+}
+
+/// Two shapes that are near each other.
+#[derive(Clone, Debug)]
+struct Pair {
+    first: usize,
+    second: usize,
+    /// The way that they may yet go against each other before they can meet, m: of a pair that is close.
+    free: f64,
+    /// The direction of their distance at the last look, in the frame of the first.
+    normal: Option<Vec3>,
+    /// The spring across the contact: the number of the step in which it was loaded last, its displacement (m, in the
+    /// world), and the part of its force that friction bore.
+    spring: (u64, Vec3, f64),
+}
+
+/// A contact of two links.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LinkContact {
+    /// The index of its pair.
+    pair: usize,
+    /// The bodies.
+    pub first: usize,
+    pub second: usize,
+    /// The point, from that which spatial vectors are about, m.
+    point: Vec3,
+    /// Three orthogonal unit vectors, the first from the first body to the second.
+    axes: [Vec3; 3],
+    /// The depth beyond that which counts as touching, m.
+    depth: f64,
+    friction: f64,
+    /// The displacement of the spring across at the start of the step, m.
+    shift: Vec3,
+    pub pushes: bool,
+    share: f64,
+    /// The force on the second body, N.
+    pub force: Vec3,
+}
+
+/// All shapes of a robot, and those that touch.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LinkContacts {
+    shapes: Vec<Shape>,
+    /// The pairs of bodies that do not push each other, the lesser index first.
+    excluded: BTreeSet<(usize, usize)>,
+    pairs: Vec<Pair>,
+    /// The value of `moved` from which on each pair may be close; those that are close are looked at in every step.
+    wakes: Vec<f64>,
+    /// The way that any two shapes can have gone against each other since the start, m.
+    moved: f64,
+    /// The value of `moved` from which on a pair that is not listed can meet.
+    listed_until: f64,
+    /// The contacts of this step.
+    pub contacts: Vec<LinkContact>,
+}
+
+/// The distance within which pairs are listed, m.
+const NEAR: f64 = 0.02;
+
+/// The distance within which a pair is close, m: its own motion is followed, instead of that of the whole robot.
+const CLOSE: f64 = 1e-3;
+
+impl LinkContacts {
+    /// Compiles the shapes of all links; those that joints or bonds join, that are declared as touching, or that hang
+    /// together, never push each other.
+    ///
+    /// # Errors
+    /// [`Unsound`] for the first shape that is not sound.
+    pub(super) fn new(model: &Model, robot: &Assembly) -> Result<LinkContacts, Unsound> {
+        let mut all = LinkContacts::default();
+        let mut first = 0;
+        let mut firsts = Vec::with_capacity(robot.modules.len());
+        let pair = |a: usize, b: usize| (a.min(b), a.max(b));
+        for module in 0..robot.modules.len() {
+            let kind = robot.module_type(module);
+            for (own, link) in kind.links.iter().enumerate() {
+                let body = model.body_of[first + own];
+                let parts = Solid::new(&link.collides)?.parts;
+                all.shapes.extend(parts.into_iter().map(|part| Shape { body, part, touch: kind.touch }));
+            }
+            let joined = kind.joints.iter().map(|joint| (joint.parent, joint.child));
+            all.excluded.extend(
+                joined
+                    .chain(kind.touching.iter().copied())
+                    .map(|(a, b)| pair(model.body_of[first + a], model.body_of[first + b])),
+            );
+            firsts.push(first);
+            first += kind.links.len();
+        }
+        let of = |port: PortRef| {
+            model.body_of[firsts[port.module] + robot.module_type(port.module).ports[port.port].link]
+        };
+        all.excluded.extend(robot.bonds.iter().map(|bond| pair(of(bond.a), of(bond.b))));
+        // What hangs together is one body.
+        let mut whole: Vec<usize> = (0..model.bodies.len()).collect();
+        for (at, body) in model.bodies.iter().enumerate() {
+            if let Attachment::Fixed(parent) = body.attachment {
+                whole[at] = whole[parent];
+            }
+        }
+        let near = all.near(&model.start);
+        for (a, b) in near {
+            let (first, second) = (&all.shapes[a], &all.shapes[b]);
+            let bodies = pair(first.body, second.body);
+            let X_AB = model.start[first.body].inv_mul(&model.start[second.body]);
+            let distance = signed_distance_within(&first.part, &second.part, &X_AB, None, NEAR).distance;
+            if whole[first.body] == whole[second.body] || distance < -first.touch.min(second.touch) {
+                all.excluded.insert(bodies);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Returns the pairs of shapes of different bodies whose boxes are near each other.
+    fn near(&self, poses: &[Pose]) -> Vec<(usize, usize)> {
+        let around = |shape: &Shape| {
+            let centre = poses[shape.body].transform_point(&shape.part.centre.into()).coords;
+            let half = Vec3::repeat(shape.part.radius);
+            Aabb { low: centre - half, high: centre + half }
+        };
+        let boxes: Vec<Aabb> = self.shapes.iter().map(around).collect();
+        let size = self.shapes.iter().map(|shape| 2.0 * shape.part.radius).fold(NEAR, f64::max);
+        let mut found = Vec::new();
+        near_boxes(&boxes, NEAR, size, |a, b| {
+            let bodies = (self.shapes[a].body, self.shapes[b].body);
+            let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
+            if bodies.0 != bodies.1 && !self.excluded.contains(&bodies) {
+                found.push((a, b));
+            }
+        });
+        found
+    }
+
+    /// Finds the links that meet in step `now`. `bodies`: the bodies with their velocities.
+    pub(super) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
+        self.contacts.clear();
+        let fastest = self.shapes.iter().map(|shape| speed(shape, bodies, at)).fold(0.0, f64::max);
+        self.moved += 2.0 * fastest * at.step;
+        if self.moved >= self.listed_until {
+            self.list(at);
+        }
+        for index in 0..self.pairs.len() {
+            if self.wakes[index] > self.moved {
+                continue;
+            }
+            let pair = &self.pairs[index];
+            let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
+            if pair.free > 0.0 {
+                let twist = bodies.velocity(b.body).plus(bodies.velocity(a.body), -1.0);
+                let centre = at.poses[b.body].transform_point(&b.part.centre.into()).coords - at.origin;
+                let motion = twist.at(&centre).norm() + twist.angular.norm() * b.part.radius;
+                let free = pair.free - motion * at.step;
+                if free > 0.0 {
+                    self.pairs[index].free = free;
+                    continue;
+                }
+            }
+            let X_AB = at.poses[a.body].inv_mul(&at.poses[b.body]);
+            let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
+            let depth = -found.distance - a.touch.min(b.touch);
+            if depth > 0.0 {
+                let normal = at.poses[a.body].rotation * found.normal;
+                let on_a = contact_point(&a.part, &b.part, &X_AB);
+                let (touched, shift, share) = pair.spring;
+                let lasts = touched > 0 && touched + 1 >= now;
+                let shift = if lasts { shift - normal * normal.dot(&shift) } else { Vec3::zeros() };
+                self.contacts.push(LinkContact {
+                    pair: index,
+                    first: a.body,
+                    second: b.body,
+                    point: at.poses[a.body].transform_point(&on_a.into()).coords - at.origin,
+                    axes: super::coupling::basis(Some(normal)),
+                    depth,
+                    friction: model.bodies[a.body].friction.max(model.bodies[b.body].friction),
+                    shift,
+                    pushes: true,
+                    share: if lasts { share } else { 1.0 },
+                    force: Vec3::zeros(),
+                });
+            }
+            let pair = &mut self.pairs[index];
+            pair.normal = Some(found.normal);
+            // A pair that is not close sleeps until the robot's motion may have brought it close.
+            pair.free = if depth > -CLOSE { (-depth).max(0.0) } else { 0.0 };
+            self.wakes[index] = if depth > -CLOSE { 0.0 } else { self.moved - depth - CLOSE };
+        }
+    }
+
+    /// Lists the pairs that are near each other now; those that were listed keep what is known of them.
+    fn list(&mut self, at: &Instant) {
+        let known = std::mem::take(&mut self.pairs);
+        let mut near = self.near(at.poses);
+        near.sort_unstable();
+        for (first, second) in near {
+            let kept = known.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second));
+            self.pairs.push(kept.map_or_else(
+                |_| Pair { first, second, free: 0.0, normal: None, spring: (0, Vec3::zeros(), 1.0) },
+                |index| known[index].clone(),
+            ));
+        }
+        self.wakes = vec![0.0; self.pairs.len()];
+        self.listed_until = self.moved + NEAR;
+    }
+
+    /// Adds three rows for each contact that pushes: along its normal, and across.
+    pub(super) fn add_rows(&self, step: f64, rows: &mut Vec<Row>) {
+        let stiffness = PARAMETERS.contact_stiffness;
+        let resistance = (step + PARAMETERS.contact_damping) * stiffness;
+        for contact in self.contacts.iter().filter(|contact| contact.pushes) {
+            for (number, axis) in contact.axes.iter().enumerate() {
+                let unit = SpatialVector::of_force(*axis, &contact.point);
+                let kind = RowKind::Wrench { first: contact.first, second: contact.second, unit };
+                let share = if number == 0 { 1.0 } else { contact.share.max(SHARE_MIN) };
+                let offset = match number {
+                    0 => stiffness * contact.depth,
+                    _ => -share * stiffness * contact.shift.dot(axis),
+                };
+                rows.push(Row { kind, resistance: share * resistance, offset });
+            }
+        }
+    }
+
+    /// Finds how the contacts go on for the accelerations of a round. Returns the greatest change of a force that comes
+    /// of it, N.
+    pub(super) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
+        let stiffness = PARAMETERS.contact_stiffness;
+        let resistance = (step + PARAMETERS.contact_damping) * stiffness;
+        let mut greatest: f64 = 0.0;
+        for contact in &mut self.contacts {
+            let velocity = contact.velocity(bodies, step);
+            let [normal, ..] = contact.axes;
+            let along = velocity.dot(&normal);
+            let across = velocity - normal * along;
+            let tried = -contact.shift * stiffness - across * resistance;
+            let applied = match contact.pushes {
+                true => {
+                    normal * (stiffness * contact.depth - resistance * along)
+                        + tried * contact.share.max(SHARE_MIN)
+                }
+                false => Vec3::zeros(),
+            };
+            let pressing = (stiffness * contact.depth - resistance * along).max(0.0);
+            contact.pushes = pressing > 0.0;
+            let (bound, size) = (contact.friction * pressing, tried.norm());
+            contact.share = if size <= bound { 1.0 } else { bound / size };
+            contact.force = applied;
+            greatest = greatest.max((normal * pressing + tried * contact.share - applied).norm());
+        }
+        greatest
+    }
+
+    /// Keeps the springs for the next step, when the rounds of step `now` have ended.
+    pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, step: f64, now: u64) {
+        for contact in &self.contacts {
+            let normal = contact.axes[0];
+            let across = |v: &Vec3| v - normal * normal.dot(v);
+            let shift = match contact.share < 1.0 {
+                true => -across(&contact.force) / PARAMETERS.contact_stiffness,
+                false => contact.shift + across(&contact.velocity(bodies, step)) * step,
+            };
+            self.pairs[contact.pair].spring = (now, shift, contact.share);
+        }
+    }
+}
+
+/// The least part of a spring's force that friction bears: without friction nothing is left to divide by.
+const SHARE_MIN: f64 = 1e-9;
+
+impl LinkContact {
+    /// Returns the velocity of the second body against the first at the contact after the step, m/s.
+    fn velocity(&self, bodies: &ArticulatedBodies, step: f64) -> Vec3 {
+        let after = |body| bodies.velocity(body).plus(bodies.acceleration(body), step);
+        after(self.second).plus(&after(self.first), -1.0).at(&self.point)
+    }
+}
+
+/// Returns an upper bound on the speed of a shape's points, m/s.
+fn speed(shape: &Shape, bodies: &ArticulatedBodies, at: &Instant) -> f64 {
+    let twist = bodies.velocity(shape.body);
+    let centre = at.poses[shape.body].transform_point(&shape.part.centre.into()).coords - at.origin;
+    twist.at(&centre).norm() + twist.angular.norm() * shape.part.radius
+}

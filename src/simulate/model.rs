@@ -1,0 +1,315 @@
+//! The robot of a plan as trees of rigid bodies with servos, for a simulation.
+
+use super::{ServoGains, Settings};
+use crate::geometry::ground_features::{self, Feature};
+use crate::geometry::{Pose, Vec3};
+use crate::plan::{Ground, LastingTrees, Tracks, World};
+use crate::robot::articulated_bodies::Attachment;
+use crate::robot::dynamics::{Dynamics, RigidBody};
+use crate::robot::{Assembly, JointKind, JointOwner, Servo, Step, motor_efforts};
+
+/// A link with what carries it.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    /// The way in which the body hangs on others, by their indices in [`Model::bodies`].
+    pub attachment: Attachment,
+    /// The step from the body that carries it; `None` for a base.
+    pub step: Option<Step>,
+    /// Mass, centre of mass and inertia.
+    pub rigid: RigidBody,
+    /// The joint that moves the body.
+    pub joint: Option<Joint>,
+    /// The coefficient of friction, with the world's factor.
+    pub friction: f64,
+    /// The radius about the origin of the link's frame that holds all its ground features, m.
+    pub reach: f64,
+    /// The parts of its surface that can touch the ground, in the frame of the link.
+    pub features: Vec<Feature>,
+}
+
+/// A joint as a coordinate of its own, which is the position of the step that it moves.
+#[derive(Clone, Debug)]
+pub(super) struct Joint {
+    /// The number in its [`crate::robot::JointId`].
+    pub id: usize,
+    /// The factor from the joint's position to the coordinate: 1 or -1.
+    pub factor: f64,
+    /// True if it slides, false if it turns.
+    pub slides: bool,
+    /// The servo that drives it; `None` for a passive joint, and for one that follows others.
+    pub servo: Option<DrivenServo>,
+    /// The inertia of its rotor, kg·m² or kg; 0 without a servo.
+    pub armature: f64,
+    /// The least and greatest coordinate, rad or m; `None` without ends.
+    pub range: Option<(f64, f64)>,
+}
+
+/// A position servo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DrivenServo {
+    /// Stiffness, N·m/rad or N/m.
+    pub stiffness: f64,
+    /// Damping, N·m·s/rad or N·s/m.
+    pub damping: f64,
+    /// The effort that it is held to, N·m or N; infinite where none is stated, or motors have no limits.
+    pub effort: f64,
+    /// The greatest effort that is stated, N·m or N.
+    pub limit: Option<f64>,
+}
+
+/// A joint that follows others.
+#[derive(Clone, Debug)]
+pub(super) struct Follower {
+    /// The index of the body that it moves.
+    pub body: usize,
+    /// The bodies whose coordinates it follows, each with its factor.
+    pub terms: Vec<(usize, f64)>,
+}
+
+/// Motors that drive several joints of a module together.
+#[derive(Clone, Debug)]
+pub(super) struct Coupled {
+    /// The bodies that the joints move, each with the sign of its coordinate.
+    pub bodies: Vec<(usize, f64)>,
+    pub motors: Vec<CoupledMotor>,
+}
+
+/// A motor that drives several joints.
+#[derive(Clone, Debug)]
+pub(super) struct CoupledMotor {
+    /// The greatest effort, N·m or N; infinite where none is stated.
+    pub effort: f64,
+    /// The factor of each joint in the motor's position, which is that of the motor's effort in the joint's.
+    pub factors: Vec<f64>,
+    /// The factor of each joint's effort in the motor's.
+    pub shares: Vec<f64>,
+}
+
+/// The robot of a plan for a simulation.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// The links, those that carry before those that are carried.
+    pub bodies: Vec<Body>,
+    /// The index in `bodies` of each link, by its number.
+    pub body_of: Vec<usize>,
+    /// The index in `bodies` of the body that each joint moves, by the number of its id; `None` for those that move none.
+    pub moved_by: Vec<Option<usize>>,
+    /// The joints that follow others.
+    pub followers: Vec<Follower>,
+    /// The motors that drive several joints.
+    pub coupled: Vec<Coupled>,
+    /// The bonds that hold at some time and are in no tree.
+    pub constraints: Vec<usize>,
+    /// The bonds of the trees that state what they hold, each with the body that it carries.
+    pub carrying: Vec<(usize, usize)>,
+    /// The pose of each body at the start, by its index in `bodies`.
+    pub start: Vec<Pose>,
+    /// The mass of all bodies, kg.
+    pub mass: f64,
+}
+
+impl Model {
+    /// Compiles the robot of a plan that starts with its base at `X_WB`, in a world, with servos of these gains. `apart`:
+    /// the bonds that are not in the trees although they hold all the time.
+    pub(super) fn new(
+        tracks: &Tracks,
+        X_WB: &Pose,
+        world: &World,
+        settings: &Settings,
+        apart: &[usize],
+    ) -> Model {
+        let (robot, gains) = (&tracks.robot, &settings.servo);
+        let lasting = LastingTrees::new(tracks, X_WB, apart);
+        let held = matches!(world.ground, Ground::Fixed | Ground::Held);
+        let rigid = Dynamics::new(robot);
+        let owners: Vec<JointOwner> = robot.joints().collect();
+        let links: Vec<(usize, usize)> = (0..robot.modules.len())
+            .flat_map(|module| (0..robot.module_type(module).links.len()).map(move |link| (module, link)))
+            .collect();
+        let mut model = Model {
+            bodies: Vec::with_capacity(links.len()),
+            body_of: vec![usize::MAX; links.len()],
+            moved_by: vec![None; owners.len()],
+            followers: Vec::new(),
+            coupled: Vec::new(),
+            constraints: lasting.constraints,
+            carrying: Vec::new(),
+            start: Vec::with_capacity(links.len()),
+            mass: 0.0,
+        };
+        for (index, tree) in lasting.trees.iter().enumerate() {
+            let states = |bond: &usize| {
+                let a = robot.bonds[*bond].a;
+                let connector =
+                    &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
+                connector.holds_force.is_some() || connector.holds_moment.is_some()
+            };
+            let carried = tree.tree.order.iter().filter_map(|&(module, bond)| {
+                let bond = bond.filter(states)?;
+                let declared = &robot.bonds[bond];
+                let port = if declared.b.module == module { declared.b } else { declared.a };
+                Some((bond, tree.port_link(robot, port)))
+            });
+            model.carrying.extend(carried);
+            let base = if held && index == 0 { Attachment::Held } else { Attachment::Floating };
+            let root = tree.link(tree.root, 0);
+            let steps = tree.steps.iter().map(|step| (step.link, Some(step)));
+            for (link, step) in std::iter::once((root, None)).chain(steps) {
+                let (module, own) = links[link];
+                let declared = &robot.module_type(module).links[own];
+                let features = ground_features::features(&declared.collides);
+                let joint = lasting.joint_of[link]
+                    .zip(step)
+                    .map(|(id, step)| joint_of(robot, owners[id], id, step, gains));
+                let attachment = step.map_or(base, |step| match joint {
+                    Some(_) => Attachment::Joint(model.body_of[step.parent]),
+                    None => Attachment::Fixed(model.body_of[step.parent]),
+                });
+                let at = model.bodies.len();
+                model.body_of[link] = at;
+                if let Some(joint) = &joint {
+                    model.moved_by[joint.id] = Some(at);
+                }
+                model.mass += declared.mass * settings.mass;
+                model.start.push(lasting.poses[link]);
+                model.bodies.push(Body {
+                    attachment,
+                    step: step.cloned(),
+                    rigid: heavier(&rigid.bodies()[link], settings.mass),
+                    joint,
+                    friction: declared.friction * world.friction * settings.friction,
+                    reach: features.iter().map(Feature::reach).fold(0.0, f64::max),
+                    features,
+                });
+            }
+        }
+        model.carrying.iter_mut().for_each(|(_, link)| *link = model.body_of[*link]);
+        model.follow();
+        if !gains.unlimited {
+            model.couple(robot, gains);
+        }
+        model
+    }
+
+    /// Finds the joints that follow others.
+    fn follow(&mut self) {
+        for (at, body) in self.bodies.iter().enumerate() {
+            let (Some(joint), Some(step)) = (&body.joint, &body.step) else { continue };
+            if matches!(step.terms(), [(id, _)] if *id == joint.id) {
+                continue;
+            }
+            let of = |&(id, factor): &(usize, f64)| {
+                let followed = self.moved_by[id]?;
+                Some((followed, factor * self.bodies[followed].joint.as_ref()?.factor))
+            };
+            let terms = step.terms().iter().filter_map(of).collect();
+            self.followers.push(Follower { body: at, terms });
+        }
+    }
+
+    /// Finds the motors that drive several joints and have limits of effort.
+    fn couple(&mut self, robot: &Assembly, gains: &ServoGains) {
+        let mut first = 0;
+        for module in 0..robot.modules.len() {
+            let kind = robot.module_type(module);
+            let own = first;
+            first += kind.joints.len();
+            let Some(efforts) = motor_efforts(kind) else { continue };
+            if kind.motors.iter().all(|motor| motor.limits.effort.is_none()) {
+                continue;
+            }
+            let mut joints: Vec<usize> =
+                kind.motors.iter().flat_map(|m| m.joints.iter().map(|j| j.0)).collect();
+            joints.sort_unstable();
+            joints.dedup();
+            let bodies: Option<Vec<(usize, f64)>> = joints
+                .iter()
+                .map(|joint| {
+                    let body = self.moved_by[own + joint]?;
+                    Some((body, self.bodies[body].joint.as_ref()?.factor))
+                })
+                .collect();
+            let Some(bodies) = bodies else { continue };
+            let of = |terms: &[(usize, f64)]| {
+                let of = |joint: &usize| terms.iter().filter(|(j, _)| j == joint).map(|(_, f)| f).sum();
+                joints.iter().map(of).collect::<Vec<f64>>()
+            };
+            let motors = kind.motors.iter().zip(&efforts).map(|(motor, effort)| CoupledMotor {
+                effort: motor.limits.effort.map_or(f64::INFINITY, |effort| effort * gains.effort),
+                factors: of(&motor.joints),
+                shares: of(effort),
+            });
+            self.coupled.push(Coupled { bodies, motors: motors.collect() });
+        }
+    }
+
+    /// Returns the coordinates of all bodies' joints for the positions (rad or m) of the robot's joints by their ids; 0
+    /// for bodies without a joint.
+    pub(super) fn coordinates(&self, joints: &[f64]) -> Vec<f64> {
+        let of = |body: &Body| match (&body.joint, &body.step) {
+            (Some(_), Some(step)) => step.position(joints),
+            _ => 0.0,
+        };
+        self.bodies.iter().map(of).collect()
+    }
+
+    /// Returns the centre of mass of all bodies for their world poses, m; the origin without mass.
+    pub(super) fn centre(&self, poses: &[Pose]) -> Vec3 {
+        let moment = self.bodies.iter().zip(poses).fold(Vec3::zeros(), |sum, (body, pose)| {
+            sum + pose.transform_point(&body.rigid.com.into()).coords * body.rigid.mass
+        });
+        if self.mass > 0.0 { moment / self.mass } else { moment }
+    }
+}
+
+/// Returns the joint of an id that moves a step.
+fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: &ServoGains) -> Joint {
+    let (limits, driven) = match owner {
+        JointOwner::Module { module, joint } => {
+            let declared = &robot.module_type(module).joints[joint];
+            let driven = !declared.passive && declared.mimic.is_none() && declared.kind != JointKind::Fixed;
+            (declared.limits, driven)
+        }
+        JointOwner::Bond(bond) => (robot.hinge(bond).map(|h| h.limits).unwrap_or_default(), true),
+    };
+    let factor = match step.terms() {
+        [(same, factor)] if *same == id => *factor,
+        _ => 1.0,
+    };
+    let stated = robot.servo(owner);
+    let stiffness = gains.stiffness.map_or_else(
+        || robot.servo_stiffness(owner),
+        |turning| if robot.slides(owner) { turning / (SERVO_LEVER * SERVO_LEVER) } else { turning },
+    ) * gains.factor;
+    let servo = driven.then_some(DrivenServo {
+        stiffness,
+        damping: gains.damping.unwrap_or(Servo::DAMPING_DEFAULT) * stiffness,
+        effort: if gains.unlimited {
+            f64::INFINITY
+        } else {
+            limits.effort.map_or(f64::INFINITY, |e| e * gains.effort)
+        },
+        limit: limits.effort.map(|effort| effort * gains.effort),
+    });
+    let armature = stated.armature.unwrap_or(Servo::ARMATURE_DEFAULT * robot.servo_stiffness(owner));
+    let range = limits.range.filter(|_| driven).map(|(low, high)| {
+        let ends = (low * factor, high * factor);
+        (ends.0.min(ends.1), ends.0.max(ends.1))
+    });
+    Joint {
+        id,
+        factor,
+        slides: robot.slides(owner),
+        servo,
+        armature: if driven { armature } else { 0.0 },
+        range,
+    }
+}
+
+/// Returns a rigid body with its mass and inertia times a factor.
+fn heavier(body: &RigidBody, factor: f64) -> RigidBody {
+    RigidBody { mass: body.mass * factor, inertia: body.inertia * factor, ..*body }
+}
+
+/// The lever at which the servo of a joint that slides is as stiff as that of one that turns, m.
+const SERVO_LEVER: f64 = 0.1;

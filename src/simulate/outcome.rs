@@ -1,0 +1,243 @@
+//! What a simulation measures.
+
+use super::commands::Commands;
+use super::model::Model;
+use super::stepper::Stepper;
+use crate::geometry::{Pose, Vec3};
+use crate::plan::Tracks;
+
+/// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
+const WINDOW: f64 = 0.05;
+
+/// The speed at which the centre of mass sinks where a robot falls and is not let down, m/s.
+const FALL_SPEED: f64 = 0.5;
+
+/// The time between two moments of the motion that is kept, s.
+const FRAME: f64 = 0.02;
+
+/// The greatest value of a quantity, and where and when it was reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// The value, in the unit of the quantity.
+    pub value: f64,
+    /// The number of the joint's [`JointId`](crate::robot::JointId), or the index of the bond.
+    pub of: usize,
+    /// The time from the start of the plan, s.
+    pub time: f64,
+}
+
+/// Something that happens to a bond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondEvent {
+    /// The index of the bond in the assembly.
+    pub bond: usize,
+    /// The time from the start of the plan, s.
+    pub time: f64,
+    /// What happens.
+    pub kind: BondEventKind,
+}
+
+/// What happens to a bond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BondEventKind {
+    /// Its ports dock: their distance (m) and the angle (rad) from a perfect mate.
+    Docks(f64, f64),
+    /// Its ports should dock, and are farther from each other than the connector captures: distance (m) and angle (rad).
+    Misses(f64, f64),
+    /// It breaks under this part of what it holds.
+    Breaks(f64),
+}
+
+/// The robot at a moment of a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// The time from the start of the plan, s.
+    pub time: f64,
+    /// The world pose of the base module's body.
+    pub base: Pose,
+    /// The position of each joint by its [`JointId`](crate::robot::JointId), rad or m; of those that do not move, as the
+    /// plan says.
+    pub joints: Vec<f64>,
+}
+
+/// What happens when a plan is played.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// The time step, s.
+    pub step: f64,
+    /// The duration of the plan, s.
+    pub duration: f64,
+    /// The displacement of the base from the start of the plan to 0.3 s after its end, m.
+    pub travel: Vec3,
+    /// The turn of the base about the vertical in that time, rad, from -π to π.
+    pub heading: f64,
+    /// The angle by which the base's own vertical at the start leans at the end, rad.
+    pub lean: f64,
+    /// The greatest such angle on the way, rad.
+    pub lean_max: f64,
+    /// The time at which the centre of mass first sinks faster than 0.5 m/s, s; `None`: the robot does not fall.
+    pub fall: Option<f64>,
+    /// The farthest that a joint that turns is behind the plan, rad; `None` without driven joints.
+    pub lag: Option<Extreme>,
+    /// The farthest that a joint that slides is behind the plan, m.
+    pub lag_length: Option<Extreme>,
+    /// The greatest effort of a motor as the mean over 50 ms, in parts of its limit; `None` without limits.
+    pub effort: Option<Extreme>,
+    /// The longest time that a motor is at its limit in all, s.
+    pub saturated: Option<Extreme>,
+    /// The greatest speed at which a part that did not touch the ground comes down on it, m/s.
+    pub impact: f64,
+    /// The mechanical work that the motors do, J: what drives them gives nothing back.
+    pub work: f64,
+    /// The greatest load of a bond, in parts of what it holds; `None` where no bond states that.
+    pub bond_load: Option<Extreme>,
+    /// What happened to bonds, in order of time.
+    pub bonds: Vec<BondEvent>,
+    /// The motion, every 20 ms from the start of the plan.
+    pub motion: Vec<Moment>,
+}
+
+/// The measurement of a simulation.
+pub(super) struct Recorder<'a> {
+    tracks: &'a Tracks,
+    model: &'a Model,
+    step: f64,
+    /// The efforts of the last steps in a ring, and their sums, by body.
+    history: Vec<Vec<f64>>,
+    sums: Vec<f64>,
+    slot: usize,
+    /// The time that each motor has been at its limit, s, by body.
+    saturated: Vec<f64>,
+    start: Pose,
+    height: f64,
+    frame: f64,
+    out: Simulation,
+}
+
+fn keep(known: &mut Option<Extreme>, value: f64, of: usize, time: f64) {
+    if known.is_none_or(|extreme| value > extreme.value) {
+        *known = Some(Extreme { value, of, time });
+    }
+}
+
+impl<'a> Recorder<'a> {
+    /// Returns the measurement of a robot that has not moved.
+    pub(super) fn new(tracks: &'a Tracks, model: &'a Model, step: f64) -> Recorder<'a> {
+        let count = model.bodies.len();
+        let window = (libm::round(WINDOW / step) as usize).max(1);
+        let out = Simulation {
+            step,
+            duration: tracks.duration,
+            travel: Vec3::zeros(),
+            heading: 0.0,
+            lean: 0.0,
+            lean_max: 0.0,
+            fall: None,
+            lag: None,
+            lag_length: None,
+            effort: None,
+            saturated: None,
+            impact: 0.0,
+            work: 0.0,
+            bond_load: None,
+            bonds: Vec::new(),
+            motion: Vec::new(),
+        };
+        Recorder {
+            tracks,
+            model,
+            step,
+            history: vec![vec![0.0; count]; window],
+            sums: vec![0.0; count],
+            slot: 0,
+            saturated: vec![0.0; count],
+            start: model.start[0],
+            height: 0.0,
+            frame: 0.0,
+            out,
+        }
+    }
+
+    /// Takes down something that happens to a bond.
+    pub(super) fn bond(&mut self, event: BondEvent) {
+        self.out.bonds.push(event);
+    }
+
+    /// Takes down the load of a bond, in parts of what it holds.
+    pub(super) fn load(&mut self, bond: usize, load: f64, time: f64) {
+        keep(&mut self.out.bond_load, load, bond, time);
+    }
+
+    /// Measures after a step that ends at `time` (s); before the start of the plan only what is needed later.
+    pub(super) fn see(&mut self, stepper: &Stepper, commands: &Commands, time: f64) {
+        for (at, (effort, old)) in stepper.efforts.iter().zip(&mut self.history[self.slot]).enumerate() {
+            self.sums[at] += effort - *old;
+            *old = *effort;
+        }
+        self.slot = (self.slot + 1) % self.history.len();
+        let height = stepper.centre_height();
+        let sink = (self.height - height) / self.step;
+        self.height = height;
+        if time <= 0.5 * self.step {
+            self.start = *stepper.base(0);
+            self.frame(stepper, commands, 0.0);
+            return;
+        }
+        if sink > FALL_SPEED && self.out.fall.is_none() {
+            self.out.fall = Some(time);
+        }
+        self.out.impact = self.out.impact.max(stepper.impact());
+        let window = self.history.len() as f64;
+        for (at, body) in self.model.bodies.iter().enumerate() {
+            let Some(joint) = &body.joint else { continue };
+            let Some(servo) = &joint.servo else { continue };
+            let lag = (stepper.coordinates[at] - commands.joints[joint.id].0 * joint.factor).abs();
+            let lags = if joint.slides { &mut self.out.lag_length } else { &mut self.out.lag };
+            keep(lags, lag, joint.id, time);
+            self.out.work += (stepper.efforts[at] * stepper.rates[at]).max(0.0) * self.step;
+            if let Some(limit) = servo.limit {
+                keep(&mut self.out.effort, self.sums[at].abs() / window / limit, joint.id, time);
+                if stepper.efforts[at].abs() >= limit {
+                    self.saturated[at] += self.step;
+                    keep(&mut self.out.saturated, self.saturated[at], joint.id, time);
+                }
+            }
+        }
+        let turn = stepper.base(0).rotation * self.start.rotation.inverse();
+        self.out.lean = tilt(&turn);
+        self.out.lean_max = self.out.lean_max.max(self.out.lean);
+        if time + 0.5 * self.step >= self.frame {
+            self.frame(stepper, commands, time);
+        }
+    }
+
+    fn frame(&mut self, stepper: &Stepper, commands: &Commands, time: f64) {
+        let mut joints: Vec<f64> = commands.joints.iter().map(|(position, _)| *position).collect();
+        for (body, coordinate) in self.model.bodies.iter().zip(&stepper.coordinates) {
+            if let Some(joint) = &body.joint {
+                joints[joint.id] = coordinate * joint.factor;
+            }
+        }
+        if time == 0.0 {
+            self.out.motion.clear();
+        }
+        self.out.motion.push(Moment { time, base: *stepper.base(0), joints });
+        self.frame = time + FRAME;
+    }
+
+    /// Returns what was measured, with the base where it is now.
+    pub(super) fn end(mut self, stepper: &Stepper) -> Simulation {
+        let end = stepper.base(0);
+        self.out.travel = end.translation.vector - self.start.translation.vector;
+        let turn = (end.rotation * self.start.rotation.inverse()).to_rotation_matrix();
+        self.out.heading = libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)]);
+        debug_assert_eq!(self.out.duration, self.tracks.duration);
+        self.out
+    }
+}
+
+/// Returns the angle by which a rotation leans the vertical, rad.
+fn tilt(turn: &nalgebra::UnitQuaternion<f64>) -> f64 {
+    let up = turn.transform_vector(&Vec3::z());
+    libm::atan2(libm::hypot(up.x, up.y), up.z)
+}

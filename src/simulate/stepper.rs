@@ -1,0 +1,338 @@
+//! The time steps of a simulation: semi-implicit Euler, with servos, stops and contacts at the end of the step.
+//!
+//! The velocities after a step of length h solve `(M + h D + h² K) (v⁺ - v) = h (τ - b + Jᵀ f)`, with all springs K and
+//! dampers D of servos, stops and contacts on the left: they are inertias of joints and links to the articulated-body
+//! method, which so stays linear in the number of links. Which contacts stick, slide or part, and which motors are at
+//! their limits, is found in rounds.
+
+use super::commands::Commands;
+use super::contact::GroundContacts;
+use super::coupling::{Couplings, Instant};
+use super::model::{CoupledMotor, DrivenServo, Model};
+use super::parameters::PARAMETERS;
+use crate::geometry::pose::turned;
+use crate::geometry::{Pose, Vec3};
+use crate::robot::Assembly;
+use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
+use crate::robot::dynamics::Twist;
+use crate::robot::spatial::{SpatialInertia, SpatialVector};
+
+/// The state of a servo in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct ServoState {
+    /// The effort of a motor at its limit, N·m or N; `None`: the servo is a spring with a damper.
+    limited: Option<f64>,
+    /// The end of its range that the joint is at.
+    stop: Option<f64>,
+}
+
+/// A robot in motion.
+#[derive(Clone, Debug)]
+pub(super) struct Stepper<'a> {
+    pub model: &'a Model,
+    /// The time step, s.
+    pub step: f64,
+    /// The acceleration of free fall, m/s².
+    gravity: Vec3,
+    bodies: ArticulatedBodies,
+    pub ground: Option<GroundContacts>,
+    pub couplings: Couplings,
+    /// The world poses of the bodies at the start of the step taken last.
+    pub poses: Vec<Pose>,
+    /// The poses of the bases now, by body; of other bodies they are of no use.
+    bases: Vec<Pose>,
+    /// The velocities of the bases, by body.
+    twists: Vec<Twist>,
+    /// The coordinates of the joints, by body, rad or m, and their rates.
+    pub coordinates: Vec<f64>,
+    pub rates: Vec<f64>,
+    /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
+    pub efforts: Vec<f64>,
+    servos: Vec<ServoState>,
+    /// The bodies that touch the ground, each once, with their own inertia and bias.
+    touched: Vec<(usize, (SpatialInertia, SpatialVector))>,
+    /// The point that spatial vectors were about in the step taken last, m.
+    origin: Vec3,
+    /// The number of steps taken.
+    number: u64,
+}
+
+/// The fault of a step that can't be taken: inertias or forces that are not finite, or no inertia where some is needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct NoInertia;
+
+impl<'a> Stepper<'a> {
+    /// Returns a robot at rest with its joints at `joints` (rad or m, by their ids). `gravity`: m/s², downwards; `step`:
+    /// the time step, s.
+    pub(super) fn new(
+        model: &'a Model,
+        couplings: Couplings,
+        joints: &[f64],
+        gravity: f64,
+        floor: bool,
+        step: f64,
+    ) -> Stepper<'a> {
+        let attachments: Vec<Attachment> = model.bodies.iter().map(|body| body.attachment).collect();
+        let count = model.bodies.len();
+        Stepper {
+            model,
+            step,
+            gravity: Vec3::new(0.0, 0.0, -gravity),
+            bodies: ArticulatedBodies::new(&attachments),
+            ground: floor.then(|| GroundContacts::new(model, step)),
+            couplings,
+            poses: model.start.clone(),
+            bases: model.start.clone(),
+            twists: vec![Twist::default(); count],
+            coordinates: model.coordinates(joints),
+            rates: vec![0.0; count],
+            efforts: vec![0.0; count],
+            servos: vec![ServoState::default(); count],
+            touched: Vec::new(),
+            origin: Vec3::zeros(),
+            number: 0,
+        }
+    }
+
+    /// Takes a step from `time` (s) on, with the commands of its end.
+    ///
+    /// # Errors
+    /// [`NoInertia`] where a joint or base has no inertia, or values are not finite any more.
+    pub(super) fn take(&mut self, commands: &Commands, time: f64) -> Result<(), NoInertia> {
+        self.number += 1;
+        let origin = self.bases[0].translation.vector;
+        self.origin = origin;
+        self.place(&origin);
+        if let Some(ground) = &mut self.ground {
+            ground.find(self.model, &self.bodies, &self.poses, &origin, self.number);
+            self.touched.clear();
+            for contact in &ground.contacts {
+                if self.touched.last().is_none_or(|(body, _)| *body != contact.body) {
+                    self.touched.push((contact.body, self.bodies.own(contact.body)));
+                }
+            }
+        }
+        let at = Instant {
+            time,
+            step: self.step,
+            poses: &self.poses,
+            origin,
+            coordinates: &self.coordinates,
+            rates: &self.rates,
+        };
+        self.couplings.find(self.model, &self.bodies, &at, &commands.joints, self.number);
+        self.servos.iter_mut().for_each(|servo| servo.stop = None);
+        let weight = self.model.mass * self.gravity.norm().max(1.0);
+        for _ in 0..PARAMETERS.rounds_max {
+            self.set_servos(commands);
+            for (body, own) in &self.touched {
+                self.bodies.restore(*body, *own);
+            }
+            if let Some(ground) = &self.ground {
+                ground.add_to(&mut self.bodies);
+            }
+            self.bodies.accelerate().ok_or(NoInertia)?;
+            let at = Instant {
+                time,
+                step: self.step,
+                poses: &self.poses,
+                origin,
+                coordinates: &self.coordinates,
+                rates: &self.rates,
+            };
+            self.couplings.solve(self.model, &mut self.bodies, &at).ok_or(NoInertia)?;
+            let of_ground = self.ground.as_mut().map_or(0.0, |ground| ground.update(&self.bodies));
+            let change = self.couplings.update(&self.bodies, self.step).max(of_ground);
+            let settled = self.update_servos(commands);
+            if settled && change <= PARAMETERS.force_change * weight {
+                break;
+            }
+        }
+        if let Some(ground) = &mut self.ground {
+            ground.keep(&self.bodies, self.number);
+        }
+        self.couplings.keep(self.model, &self.bodies, self.step, self.number);
+        self.move_on(&origin)
+    }
+
+    /// Finds the poses, twists and rigid inertias of all bodies; spatial vectors are about `origin`.
+    fn place(&mut self, origin: &Vec3) {
+        for (at, body) in self.model.bodies.iter().enumerate() {
+            match (&body.step, body.attachment) {
+                (Some(step), Attachment::Joint(parent) | Attachment::Fixed(parent)) => {
+                    self.poses[at] = step.child_pose_at(&self.poses[parent], self.coordinates[at]);
+                    let axis = step.axis_between(&self.poses[parent], &self.poses[at]);
+                    let axis =
+                        axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
+                    self.bodies.set_joint(at, axis, self.rates[at]);
+                }
+                _ => {
+                    self.poses[at] = self.bases[at];
+                    let Twist { linear, angular } = self.twists[at];
+                    let from = origin - self.poses[at].translation.vector;
+                    let twist = SpatialVector { angular, linear: linear + angular.cross(&from) };
+                    self.bodies.set_base(at, twist, body.attachment == Attachment::Held);
+                }
+            }
+            let composite = body.rigid.composite(&self.poses[at], origin);
+            let weight = SpatialVector::weight(&composite, &self.gravity);
+            self.bodies.set_inertia(at, composite.into(), &weight);
+        }
+    }
+
+    /// Sets the efforts of all joints as their servos are now.
+    fn set_servos(&mut self, commands: &Commands) {
+        let h = self.step;
+        for (at, body) in self.model.bodies.iter().enumerate() {
+            let Some(joint) = &body.joint else { continue };
+            let (q, v) = (self.coordinates[at], self.rates[at]);
+            let (mut effort, mut armature) = (0.0, joint.armature);
+            match (joint.servo, self.servos[at].limited) {
+                (Some(_), Some(limited)) => effort += limited,
+                (Some(servo), None) => {
+                    let command = command(commands, joint.id, joint.factor);
+                    effort += spring(&servo, h, q, v, command);
+                    armature += h * (h * servo.stiffness + servo.damping);
+                }
+                (None, _) => {}
+            }
+            if let Some(end) = self.servos[at].stop {
+                let stiffness = PARAMETERS.stop_stiffness;
+                let damping = PARAMETERS.contact_damping * stiffness;
+                effort += stiffness * (end - q - h * v) - damping * v;
+                armature += h * (h * stiffness + damping);
+            }
+            self.bodies.set_effort(at, effort, armature);
+        }
+    }
+
+    /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
+    /// true if that was known.
+    fn update_servos(&mut self, commands: &Commands) -> bool {
+        let h = self.step;
+        let mut settled = true;
+        for (at, body) in self.model.bodies.iter().enumerate() {
+            let Some(joint) = &body.joint else { continue };
+            let q = self.coordinates[at];
+            let v = self.rates[at] + h * self.bodies.joint_acceleration(at);
+            let mut now = ServoState::default();
+            if let Some(servo) = &joint.servo {
+                let effort = spring(servo, h, q, v, command(commands, joint.id, joint.factor));
+                self.efforts[at] = effort.clamp(-servo.effort, servo.effort);
+                now.limited = (effort.abs() > servo.effort).then_some(self.efforts[at]);
+            }
+            if let Some((low, high)) = joint.range {
+                let next = q + h * v;
+                now.stop = if next > high { Some(high) } else { (next < low).then_some(low) };
+            }
+            settled &= now == self.servos[at];
+            self.servos[at] = now;
+        }
+        for coupled in &self.model.coupled {
+            let of = |(body, sign): &(usize, f64)| self.efforts[*body] * sign;
+            let efforts: Vec<f64> = coupled.bodies.iter().map(of).collect();
+            let needed: Vec<f64> = coupled.motors.iter().map(|motor| dot(&motor.shares, &efforts)).collect();
+            let exceeds = |(motor, needed): (&CoupledMotor, &f64)| needed.abs() > motor.effort;
+            if !coupled.motors.iter().zip(&needed).any(exceeds) {
+                continue;
+            }
+            for (number, (body, sign)) in coupled.bodies.iter().enumerate() {
+                let drives = |(motor, needed): (&CoupledMotor, &f64)| {
+                    motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
+                };
+                let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
+                self.efforts[*body] = effort;
+                let now = ServoState { limited: Some(effort), ..self.servos[*body] };
+                settled &= now == self.servos[*body];
+                self.servos[*body] = now;
+            }
+        }
+        settled
+    }
+
+    /// Moves on by the accelerations found.
+    fn move_on(&mut self, origin: &Vec3) -> Result<(), NoInertia> {
+        let h = self.step;
+        let mut sum = 0.0;
+        for (at, body) in self.model.bodies.iter().enumerate() {
+            match body.attachment {
+                Attachment::Joint(_) => {
+                    self.rates[at] += h * self.bodies.joint_acceleration(at);
+                    self.coordinates[at] += h * self.rates[at];
+                    sum += self.coordinates[at];
+                }
+                Attachment::Floating => {
+                    let base = &mut self.bases[at];
+                    let twist = &mut self.twists[at];
+                    let acceleration = self.bodies.acceleration(at);
+                    let from = base.translation.vector - origin;
+                    let linear = acceleration.at(&from) + twist.angular.cross(&twist.linear);
+                    twist.linear += linear * h;
+                    twist.angular += acceleration.angular * h;
+                    base.translation.vector += twist.linear * h;
+                    let turn = turned(twist.angular, twist.angular.norm() * h).rotation;
+                    base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
+                    sum += base.translation.vector.sum();
+                }
+                Attachment::Held | Attachment::Fixed(_) => {}
+            }
+        }
+        if f64::is_finite(sum) { Ok(()) } else { Err(NoInertia) }
+    }
+
+    /// Lets a bond, by its index in the assembly, hold from now on or no longer. Returns the distance (m) and the angle
+    /// (rad) of its ports from a perfect mate; `None` if it is in a tree.
+    pub(super) fn hold(&mut self, bond: usize, holds: bool, commands: &Commands) -> Option<(f64, f64)> {
+        self.couplings.hold(bond, holds, &self.poses, &commands.joints)
+    }
+
+    /// Returns the load of each bond that states what it holds, as (index of the bond in the assembly, part of what it
+    /// holds, true if it is in no tree), for the step taken last.
+    pub(super) fn bond_loads(&self, robot: &Assembly) -> Vec<(usize, f64, bool)> {
+        let mut loads = self.couplings.loads(robot, &self.poses);
+        let origin = self.origin;
+        for &(bond, body) in &self.model.carrying {
+            let Some(port) = self.couplings.port(robot, bond, self.model) else { continue };
+            let SpatialVector { angular, linear } = self.bodies.transmitted(body);
+            let X_WP = self.poses[port.0] * port.1;
+            let point = X_WP.translation.vector - origin;
+            let wrench = [linear, angular - point.cross(&linear)];
+            // What the first port exerts on the second: the tree may carry the first by the second.
+            let sign = if port.0 == body { -1.0 } else { 1.0 };
+            let load = super::coupling::load(robot, bond, &X_WP, wrench.map(|w| w * sign));
+            loads.push((bond, load, false));
+        }
+        loads
+    }
+
+    /// Returns the height of the centre of mass at the start of the step taken last, m.
+    pub(super) fn centre_height(&self) -> f64 {
+        self.model.centre(&self.poses).z
+    }
+
+    /// Returns the greatest speed at which a point came down on the ground in the step taken last that had not touched it
+    /// before, m/s.
+    pub(super) fn impact(&self) -> f64 {
+        self.ground.as_ref().map_or(0.0, GroundContacts::impact)
+    }
+
+    /// Returns the world pose of a base now; `body`: its index.
+    pub(super) fn base(&self, body: usize) -> &Pose {
+        &self.bases[body]
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Returns the commanded coordinate of a joint and its rate.
+fn command(commands: &Commands, joint: usize, factor: f64) -> (f64, f64) {
+    let (position, rate) = commands.joints[joint];
+    (position * factor, rate * factor)
+}
+
+/// Returns the effort of a servo at the end of a step that begins at the coordinate `q` and has the rate `v`.
+fn spring(servo: &DrivenServo, step: f64, q: f64, v: f64, (wanted, rate): (f64, f64)) -> f64 {
+    servo.stiffness * (wanted - q - step * v) + servo.damping * (rate - v)
+}
