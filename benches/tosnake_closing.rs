@@ -5,7 +5,7 @@
 //! squares close to 1e-11 with no ball in another, or fail. So what FABRIK closes is counted twice: as it
 //! is, and where no ball is in another.
 
-use modl::planners::random::SplitMix64;
+use modl::optimize::random::SplitMix64;
 use modl::planners::tosnake::fabrik::{self, Chain, TOUCHING};
 use modl::planners::tosnake::inverse_kinematics::{self, IkMode};
 use modl::planners::tosnake::merging::{self, Attempt, MovingSide, Pair};

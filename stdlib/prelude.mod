@@ -1819,6 +1819,81 @@ extern fn verify(
   slip_max: Length?,
 ) -> Report
 
+/// Plays a plan on the robot as rigid bodies: what it really does, also where motors are too weak, feet slip or it falls.
+///
+/// Servos hold their joints as the modules state (`stiffness`, `armature`, `max_torque`; see `revolute`), links touch the
+/// ground and each other with friction, bonds break at what their connectors hold, ports dock where they are within
+/// `capture`. The robot stands for 0.3 s before the plan begins, and for 0.3 s after it has ended. A verdict and a
+/// simulation are independent of each other: `emit` asks the judge alone, and `notes` says where the two disagree.
+///
+/// `step` is the time step; the plan is played at half of it, too, and `notes` says what that changes. `friction` is a
+/// factor on the friction of all links besides that of the world; `stiffness` the stiffness of all servos that turn, with
+/// that of servos that slide at a lever of 0.1 m, instead of what the modules state.
+///
+/// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of
+/// motors, and the stiffness of servos drawn by `seed`: a spread of 0.2 is a factor that is uniform from 0.8 to 1.2, one
+/// for the whole robot.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// let s = simulate(Driver1().drive(t: 1s), runs: 4, friction_spread: 0.3, mass_spread: 0.1)
+/// print(s.fell, s.falls, s.travel in 60mm..100mm)
+/// ```
+extern fn simulate(
+  what: Plan | Behavior | Config,
+  step: Time = 0.5ms,
+  friction: Number = 1,
+  stiffness: Quantity<N*m/rad>?,
+  runs: Int = 0,
+  seed: Int = 0,
+  friction_spread: Number = 0,
+  mass_spread: Number = 0,
+  torque_spread: Number = 0,
+  stiffness_spread: Number = 0,
+) -> Simulation
+
+/// What happens when a plan is played.
+extern type Simulation {
+  /// How far the base is from where it stood, along the ground, 0.3 s after the end.
+  travel: Length
+  /// From where the base stood to where it is then.
+  displacement: Vec3<Length>
+  /// How far the base has turned about the vertical, from -180 to 180 degrees.
+  heading: Angle
+  /// How far the base leans from how it stood, at the end.
+  lean: Angle
+  /// Whether the centre of mass sank faster than 0.5 m/s.
+  fell: Bool
+  /// When it first did.
+  fell_at: Time?
+  /// The farthest that a joint that turns was behind the plan.
+  lag: Angle
+  /// The farthest that a joint that slides was behind the plan.
+  slide_lag: Length
+  /// The greatest torque or force of a motor as the mean over 50 ms, in parts of its limit.
+  torque: Number
+  /// The longest time that one motor was at its limit in all.
+  saturated: Time
+  /// The greatest load of a bond, in parts of what it holds.
+  bond_load: Number
+  /// The greatest speed at which a link came down on the ground.
+  impact: Speed
+  /// The mechanical work that the motors did; what drives them gives nothing back.
+  energy: Energy
+  /// Where the base was, every 20 ms from the beginning of the plan on.
+  path: List<Vec3<Length>>
+  /// In how many of the further runs it fell.
+  falls: Int
+  /// How far the base got along the ground in each of the further runs.
+  travels: List<Length>
+  /// Falls, bonds that broke, ports that did not dock, in words, in order of time.
+  failures: List<Text>
+  /// What half the step changes, where the verdict on the plan says otherwise, and the mildest of the further runs in
+  /// which it fell.
+  notes: List<Text>
+}
+
 // Planners. Where there is a search, `seed` makes another choice among equals (`auto`: that of the command line, 0
 // unless it is given), `budget` bounds the work in steps, `timeout` can only turn a result into a refusal.
 

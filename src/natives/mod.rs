@@ -44,6 +44,7 @@ mod sequence;
 mod series;
 mod shape;
 mod show;
+mod simulate;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
@@ -81,6 +82,7 @@ const SUBJECTS: &[Subject] = &[
     natives(plan::TABLE),
     natives(fastest::TABLE),
     natives(show::TABLE),
+    Subject { natives: simulate::TABLE, records: simulate::records },
     natives(save::TABLE),
     Subject { natives: series::TABLE, records: series::records },
     Subject { natives: plot::TABLE, records: plot::records },

@@ -8,7 +8,7 @@ use crate::interpret::native::Call;
 use crate::interpret::nesting;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{Callable, Value};
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use crate::source::{Diagnostic, code};
 use std::cmp::Ordering;
 use std::rc::Rc;

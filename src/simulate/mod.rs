@@ -5,7 +5,7 @@
 //!
 //! In reading order: the robot as trees of bodies with servos (`model`), what the plan commands (`commands`), the
 //! time steps (`stepper`), contacts with the ground (`contact`) and between links (`link_contact`), what couples bodies
-//! besides joints (`coupling`), and what is measured (`outcome`). The method is that of articulated bodies
+//! besides joints (`coupling`), what is measured (`outcome`), and many runs of one plan (`robustness`). The method is that of articulated bodies
 //! ([`crate::robot::articulated_bodies`]) with all springs and dampers at the end of the step.
 #![allow(non_snake_case)]
 
@@ -17,6 +17,7 @@ mod model;
 mod outcome;
 mod parameters;
 mod refusal;
+mod robustness;
 mod stepper;
 
 use crate::interrupt;
@@ -31,6 +32,7 @@ use outcome::Recorder;
 pub use outcome::{BondEvent, BondEventKind, Extreme, Moment, Simulation};
 use parameters::PARAMETERS;
 pub use refusal::Refusal;
+pub use robustness::{Factors, Run, Spread, study};
 use stepper::Stepper;
 
 /// The servos where they are not those of the modules.

@@ -1,7 +1,7 @@
 //! Unwinding: a way around where the straight one is not free.
 
+use modl::optimize::random::SplitMix64;
 use modl::planners::NoProgress;
-use modl::planners::random::SplitMix64;
 use modl::planners::tosnake::TOLERANCES;
 use modl::planners::tosnake::broad_phase;
 use modl::planners::tosnake::inverse_kinematics::Loop;

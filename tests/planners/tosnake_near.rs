@@ -2,7 +2,7 @@
 //! instants.
 
 use modl::geometry::{RigidTransform, Vec3};
-use modl::planners::random::SplitMix64;
+use modl::optimize::random::SplitMix64;
 use modl::planners::tosnake::TOLERANCES;
 use modl::planners::tosnake::broad_phase;
 use modl::planners::tosnake::neighbour_list::NeighbourList;

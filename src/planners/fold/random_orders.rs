@@ -5,7 +5,7 @@ use super::observer::Observer;
 use super::progress_text;
 use super::steps;
 use super::tolerances::TOLERANCES;
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 
 /// The costs of random orders of folding, compared with a reference, in the unit of the compared quantity: N·m for
 /// energies.

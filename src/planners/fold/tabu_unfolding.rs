@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::pattern::Pattern;
 use super::target::Target;
 use super::weights::Weights;
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 
 /// Exchanges that are sampled before the best is made.
 const EXCHANGES_SAMPLED: usize = 24;

@@ -12,11 +12,11 @@
 use super::face_groups::groups;
 use super::lattice_sheet::{Corners, LatticeSheet, Point as Cell, Stroke, across, bond, cell};
 use super::rearrangement::{Goal, PanelSolids, pair, rearranged};
+use crate::optimize::random::SplitMix64;
 use crate::planners::fold::Layout;
 use crate::planners::fold::Observer;
 use crate::planners::fold::Target;
 use crate::planners::fold::sweep_collision::Solids;
-use crate::planners::random::SplitMix64;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The number of times that growth which is stuck takes panels away before it starts again.

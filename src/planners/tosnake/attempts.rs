@@ -8,7 +8,7 @@ use super::merging::Attempt;
 use super::motion_check::Scene;
 use super::state::{Joints, State};
 use crate::interrupt::{self, CancelState};
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;

@@ -6,7 +6,7 @@ use super::merging::{Attempt, MovingSide, Pair};
 use super::robot::Dock;
 use super::settings::Settings;
 use super::state::{Joints, State};
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 
 /// Pairs of docks that come together in one step, and the joint positions at its end.
 pub(super) struct ConcurrentMerges {

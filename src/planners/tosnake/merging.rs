@@ -8,7 +8,7 @@ use super::robot::{Bond, Dock, FACES, GAMMA, RED};
 use super::rrt_connect::RrtConnect;
 use super::state::{Joints, State};
 use super::tree::{JointRef, Tree};
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Two free docks -Z at the ends of different chains, which may be brought together.

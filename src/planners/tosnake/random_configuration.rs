@@ -6,7 +6,7 @@ use super::robot::{Bond, DOCKS, Dock, FACES, GAMMA, Robot, mate};
 use super::tolerances::TOLERANCES;
 use super::tree::{JointRef, Tree};
 use crate::geometry::{RigidTransform, Vec3};
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The number of attempts of which on average one docks and one undocks; the others turn a joint.

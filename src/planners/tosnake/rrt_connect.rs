@@ -6,7 +6,7 @@ use super::motion_check::Scene;
 use super::robot::GAMMA;
 use super::state::Joints;
 use super::tree::JointRef;
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Greatest number of samples.

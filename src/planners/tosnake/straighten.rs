@@ -6,7 +6,7 @@ use super::robot::GAMMA;
 use super::state::{State, spread};
 use super::tolerances::TOLERANCES;
 use super::tree::JointRef;
-use crate::planners::random::SplitMix64;
+use crate::optimize::random::SplitMix64;
 use std::f64::consts::FRAC_PI_4;
 
 /// The least number of joints that are turned at once.

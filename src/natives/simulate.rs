@@ -1,0 +1,290 @@
+//! `simulate`: a plan played by rigid bodies, as it is called, and the record that it gives.
+
+use super::Native;
+use crate::interpret::argument::{Positive, arguments};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::PlanValue;
+use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
+use crate::interpret::stop::{Eval, Stop};
+use crate::interpret::value::Value;
+use crate::plan::Verdict;
+use crate::robot::{Assembly, JointId};
+use crate::simulate::{
+    BondEventKind, Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate as play, study,
+};
+use crate::source::{Diagnostic, code};
+use crate::units::{Dimension, fixed, quantity};
+use std::rc::Rc;
+
+/// The built-in `simulate`: its key with its parameters and its Rust function.
+pub(super) const TABLE: &[Native] = &[Native::on_run("simulate", SimulateArguments::PARAMETERS, simulate)];
+
+/// The greatest number of runs of one call.
+const RUNS_MAX: usize = 100_000;
+
+/// The travel, as a part of it, by which a verdict and a simulation may differ before that is noted.
+const NOTED_SHARE: f64 = 0.1;
+/// The difference of their travels up to which none is noted, m.
+const NOTED_LENGTH: f64 = 5e-3;
+/// The lag of a joint from which on it is noted, rad: 10°.
+const NOTED_LAG: f64 = std::f64::consts::PI / 18.0;
+
+arguments! {
+    /// The arguments of `simulate`.
+    struct SimulateArguments<'c> {
+        what: &'c Value,
+        step: Positive,
+        friction: f64,
+        stiffness: Option<Positive>,
+        runs: usize,
+        seed: usize,
+        friction_spread: f64,
+        mass_spread: f64,
+        torque_spread: f64,
+        stiffness_spread: f64,
+    }
+}
+
+/// Runs `simulate`: plays a plan with the step and with half of it, and then with what the spreads draw.
+///
+/// # Errors
+/// A fault where the plan is of a lattice or truss or not sound, the step or a spread is out of range, friction is
+/// negative, there are too many runs, or the robot has no inertia to move.
+fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let read = SimulateArguments::read(call)?;
+    if read.friction < 0.0 {
+        return Err(call.refuse("friction", "friction must not be negative"));
+    }
+    if read.runs > RUNS_MAX {
+        return Err(call.refuse("runs", format!("at most {RUNS_MAX} runs")));
+    }
+    let spread = Spread {
+        friction: read.friction_spread,
+        mass: read.mass_spread,
+        effort: read.torque_spread,
+        stiffness: read.stiffness_spread,
+    };
+    for name in ["friction_spread", "mass_spread", "torque_spread", "stiffness_spread"] {
+        if !(0.0..1.0).contains(&call.get::<f64>(name)?) {
+            return Err(call.refuse(name, "a spread is a part of what is stated, from 0 to below 1"));
+        }
+    }
+    let Some(planned) = interpreter.plan_of(read.what, call.at("what"))? else { return Ok(Value::Unknown) };
+    let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
+    let settings = Settings { step: read.step.0, friction: read.friction, servo, ..Settings::default() };
+    let refused = |refusal: Refusal| refused(&refusal, call);
+    // What does not move like rigid bodies is refused before anything judges it.
+    if planned.plan.body.tracks().is_none() {
+        return Err(refused(Refusal::Family));
+    }
+    crate::interrupt::start_task(format!("simulating {}", planned.robot.name));
+    let plan = &planned.plan;
+    let halved = Settings { step: settings.step / 2.0, ..settings };
+    let (outcome, finer) = crate::interrupt::join(|| play(plan, &settings), || play(plan, &halved));
+    let outcome = outcome.map_err(refused)?;
+    let runs = study(plan, &settings, &spread, read.runs, read.seed as u64).map_err(refused)?;
+    let plain = settings == Settings { step: settings.step, ..Settings::default() };
+    let verdict = plain.then(|| interpreter.judge(&planned, plan.settings, None));
+    let mut notes = vec![match &finer {
+        Ok(finer) => halving(&outcome, finer),
+        Err(refusal) => format!("at half the step: {refusal}"),
+    }];
+    notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
+    notes.extend(mildest(&spread, &runs));
+    Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
+}
+
+/// Returns the fault of a refusal, at the argument that it is about.
+fn refused(refusal: &Refusal, call: &Call) -> Stop {
+    match refusal {
+        Refusal::Step => call.refuse("step", refusal.to_string()),
+        Refusal::NoInertia { .. } => Diagnostic::error(code::BAD_VALUE, refusal.to_string())
+            .label(call.at("what"), "this can't be simulated")
+            .hint("state the `mass` of every link that a joint moves, or take a shorter `step`")
+            .into(),
+        Refusal::Family | Refusal::Invalid(_) | Refusal::Shape(_) => call.refuse("what", refusal.to_string()),
+    }
+}
+
+/// Returns what half the time step changes, in words.
+fn halving(outcome: &Simulation, finer: &Simulation) -> String {
+    let way = (outcome.travel - finer.travel).norm();
+    let turn = (outcome.heading - finer.heading).abs();
+    let falls = match (outcome.fall, finer.fall) {
+        (None, Some(_)) => ", and it falls",
+        (Some(_), None) => ", and it does not fall",
+        _ => "",
+    };
+    format!(
+        "at half the step it ends {} and {} from there{falls}",
+        quantity(rounded(way, 1e-5), Dimension::LENGTH),
+        degrees(turn)
+    )
+}
+
+/// Returns where a verdict and a simulation disagree, in words; `None` where they agree.
+fn disagreement(outcome: &Simulation, verdict: &Verdict) -> Option<String> {
+    if !verdict.ok() {
+        return Some("the verdict on the plan is that it fails".to_string());
+    }
+    let [x, y, _] = verdict.travel;
+    let off = libm::hypot(outcome.travel.x - x, outcome.travel.y - y);
+    let way = libm::hypot(x, y);
+    let mut words = Vec::new();
+    if outcome.fall.is_some() {
+        words.push("it does not fall".to_string());
+    }
+    if off > (NOTED_SHARE * way).max(NOTED_LENGTH) {
+        words.push(format!("it travels {}", quantity(rounded(way, 1e-4), Dimension::LENGTH)));
+    }
+    if outcome.lag.is_some_and(|lag| lag.value > NOTED_LAG) {
+        words.push("its joints follow".to_string());
+    }
+    (!words.is_empty()).then(|| format!("the verdict on the plan says otherwise: {}", words.join(", ")))
+}
+
+/// Returns how many of the further runs fall, and the mildest of them, in words; `None` without such runs.
+fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
+    if runs.is_empty() {
+        return None;
+    }
+    let falling = || runs.iter().filter(|run| run.outcome.fall.is_some());
+    let Some(first) = falling().min_by(|a, b| spread.size(&a.factors).total_cmp(&spread.size(&b.factors)))
+    else {
+        return Some(format!("none of {} runs falls", runs.len()));
+    };
+    let parts = [
+        ("friction", spread.friction, first.factors.friction),
+        ("mass", spread.mass, first.factors.mass),
+        ("torque", spread.effort, first.factors.effort),
+        ("stiffness", spread.stiffness, first.factors.stiffness),
+    ];
+    let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
+    let named: Vec<String> =
+        varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
+    Some(format!("{} of {} runs fall, first at {}", falling().count(), runs.len(), named.join(", ")))
+}
+
+/// The value of the language's type `Simulation`.
+#[derive(Debug)]
+struct Simulated {
+    planned: Rc<PlanValue>,
+    outcome: Simulation,
+    runs: Vec<Run>,
+    notes: Vec<String>,
+}
+
+impl Simulated {
+    fn assembly(&self) -> Option<&Assembly> {
+        self.planned.plan.body.tracks().map(|tracks| &tracks.robot)
+    }
+
+    /// Returns falls and what happened to bonds, in order of time.
+    fn failures(&self) -> Vec<String> {
+        let fall = self.outcome.fall.map(|time| (time, "it falls".to_string()));
+        let bonds = self.outcome.bonds.iter().filter_map(|event| {
+            let name = self.assembly()?.bond_name(event.bond);
+            let words = match event.kind {
+                BondEventKind::Docks(..) => return None,
+                BondEventKind::Misses(distance, angle) => format!(
+                    "{name} does not dock: its ports are {} and {} from a perfect mate",
+                    quantity(rounded(distance, 1e-5), Dimension::LENGTH),
+                    degrees(angle)
+                ),
+                BondEventKind::Breaks(load) => {
+                    format!("{name} breaks, at {} of what it holds", fixed(load, 2))
+                }
+            };
+            Some((event.time, words))
+        });
+        let mut found: Vec<(f64, String)> = fall.into_iter().chain(bonds).collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+            .into_iter()
+            .map(|(time, words)| format!("at {}: {words}", quantity(rounded(time, 1e-3), Dimension::TIME)))
+            .collect()
+    }
+
+    /// Returns the greatest value of a quantity; 0 where there is none.
+    fn worst(extreme: Option<Extreme>) -> f64 {
+        extreme.map_or(0.0, |extreme| extreme.value)
+    }
+
+    /// Returns the path name of the joint at which a quantity was greatest, after ` at `; empty where there is none.
+    fn joint(&self, extreme: Option<Extreme>) -> String {
+        let name = extreme.zip(self.assembly()).map(|(extreme, robot)| {
+            format!(" at {}", robot.name_of(JointId(u32::try_from(extreme.of).unwrap_or(u32::MAX))))
+        });
+        name.unwrap_or_default()
+    }
+}
+
+/// The fields of a `Simulation`.
+const SIMULATION: &[Field<Simulated>] = &[
+    ("travel", |s| Value::length(s.outcome.travel.xy().norm())),
+    ("displacement", |s| Value::Vec3(s.outcome.travel, Dimension::LENGTH)),
+    ("heading", |s| Value::Quantity(s.outcome.heading, Dimension::ANGLE)),
+    ("lean", |s| Value::Quantity(s.outcome.lean, Dimension::ANGLE)),
+    ("fell", |s| Value::Bool(s.outcome.fall.is_some())),
+    ("fell_at", |s| Value::optional(s.outcome.fall.map(Value::time))),
+    ("lag", |s| Value::Quantity(Simulated::worst(s.outcome.lag), Dimension::ANGLE)),
+    ("slide_lag", |s| Value::length(Simulated::worst(s.outcome.lag_length))),
+    ("torque", |s| Value::number(Simulated::worst(s.outcome.effort))),
+    ("saturated", |s| Value::time(Simulated::worst(s.outcome.saturated))),
+    ("bond_load", |s| Value::number(Simulated::worst(s.outcome.bond_load))),
+    ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
+    ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
+    ("path", |s| {
+        let at =
+            |moment: &crate::simulate::Moment| Value::Vec3(moment.base.translation.vector, Dimension::LENGTH);
+        Value::list(s.outcome.motion.iter().map(at).collect())
+    }),
+    ("falls", |s| Value::count(s.runs.iter().filter(|run| run.outcome.fall.is_some()).count())),
+    ("travels", |s| {
+        Value::list(s.runs.iter().map(|run| Value::length(run.outcome.travel.xy().norm())).collect())
+    }),
+    ("failures", |s| Value::list(s.failures().iter().map(Value::text).collect())),
+    ("notes", |s| Value::list(s.notes.iter().map(Value::text).collect())),
+];
+
+impl NativeRecord for Simulated {
+    fn read(&self, field: &str) -> Value {
+        read_field(SIMULATION, self, field)
+    }
+
+    fn show(&self) -> String {
+        let out = &self.outcome;
+        let mut words = vec![format!(
+            "simulated in steps of {}: travels {}, turns {}, leans at most {}",
+            quantity(out.step, Dimension::TIME),
+            quantity(rounded(out.travel.xy().norm(), 1e-4), Dimension::LENGTH),
+            degrees(out.heading),
+            degrees(out.lean_max)
+        )];
+        if let Some(lag) = out.lag {
+            words.push(format!("joints lag by {}{}", degrees(lag.value), self.joint(out.lag)));
+        }
+        if let Some(effort) = out.effort {
+            words.push(format!("torque reaches {}{}", fixed(effort.value, 2), self.joint(out.effort)));
+        }
+        words.extend(self.failures().into_iter().map(|failure| format!("failed {failure}")));
+        words.extend(self.notes.iter().map(|note| format!("note: {note}")));
+        words.join("\n  ")
+    }
+}
+
+/// Returns a number in whole multiples of a unit.
+fn rounded(x: f64, unit: f64) -> f64 {
+    libm::round(x / unit) * unit
+}
+
+/// Returns an angle (rad) in tenths of a degree, in words.
+fn degrees(angle: f64) -> String {
+    format!("{}deg", fixed(angle.to_degrees() + 0.0, 1))
+}
+
+/// Returns the records of this file, each as (name, names of its fields in order).
+pub(super) fn records() -> Vec<(&'static str, Vec<&'static str>)> {
+    vec![("Simulation", field_names(SIMULATION))]
+}

@@ -1,0 +1,106 @@
+//! Many simulations of one plan with friction, masses and motors that differ: does it still happen?
+
+use super::{Refusal, Settings, Simulation, simulate};
+use crate::interrupt;
+use crate::optimize::random::SplitMix64;
+use crate::plan::Plan;
+
+/// How far quantities may be from what is stated, as fractions from 0 to below 1: a spread of 0.2 is a factor that is
+/// uniform from 0.8 to 1.2.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// The spread of the coefficients of friction, one factor for all.
+    pub friction: f64,
+    /// The spread of the masses, one factor for all.
+    pub mass: f64,
+    /// The spread of the greatest efforts of motors, one factor for all.
+    pub effort: f64,
+    /// The spread of the stiffness of servos, one factor for all.
+    pub stiffness: f64,
+}
+
+/// Factors on what is stated, without unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors {
+    /// The factor on friction.
+    pub friction: f64,
+    /// The factor on masses.
+    pub mass: f64,
+    /// The factor on the greatest efforts.
+    pub effort: f64,
+    /// The factor on the stiffness of servos.
+    pub stiffness: f64,
+}
+
+/// One of many simulations, with the factors that it was made with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The factors.
+    pub factors: Factors,
+    /// What happened, without the motion.
+    pub outcome: Simulation,
+}
+
+impl Spread {
+    /// Returns the factors of the run of an index, from 0, of a study with this seed: those of one run do not depend on
+    /// the others.
+    fn factors(&self, seed: u64, index: usize) -> Factors {
+        let mut numbers = SplitMix64(seed);
+        numbers.skip(4 * index);
+        let mut factor = |spread: f64| 1.0 + spread * numbers.next_signed();
+        Factors {
+            friction: factor(self.friction),
+            mass: factor(self.mass),
+            effort: factor(self.effort),
+            stiffness: factor(self.stiffness),
+        }
+    }
+
+    /// Returns the size of factors as parts of this spread: the Euclidean norm, 0 for the quantities that it leaves alone.
+    pub fn size(&self, factors: &Factors) -> f64 {
+        let part = |spread: f64, factor: f64| if spread > 0.0 { (factor - 1.0) / spread } else { 0.0 };
+        let parts = [
+            part(self.friction, factors.friction),
+            part(self.mass, factors.mass),
+            part(self.effort, factors.effort),
+            part(self.stiffness, factors.stiffness),
+        ];
+        parts.iter().map(|part| part * part).sum::<f64>().sqrt()
+    }
+}
+
+/// Plays a plan `runs` times with factors drawn from a spread; the same runs for the same seed, on two threads where there
+/// are two. The factors are on those of `settings`.
+///
+/// # Errors
+/// The [`Refusal`] of the first run that is refused.
+pub fn study(
+    plan: &Plan,
+    settings: &Settings,
+    spread: &Spread,
+    runs: usize,
+    seed: u64,
+) -> Result<Vec<Run>, Refusal> {
+    let every_other = |first: usize| {
+        let mut found = Vec::new();
+        for index in (first..runs).step_by(2) {
+            interrupt::progress_checkpoint(|| format!("{index} of {runs} runs"));
+            found.push(run(plan, settings, &spread.factors(seed, index)));
+        }
+        found
+    };
+    let (even, odd) = interrupt::join(|| every_other(0), || every_other(1));
+    let mut halves = [even.into_iter(), odd.into_iter()];
+    (0..runs).map(|index| halves[index % 2].next().expect("each half has its runs")).collect()
+}
+
+fn run(plan: &Plan, settings: &Settings, factors: &Factors) -> Result<Run, Refusal> {
+    let mut varied = *settings;
+    varied.friction *= factors.friction;
+    varied.mass *= factors.mass;
+    varied.servo.effort *= factors.effort;
+    varied.servo.factor *= factors.stiffness;
+    let mut outcome = simulate(plan, &varied)?;
+    outcome.motion = Vec::new();
+    Ok(Run { factors: *factors, outcome })
+}
