@@ -1838,7 +1838,7 @@ extern fn verify(
 /// ```modl
 /// use std.smores.Driver1
 /// let s = simulate(Driver1().drive(t: 1s), runs: 4, friction_spread: 0.3, mass_spread: 0.1)
-/// print(s.fell, s.falls, s.travel in 60mm..100mm)
+/// print(s.fell, s.falls, s.travel > 60mm)
 /// ```
 extern fn simulate(
   what: Plan | Behavior | Config,

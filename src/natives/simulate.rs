@@ -74,7 +74,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let settings = Settings { step: read.step.0, friction: read.friction, servo, ..Settings::default() };
     let refused = |refusal: Refusal| refused(&refusal, call);
-    // What does not move like rigid bodies is refused before anything judges it.
+    // Lattices and trusses are refused before anything judges them.
     if planned.plan.body.tracks().is_none() {
         return Err(refused(Refusal::Family));
     }

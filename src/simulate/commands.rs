@@ -1,4 +1,4 @@
-//! What a plan commands of its joints over time.
+//! Commanded positions and velocities of a plan's joints over time.
 
 use crate::plan::{Track, Tracks, polynomial};
 

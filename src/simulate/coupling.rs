@@ -1,5 +1,5 @@
-//! What couples two bodies besides the joints of the trees: bonds that close loops or dock on the way, and joints that
-//! follow others.
+//! Couplings of bodies besides the joints of the trees: bonds that close loops or dock on the way, and joints that follow
+//! others.
 //!
 //! Each is some rows, a row a spring and a damper with the force at the end of the step, `f = f₀ - C ẋ`. The response of
 //! the trees to a unit force in every row makes a dense system (compare Featherstone, *Rigid Body Dynamics Algorithms*,
@@ -285,7 +285,7 @@ impl LooseBond {
         let X_WQ = at.poses[*second] * X_BQ;
         let off = self.error(at.poses, command);
         let (since, at_first) = *self.docked.get_or_insert((at.time, off));
-        // What was off at first is drawn in slowly.
+        // The first error is drawn in slowly.
         let left = libm::exp(-(at.time - since) / PARAMETERS.docking_time);
         let axis = self.hinge.map(|(axis, _)| X_WP.rotation * axis);
         let point = X_WQ.translation.vector - at.origin;
@@ -328,7 +328,7 @@ fn states(robot: &Assembly, bond: usize) -> bool {
 pub(super) fn load(robot: &Assembly, bond: usize, X_WP: &Pose, [force, moment]: [Vec3; 2]) -> f64 {
     let a = robot.bonds[bond].a;
     let connector = &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
-    // What pulls the second port back to the first is a pull across the bond.
+    // A force that pulls the second port back to the first is a pull across the bond.
     let pull = -force.dot(&(X_WP.rotation * Vec3::x()));
     let of_force = connector.holds_force.map_or(0.0, |holds| pull.max(0.0) / holds);
     let of_moment = connector.holds_moment.map_or(0.0, |holds| moment.norm() / holds);

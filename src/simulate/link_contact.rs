@@ -111,7 +111,7 @@ impl LinkContacts {
             model.body_of[firsts[port.module] + robot.module_type(port.module).ports[port.port].link]
         };
         all.excluded.extend(robot.bonds.iter().map(|bond| pair(of(bond.a), of(bond.b))));
-        // What hangs together is one body.
+        // Links that hang together are one body.
         let mut whole: Vec<usize> = (0..model.bodies.len()).collect();
         for (at, body) in model.bodies.iter().enumerate() {
             if let Attachment::Fixed(parent) = body.attachment {

@@ -1,4 +1,4 @@
-//! What a simulation measures.
+//! Measurements of a simulation.
 
 use super::commands::Commands;
 use super::model::Model;
@@ -33,11 +33,11 @@ pub struct BondEvent {
     pub bond: usize,
     /// The time from the start of the plan, s.
     pub time: f64,
-    /// What happens.
+    /// The change of the bond.
     pub kind: BondEventKind,
 }
 
-/// What happens to a bond.
+/// A change of a bond.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BondEventKind {
     /// Its ports dock: their distance (m) and the angle (rad) from a perfect mate.
@@ -60,7 +60,7 @@ pub struct Moment {
     pub joints: Vec<f64>,
 }
 
-/// What happens when a plan is played.
+/// The result of a plan that is played.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
     /// The time step, s.
@@ -91,7 +91,7 @@ pub struct Simulation {
     pub work: f64,
     /// The greatest load of a bond, in parts of what it holds; `None` where no bond states that.
     pub bond_load: Option<Extreme>,
-    /// What happened to bonds, in order of time.
+    /// The changes of bonds, in order of time.
     pub bonds: Vec<BondEvent>,
     /// The motion, every 20 ms from the start of the plan.
     pub motion: Vec<Moment>,

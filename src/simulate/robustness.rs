@@ -5,8 +5,8 @@ use crate::interrupt;
 use crate::optimize::random::SplitMix64;
 use crate::plan::Plan;
 
-/// How far quantities may be from what is stated, as fractions from 0 to below 1: a spread of 0.2 is a factor that is
-/// uniform from 0.8 to 1.2.
+/// The greatest deviations of quantities from what is stated, as fractions from 0 to below 1: a spread of 0.2 is a factor
+/// that is uniform from 0.8 to 1.2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spread {
     /// The spread of the coefficients of friction, one factor for all.
@@ -37,7 +37,7 @@ pub struct Factors {
 pub struct Run {
     /// The factors.
     pub factors: Factors,
-    /// What happened, without the motion.
+    /// The result, without the motion.
     pub outcome: Simulation,
 }
 

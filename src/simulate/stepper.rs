@@ -2,8 +2,8 @@
 //!
 //! The velocities after a step of length h solve `(M + h D + h² K) (v⁺ - v) = h (τ - b + Jᵀ f)`, with all springs K and
 //! dampers D of servos, stops and contacts on the left: they are inertias of joints and links to the articulated-body
-//! method, which so stays linear in the number of links. Which contacts stick, slide or part, and which motors are at
-//! their limits, is found in rounds.
+//! method, which so stays linear in the number of links. Rounds find the contacts that stick, slide or part, and the motors
+//! that are at their limits.
 
 use super::commands::Commands;
 use super::contact::GroundContacts;
@@ -297,7 +297,7 @@ impl<'a> Stepper<'a> {
             let X_WP = self.poses[port.0] * port.1;
             let point = X_WP.translation.vector - origin;
             let wrench = [linear, angular - point.cross(&linear)];
-            // What the first port exerts on the second: the tree may carry the first by the second.
+            // The load is that of the first port on the second; the tree may carry the first by the second.
             let sign = if port.0 == body { -1.0 } else { 1.0 };
             let load = super::coupling::load(robot, bond, &X_WP, wrench.map(|w| w * sign));
             loads.push((bond, load, false));

@@ -1,0 +1,78 @@
+--- a motor that is too weak lets its arm down to the end of its range
+module Lever(weight: Mass) {
+  link stand = box(100mm, 100mm, 40mm, mass: 5kg)
+  link arm = box(200mm, 20mm, 20mm, mass: weight) at [150mm, 0mm, 60mm]
+  joint lift : stand -> arm =
+    revolute(axis: Y, range: -30deg..30deg, max_torque: 1N*m, stiffness: 100N*m/rad) at [50mm, 0mm, 60mm]
+}
+config Holding(weight: Mass) { part m: Lever(weight: weight)  behavior hold = wait(1s) }
+let light = simulate(plan(Holding(weight: 900g).hold(), world: world(ground: held)))
+let heavy = simulate(plan(Holding(weight: 1.2kg).hold(), world: world(ground: held)))
+// The torque is m g l: 0.9 kg at 0.1 m need 0.883 N·m, and the servo yields by 0.883/100 rad, 0.51 degrees.
+print("{light.torque:.3} {light.lag:.2} {light.saturated}", len(light.notes))
+//> 0.883 0.51deg 0ms 1
+print("{heavy.torque:.3} {heavy.lag:.0}", heavy.saturated > 1s)
+//> 1.000 30deg true
+print(heavy.notes[1])
+//> the verdict on the plan is that it fails
+
+--- a bond breaks under more than it holds
+connector Hook { mates Hook, turns 4, holds 15N }
+module Block(weight: Mass) {
+  link body = box(50mm, 50mm, 50mm, mass: weight)
+  port top : Hook on body at [0mm, 0mm, 25mm] facing +Z up +X
+  port bottom : Hook on body at [0mm, 0mm, -25mm] facing -Z up +X
+}
+config Hanging(weight: Mass) {
+  part a: Block(weight: 1kg)
+  part b: Block(weight: weight)
+  connect a.bottom -- b.top
+  base a
+  behavior hang = wait(1s)
+}
+let held = world(ground: held)
+// 15 N carry 1.5296 kg.
+let below = simulate(plan(Hanging(weight: 1.52kg).hang(), world: held))
+let above = simulate(plan(Hanging(weight: 1.54kg).hang(), world: held))
+print("{below.bond_load:.4}", len(below.failures), below.fell)
+//> 0.9937 0 false
+print(above.failures[0], above.fell)
+//> at 0ms: a.bottom -- b.top breaks, at 1.01 of what it holds true
+// The centre of mass of both falls with 1.54/2.54 of gravity, and so reaches 0.5 m/s after 84 ms; steps add 1 or 2 ms.
+let at = above.fell_at else 0s
+print(at > 84ms and at < 87ms)
+//> true
+
+--- arguments out of range
+use std.smores.Driver1
+let d = plan(Driver1().drive(t: 100ms))
+print(simulate(d, step: 0s))
+//                      ^^ E0506 must be positive
+print(simulate(d, step: 1s))
+//                      ^^ E0506 from 1us to 5ms
+print(simulate(d, friction: -1))
+//                          ^^ E0506 must not be negative
+print(simulate(d, runs: -1))
+//                      ^^ E0506 must not be negative
+print(simulate(d, runs: 1000000))
+//                      ^^^^^^^ E0506 at most 100000 runs
+print(simulate(d, runs: 1, mass_spread: 1))
+//                                      ^ E0506 from 0 to below 1
+print(simulate(d, stiffness: 0N*m/rad))
+//                           ^^^^^^^^ E0506 must be positive
+
+--- lattices are refused by name
+use std.crystal.ExpandingCube
+lattice Bar of ExpandingCube = row(8)
+lattice Pole of ExpandingCube = column(8)
+print(simulate(squeeze(Bar, Pole)))
+//             ^^^^^^^^^^^^^^^^^^ E0506 only robots with joints are simulated
+
+--- the same runs for the same seed, and others for another
+use std.smores.Driver1
+let d = plan(Driver1().drive(t: 300ms))
+let a = simulate(d, runs: 3, seed: 5, friction_spread: 0.5, stiffness_spread: 0.5)
+let b = simulate(d, runs: 3, seed: 5, friction_spread: 0.5, stiffness_spread: 0.5)
+let c = simulate(d, runs: 3, seed: 6, friction_spread: 0.5, stiffness_spread: 0.5)
+print(a.travels == b.travels, a.travels == c.travels, len(a.travels), a.falls)
+//> true false 3 0
