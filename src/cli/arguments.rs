@@ -94,6 +94,24 @@ pub(super) enum Command {
         #[arg(value_name = "PLANFILE", required = true)]
         files: Vec<PathBuf>,
     },
+    /// Play plan files by rigid bodies: what the robots really do
+    #[command(
+        after_help = "Servos follow the plan within their torque, links touch the ground and each other with \
+        friction,\nbonds break at what they hold. What half the time step changes is said. The exit code is 1 if \
+        a robot\nfalls, a bond breaks or ports do not dock.\n\n\
+        Example:\n  modl simulate out/walkbot.plan.json"
+    )]
+    Simulate {
+        /// Plan files; `-` reads standard input
+        #[arg(value_name = "PLANFILE", required = true)]
+        files: Vec<PathBuf>,
+        /// The time step in milliseconds, 0.001 to 5
+        #[arg(long, value_name = "MS")]
+        step: Option<f64>,
+        /// The factor on all coefficients of friction
+        #[arg(long, value_name = "FACTOR")]
+        friction: Option<f64>,
+    },
     /// Draw what a program plans, or a plan file, as a page that plays it
     #[command(
         after_help = "Example:\n  modl show walkbot.mod --open\n  modl show out/walkbot.plan.json\n\nOf a program, \

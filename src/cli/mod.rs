@@ -21,6 +21,7 @@ mod program;
 mod repl;
 mod report;
 mod show;
+mod simulate;
 mod terminal;
 mod verdict;
 mod watch;
@@ -177,6 +178,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
             watch::run(files, &task, globals)
         }
         Command::Verify { files } => judge::run(files, globals),
+        Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
         Command::Repl { file, .. } => repl::run(file.as_deref(), globals),

@@ -45,6 +45,9 @@ pub(super) struct Report {
     /// The verdicts on plan files; `None` for commands that judge none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plans: Option<Vec<JsonPlan>>,
+    /// The simulations of plan files; `None` for commands that play none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub simulations: Option<Vec<JsonSimulation>>,
     /// The links of documentation that lead nowhere; `None` for commands that write none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub broken_links: Option<Vec<JsonLink>>,
@@ -88,6 +91,58 @@ pub(super) struct JsonPlan {
     pub verdict: Verdict,
     /// The declarations of the file that the verdict rests on, in the order of the file's library.
     pub rests_on: Vec<Declaration>,
+}
+
+/// The simulation of a plan file, as JSON, in SI units and radians.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonSimulation {
+    /// The plan file, as it was named on the command line.
+    pub file: String,
+    /// True if it does not fall, no bond breaks, and all ports dock.
+    pub ok: bool,
+    /// The time step, s.
+    pub step: f64,
+    /// The duration of the plan, s.
+    pub duration: f64,
+    /// The displacement of the base, m.
+    pub travel: [f64; 3],
+    /// The turn of the base about the vertical, rad.
+    pub heading: f64,
+    /// The angle by which the base leans at the end, rad.
+    pub lean: f64,
+    /// The greatest such angle, rad.
+    pub lean_max: f64,
+    /// The time at which the robot falls, s; `None`: it does not.
+    pub fall: Option<f64>,
+    /// The farthest that a joint that turns is behind the plan, rad.
+    pub lag: Option<JsonExtreme>,
+    /// The farthest that a joint that slides is behind the plan, m.
+    pub slide_lag: Option<JsonExtreme>,
+    /// The greatest effort of a motor as a mean over 50 ms, in parts of its limit.
+    pub torque: Option<JsonExtreme>,
+    /// The longest time that a motor is at its limit, s.
+    pub saturated: Option<JsonExtreme>,
+    /// The greatest load of a bond, in parts of what it holds.
+    pub bond_load: Option<JsonExtreme>,
+    /// The greatest speed at which a link comes down on the ground, m/s.
+    pub impact: f64,
+    /// The mechanical work of the motors, J.
+    pub energy: f64,
+    /// The fall, bonds that broke and ports that did not dock, in words.
+    pub failures: Vec<String>,
+    /// The change that half the time step makes, in words.
+    pub notes: Vec<String>,
+}
+
+/// The greatest value of a quantity, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct JsonExtreme {
+    /// The value.
+    pub value: f64,
+    /// The path name of the joint, or the bond's name.
+    pub at: String,
+    /// The time from the start of the plan, s.
+    pub time: f64,
 }
 
 /// A declaration of a plan file's library, which a verdict rests on.

@@ -9,9 +9,9 @@ use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_fi
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::plan::Verdict;
-use crate::robot::{Assembly, JointId};
+use crate::robot::Assembly;
 use crate::simulate::{
-    BondEventKind, Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate as play, study,
+    Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate as play, study,
 };
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, fixed, quantity};
@@ -87,7 +87,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let plain = settings == Settings { step: settings.step, ..Settings::default() };
     let verdict = plain.then(|| interpreter.judge(&planned, plan.settings, None));
     let mut notes = vec![match &finer {
-        Ok(finer) => halving(&outcome, finer),
+        Ok(finer) => outcome.halving(finer),
         Err(refusal) => format!("at half the step: {refusal}"),
     }];
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
@@ -107,22 +107,6 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
     }
 }
 
-/// Returns what half the time step changes, in words.
-fn halving(outcome: &Simulation, finer: &Simulation) -> String {
-    let way = (outcome.travel - finer.travel).norm();
-    let turn = (outcome.heading - finer.heading).abs();
-    let falls = match (outcome.fall, finer.fall) {
-        (None, Some(_)) => ", and it falls",
-        (Some(_), None) => ", and it does not fall",
-        _ => "",
-    };
-    format!(
-        "at half the step it ends {} and {} from there{falls}",
-        quantity(rounded(way, 1e-5), Dimension::LENGTH),
-        degrees(turn)
-    )
-}
-
 /// Returns where a verdict and a simulation disagree, in words; `None` where they agree.
 fn disagreement(outcome: &Simulation, verdict: &Verdict) -> Option<String> {
     if !verdict.ok() {
@@ -136,7 +120,7 @@ fn disagreement(outcome: &Simulation, verdict: &Verdict) -> Option<String> {
         words.push("it does not fall".to_string());
     }
     if off > (NOTED_SHARE * way).max(NOTED_LENGTH) {
-        words.push(format!("it travels {}", quantity(rounded(way, 1e-4), Dimension::LENGTH)));
+        words.push(format!("it travels {}", quantity(way, Dimension::LENGTH)));
     }
     if outcome.lag.is_some_and(|lag| lag.value > NOTED_LAG) {
         words.push("its joints follow".to_string());
@@ -182,41 +166,12 @@ impl Simulated {
 
     /// Returns falls and what happened to bonds, in order of time.
     fn failures(&self) -> Vec<String> {
-        let fall = self.outcome.fall.map(|time| (time, "it falls".to_string()));
-        let bonds = self.outcome.bonds.iter().filter_map(|event| {
-            let name = self.assembly()?.bond_name(event.bond);
-            let words = match event.kind {
-                BondEventKind::Docks(..) => return None,
-                BondEventKind::Misses(distance, angle) => format!(
-                    "{name} does not dock: its ports are {} and {} from a perfect mate",
-                    quantity(rounded(distance, 1e-5), Dimension::LENGTH),
-                    degrees(angle)
-                ),
-                BondEventKind::Breaks(load) => {
-                    format!("{name} breaks, at {} of what it holds", fixed(load, 2))
-                }
-            };
-            Some((event.time, words))
-        });
-        let mut found: Vec<(f64, String)> = fall.into_iter().chain(bonds).collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found
-            .into_iter()
-            .map(|(time, words)| format!("at {}: {words}", quantity(rounded(time, 1e-3), Dimension::TIME)))
-            .collect()
+        self.assembly().map_or_else(Vec::new, |robot| self.outcome.failures(robot))
     }
 
     /// Returns the greatest value of a quantity; 0 where there is none.
     fn worst(extreme: Option<Extreme>) -> f64 {
         extreme.map_or(0.0, |extreme| extreme.value)
-    }
-
-    /// Returns the path name of the joint at which a quantity was greatest, after ` at `; empty where there is none.
-    fn joint(&self, extreme: Option<Extreme>) -> String {
-        let name = extreme.zip(self.assembly()).map(|(extreme, robot)| {
-            format!(" at {}", robot.name_of(JointId(u32::try_from(extreme.of).unwrap_or(u32::MAX))))
-        });
-        name.unwrap_or_default()
     }
 }
 
@@ -254,34 +209,10 @@ impl NativeRecord for Simulated {
     }
 
     fn show(&self) -> String {
-        let out = &self.outcome;
-        let mut words = vec![format!(
-            "simulated in steps of {}: travels {}, turns {}, leans at most {}",
-            quantity(out.step, Dimension::TIME),
-            quantity(rounded(out.travel.xy().norm(), 1e-4), Dimension::LENGTH),
-            degrees(out.heading),
-            degrees(out.lean_max)
-        )];
-        if let Some(lag) = out.lag {
-            words.push(format!("joints lag by {}{}", degrees(lag.value), self.joint(out.lag)));
-        }
-        if let Some(effort) = out.effort {
-            words.push(format!("torque reaches {}{}", fixed(effort.value, 2), self.joint(out.effort)));
-        }
-        words.extend(self.failures().into_iter().map(|failure| format!("failed {failure}")));
+        let mut words = self.assembly().map_or_else(Vec::new, |robot| self.outcome.in_words(robot));
         words.extend(self.notes.iter().map(|note| format!("note: {note}")));
         words.join("\n  ")
     }
-}
-
-/// Returns a number in whole multiples of a unit.
-fn rounded(x: f64, unit: f64) -> f64 {
-    libm::round(x / unit) * unit
-}
-
-/// Returns an angle (rad) in tenths of a degree, in words.
-fn degrees(angle: f64) -> String {
-    format!("{}deg", fixed(angle.to_degrees() + 0.0, 1))
 }
 
 /// Returns the records of this file, each as (name, names of its fields in order).

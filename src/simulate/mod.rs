@@ -19,6 +19,7 @@ mod parameters;
 mod refusal;
 mod robustness;
 mod stepper;
+mod words;
 
 use crate::interrupt;
 use crate::plan::verify::articulated::base_at;

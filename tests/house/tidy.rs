@@ -46,7 +46,7 @@ const ROOMS: &[Room] = &[
     room("execute", &["display", "interrupt"], &["units", "geometry", "plan", "planners"]),
     room("document", &["execute", "syntax"], &["elaborate", "natives", "display"]),
     room("session", &["execute", "format", "units"], &["interrupt", "elaborate", "natives", "display"]),
-    room("cli", &["session", "document", "view", "behavior"], &["syntax", "geometry", "robot"]),
+    room("cli", &["session", "document", "simulate", "view", "behavior"], &["syntax", "geometry", "robot"]),
 ];
 
 /// Returns the rooms that a room may know.

@@ -1,0 +1,98 @@
+//! Simulations in words.
+
+use super::outcome::{BondEventKind, Extreme, Simulation};
+use crate::robot::{Assembly, JointId};
+use crate::units::{Dimension, fixed, quantity};
+
+/// The resolution of lengths in words, m, and of times, s.
+const LENGTH: f64 = 1e-5;
+const TIME: f64 = 1e-3;
+
+impl Simulation {
+    /// Returns the result on one line for what the base does, one for the joints and one for the motors, if there are
+    /// any, and one for each failure; `robot` names joints and bonds.
+    pub fn in_words(&self, robot: &Assembly) -> Vec<String> {
+        let mut lines = vec![format!(
+            "simulated in steps of {}: travels {}, turns {}, leans at most {}",
+            quantity(self.step, Dimension::TIME),
+            length(self.travel.xy().norm()),
+            degrees(self.heading),
+            degrees(self.lean_max)
+        )];
+        if let Some(lag) = self.lag {
+            lines.push(format!("joints lag by {} at {}", degrees(lag.value), lag.joint(robot)));
+        }
+        if let Some(lag) = self.lag_length {
+            lines.push(format!("joints that slide lag by {} at {}", length(lag.value), lag.joint(robot)));
+        }
+        if let Some(effort) = self.effort {
+            let effort = format!("{} of the limit at {}", fixed(effort.value, 2), effort.joint(robot));
+            lines.push(format!("torque reaches {effort}"));
+        }
+        lines.extend(self.failures(robot).into_iter().map(|failure| format!("failed {failure}")));
+        lines
+    }
+
+    /// Returns the fall, the bonds that broke and the ports that did not dock, in words, in order of time; `robot` names
+    /// the bonds.
+    pub fn failures(&self, robot: &Assembly) -> Vec<String> {
+        let fall = self.fall.map(|time| (time, "it falls".to_string()));
+        let bonds = self.bonds.iter().filter_map(|event| {
+            let name = robot.bond_name(event.bond);
+            let words = match event.kind {
+                BondEventKind::Docks(..) => return None,
+                BondEventKind::Misses(distance, angle) => format!(
+                    "{name} does not dock: its ports are {} and {} from a perfect mate",
+                    length(distance),
+                    degrees(angle)
+                ),
+                BondEventKind::Breaks(load) => {
+                    format!("{name} breaks, at {} of what it holds", fixed(load, 2))
+                }
+            };
+            Some((event.time, words))
+        });
+        let mut found: Vec<(f64, String)> = fall.into_iter().chain(bonds).collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let line = |(time, words)| format!("at {}: {words}", quantity(rounded(time, TIME), Dimension::TIME));
+        found.into_iter().map(line).collect()
+    }
+
+    /// Returns the differences of this simulation from one with half the time step, in words.
+    pub fn halving(&self, finer: &Simulation) -> String {
+        let falls = match (self.fall, finer.fall) {
+            (None, Some(_)) => ", and it falls",
+            (Some(_), None) => ", and it does not fall",
+            _ => "",
+        };
+        format!(
+            "at half the step it ends {} and {} from there{falls}",
+            length((self.travel - finer.travel).norm()),
+            degrees((self.heading - finer.heading).abs())
+        )
+    }
+}
+
+impl Extreme {
+    /// Returns the path name of the joint at which a quantity of joints was greatest; `robot`: the robot.
+    pub fn joint(&self, robot: &Assembly) -> String {
+        robot.name_of(JointId(u32::try_from(self.of).unwrap_or(u32::MAX)))
+    }
+}
+
+/// Returns a length (m) in words.
+fn length(x: f64) -> String {
+    quantity(rounded(x, LENGTH), Dimension::LENGTH)
+}
+
+/// Returns an angle (rad) in tenths of a degree, in words.
+fn degrees(angle: f64) -> String {
+    let tenths = libm::round(angle.to_degrees() * 10.0) / 10.0;
+    format!("{}deg", fixed(tenths + 0.0, 1))
+}
+
+/// Returns a number in whole multiples of a unit.
+fn rounded(x: f64, unit: f64) -> f64 {
+    let whole = libm::round(1.0 / unit);
+    libm::round(x * whole) / whole
+}
