@@ -104,12 +104,6 @@ impl SymmetricMatrix {
         (0..self.size()).map(|row| self.values[self.start[row + 1] - 1]).sum()
     }
 
-    /// Returns an upper bound on the number of multiplications that a Cholesky decomposition of the matrix takes, to
-    /// the leading order. It is reached where the first columns of the rows never decrease.
-    pub fn work(&self) -> usize {
-        self.first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
-    }
-
     /// Returns the Cholesky decomposition of the matrix, made in place row by row (Cholesky–Banachiewicz). `None`
     /// where the rule refuses a pivot; [`PivotRule::Raise`] refuses none.
     pub fn cholesky(mut self, rule: PivotRule) -> Option<Cholesky> {
@@ -131,6 +125,13 @@ impl SymmetricMatrix {
         }
         Some(Cholesky { lower: self })
     }
+}
+
+/// Returns an upper bound on the number of multiplications that a Cholesky decomposition of a matrix takes, to the
+/// leading order, from the first column of the envelope of each row (as for [`SymmetricMatrix::with_envelope`]). It is
+/// reached where the first columns never decrease. Panics if `first[i]` is greater than `i`.
+pub fn cholesky_work(first: &[usize]) -> usize {
+    first.iter().enumerate().map(|(row, first)| (row - first) * (row - first)).sum::<usize>() / 2
 }
 
 impl PivotRule {

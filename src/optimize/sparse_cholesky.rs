@@ -1,6 +1,6 @@
 //! Cholesky's decomposition of sparse matrices, in the order of reverse Cuthill and McKee.
 
-use super::cholesky::{Cholesky, PivotRule, SymmetricMatrix};
+use super::cholesky::{Cholesky, PivotRule, SymmetricMatrix, cholesky_work};
 use super::cuthill_mckee;
 
 /// Threshold: a matrix counts as not positive definite if a pivot is not above this fraction, without unit, of its
@@ -19,7 +19,7 @@ pub(crate) struct SparseCholesky {
 impl SparseCholesky {
     /// Returns the decomposition of an n × n matrix given by its entries (row, column, value) on and above the
     /// diagonal, or below, with indices from 0; those with equal indices are summed. `None` if it is not positive
-    /// definite, or if the bound on its multiplications ([`SymmetricMatrix::work`]) is above `work_max`.
+    /// definite, or if the bound on its multiplications ([`cholesky_work`]) is above `work_max`.
     pub(crate) fn new(n: usize, entries: &[(usize, usize, f64)], work_max: usize) -> Option<SparseCholesky> {
         let order = cuthill_mckee::reverse_order(n, entries.iter().map(|&(i, j, _)| (i, j)));
         let mut position = vec![0; n];
@@ -32,10 +32,11 @@ impl SparseCholesky {
         for (row, column, _) in entries.iter().map(lower) {
             first[row] = first[row].min(column);
         }
-        let mut matrix = SymmetricMatrix::with_envelope(first);
-        if matrix.work() > work_max {
+        // The bound comes before the matrix, which would be large where the bound is exceeded.
+        if cholesky_work(&first) > work_max {
             return None;
         }
+        let mut matrix = SymmetricMatrix::with_envelope(first);
         for (row, column, value) in entries.iter().map(lower) {
             matrix.add(row, column, value);
         }

@@ -151,7 +151,10 @@ impl<'a> Rows<'a> {
         // The cost over the coordinates of free nodes.
         let index = |entry: usize| columns[entry / 3].map(|column| column + entry % 3);
         let entry = |&(row, column, value): &(usize, usize, f64)| Some((index(row)?, index(column)?, value));
-        let hessian = cost.hessian.iter().filter_map(entry).collect();
+        // The room is reserved at once, because a filter tells no length: a large vector that grows is moved again and
+        // again.
+        let mut hessian = Vec::with_capacity(cost.hessian.len());
+        hessian.extend(cost.hessian.iter().filter_map(entry));
         let mut linear = vec![0.0; 3 * columns.iter().flatten().count()];
         for (at, value) in cost.linear.iter().enumerate() {
             if let Some(column) = index(at) {
