@@ -40,7 +40,7 @@ pub(super) struct Joint {
     pub servo: Option<DrivenServo>,
     /// The inertia of its rotor, kg·m² or kg; 0 without a servo.
     pub armature: f64,
-    /// The least and greatest coordinate, rad or m; `None` without ends.
+    /// The least and greatest coordinate, rad or m; `None` without ends, and for one that follows others.
     pub range: Option<(f64, f64)>,
 }
 
@@ -264,14 +264,16 @@ impl Model {
 
 /// Returns the joint of an id that moves a step.
 fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: &ServoGains) -> Joint {
-    let (limits, driven) = match owner {
+    // What follows others is stopped with them.
+    let (limits, stops, passive) = match owner {
         JointOwner::Module { module, joint } => {
             let declared = &robot.module_type(module).joints[joint];
-            let driven = !declared.passive && declared.mimic.is_none() && declared.kind != JointKind::Fixed;
-            (declared.limits, driven)
+            let stops = declared.mimic.is_none() && declared.kind != JointKind::Fixed;
+            (declared.limits, stops, declared.passive)
         }
-        JointOwner::Bond(bond) => (robot.hinge(bond).map(|h| h.limits).unwrap_or_default(), true),
+        JointOwner::Bond(bond) => (robot.hinge(bond).map(|h| h.limits).unwrap_or_default(), true, false),
     };
+    let driven = stops && !passive;
     let factor = match step.terms() {
         [(same, factor)] if *same == id => *factor,
         _ => 1.0,
@@ -292,7 +294,7 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         limit: limits.effort.map(|effort| effort * gains.effort),
     });
     let armature = stated.armature.unwrap_or(Servo::ARMATURE_DEFAULT * robot.servo_stiffness(owner));
-    let range = limits.range.filter(|_| driven).map(|(low, high)| {
+    let range = limits.range.filter(|_| stops).map(|(low, high)| {
         let ends = (low * factor, high * factor);
         (ends.0.min(ends.1), ends.0.max(ends.1))
     });
