@@ -196,7 +196,9 @@ impl<'a> Recorder<'a> {
             keep(lags, lag, joint.id, time);
             self.out.work += (stepper.efforts[at] * stepper.rates[at]).max(0.0) * self.step;
             if let Some(limit) = servo.limit {
-                keep(&mut self.out.effort, self.sums[at].abs() / window / limit, joint.id, time);
+                if limit > 0.0 {
+                    keep(&mut self.out.effort, self.sums[at].abs() / window / limit, joint.id, time);
+                }
                 if stepper.efforts[at].abs() >= limit {
                     self.saturated[at] += self.step;
                     keep(&mut self.out.saturated, self.saturated[at], joint.id, time);
