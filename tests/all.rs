@@ -9,4 +9,5 @@ mod language;
 mod planners;
 mod plans;
 mod robots;
+mod simulate;
 mod support;

@@ -101,14 +101,15 @@ let p = plan(Odds().go(), world: world(ground: off, gravity: off))",
 ];
 
 /// A plan and its model.
-pub(super) struct Case {
+#[derive(Clone)]
+pub struct Case {
     name: String,
-    pub(super) plan: Plan,
+    pub plan: Plan,
     model: String,
 }
 
 impl Case {
-    pub(super) fn new(name: &str, plan: Plan) -> Case {
+    pub fn new(name: &str, plan: Plan) -> Case {
         let model = mjcf::write(&plan).expect("the robot has links and joints");
         Case { name: name.to_owned(), plan, model }
     }
@@ -151,7 +152,7 @@ impl Case {
         (state.bonds, poses)
     }
 
-    pub(super) fn task(&self) -> Value {
+    pub fn task(&self) -> Value {
         let text = file::write(&self.plan).expect("the plan can be written");
         let links = self.links();
         let moment = |t: f64| {
@@ -331,7 +332,7 @@ fn python() -> Option<PathBuf> {
     found.is_ok_and(|status| status.success()).then_some(python)
 }
 
-pub(super) fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
@@ -434,7 +435,7 @@ fn under_full_dynamics(plan: &Plan) -> Verdict {
 
 /// Plays plans on their models with servos of a stiffness (N·m/rad), and damping in proportion to it, by a function of
 /// `mujoco_runner`, whose other arguments are `more`; `None` without MuJoCo.
-pub(super) fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str) -> Option<Vec<Value>> {
+pub fn played(tasks: &[Value], stiffness: f64, function: &str, more: &str) -> Option<Vec<Value>> {
     let damping = 6.0 * stiffness / 150.0;
     let script = format!(
         "import json, mujoco_runner; tasks = json.load(sys.stdin); play = mujoco_runner.{function}; \
@@ -456,10 +457,10 @@ pub(super) fn happens(verdict: &Verdict, simulated: &Value) -> bool {
 }
 
 /// A behaviour of the library: the robot, the call, and the least distance that it gets straight ahead, mm.
-type LibraryBehavior = (&'static str, &'static str, f64);
+pub type LibraryBehavior = (&'static str, &'static str, f64);
 
 /// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
-fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
+pub fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some

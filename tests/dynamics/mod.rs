@@ -3,6 +3,6 @@
 mod gait_programs;
 mod inverse;
 mod library_reserves;
-mod mjcf;
+pub mod mjcf;
 mod random_gaits;
-mod structures;
+pub mod structures;

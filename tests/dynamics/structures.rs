@@ -9,9 +9,9 @@ use modl::plan::file;
 use std::io::Write as _;
 
 /// A plan and what is known of it.
-struct Structure {
+pub struct Structure {
     /// The name of the row in docs/dynamics.md.
-    name: &'static str,
+    pub name: &'static str,
     /// The declarations that the program needs besides the library's.
     declarations: &'static str,
     /// A program that leaves its behaviour in `b`.
@@ -180,11 +180,10 @@ const SMOOTH_GAIN: f64 = 150.0;
 /// The error allowed of the greatest torque, relative to the simulated one, and in parts of the limit.
 const TORQUE_ERROR: (f64, f64) = (0.15, 0.12);
 
-#[test]
-fn loops_docking_and_held_bases_are_as_in_a_simulation() {
+/// Returns the first structures, with `MODL_WHOLE=1` all, and their cases.
+pub fn of_structures(few: usize) -> (&'static [Structure], Vec<Case>) {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
-    let some = &STRUCTURES[..if whole { STRUCTURES.len() } else { 1 }];
-    let gains = if whole { &GAINS[..] } else { &GAINS[1..2] };
+    let some = &STRUCTURES[..if whole { STRUCTURES.len() } else { few }];
     let case = |structure: &Structure| {
         let plan = format!("let p = plan(b, world: {})\nemit(p, \"p.json\")", structure.world);
         let program = format!("{}{}{plan}", structure.declarations, structure.program);
@@ -193,7 +192,14 @@ fn loops_docking_and_held_bases_are_as_in_a_simulation() {
         assert!(errors.is_empty(), "{errors:?} in\n{program}");
         Case::new(structure.name, file::read(desk.text("p.json")).expect("a plan that was written is read"))
     };
-    let cases: Vec<Case> = some.iter().map(case).collect();
+    (some, some.iter().map(case).collect())
+}
+
+#[test]
+fn loops_docking_and_held_bases_are_as_in_a_simulation() {
+    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let (some, cases) = of_structures(1);
+    let gains = if whole { &GAINS[..] } else { &GAINS[1..2] };
     let tasks: Vec<_> = cases.iter().map(Case::task).collect();
     let mut simulated = vec![];
     for gain in gains {

@@ -1,0 +1,3 @@
+//! Simulations of plans, beside MuJoCo.
+
+mod mujoco;

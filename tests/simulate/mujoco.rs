@@ -1,0 +1,169 @@
+//! Simulations beside those of MuJoCo, with the same servos, on the exported models: travel, heading, falls and lags.
+//! Skipped, with a message, where Python or MuJoCo is missing.
+
+use crate::dynamics::mjcf::{Case, number, of_the_library, played};
+use crate::dynamics::structures::of_structures;
+use modl::geometry::Vec3;
+use modl::plan::Plan;
+use modl::simulate::{Extreme, ServoGains, Settings, Simulation, simulate};
+use serde_json::Value;
+use std::io::Write as _;
+use std::thread;
+
+/// The stiffness of the servos, N·m/rad; their damping is in proportion in both, 6 N·m·s/rad at 150.
+const GAINS: [f64; 3] = [60.0, 150.0, 500.0];
+
+/// The error of travel that is allowed: a part of it, and a distance, m.
+const TRAVEL: (f64, f64) = (0.08, 5e-3);
+
+/// The error of the heading that is allowed: a part of it, and an angle, degrees.
+const HEADING: (f64, f64) = (0.08, 3.0);
+
+/// The difference of the greatest lags of joints that is allowed, degrees; of joints that slide it is read in units of
+/// 0.1 m for a radian.
+const LAG: f64 = 3.0;
+
+/// What does not go alike in both: the name, the stiffnesses of the servos (N·m/rad), and the reason.
+const UNLIKE: &[(&str, &[f64], &str)] = &[
+    (
+        "`Tank7` | `x.turn()`",
+        &GAINS,
+        "wheels and discs scrub: in MuJoCo they chatter and hop, here they slide",
+    ),
+    (
+        "`Grasper7` | `Sc(x.squeeze(), x.open())`",
+        &[500.0],
+        "it rolls over an edge, which stiff servos decide by a hair",
+    ),
+    (
+        "`Spider.crawl` of `std.rofi`: four hips in a ring",
+        &[500.0],
+        "all its feet scrub: with a tenth less or more of the friction it goes 3 mm or 9 mm here",
+    ),
+];
+
+/// What happens in one of the simulations.
+struct Outcome {
+    travel: Vec3,
+    /// Degrees.
+    heading: f64,
+    falls: bool,
+    /// Degrees.
+    lag: f64,
+}
+
+impl Outcome {
+    fn ours(simulation: &Simulation) -> Outcome {
+        let value = |extreme: &Option<Extreme>| extreme.map_or(0.0, |extreme| extreme.value);
+        Outcome {
+            travel: simulation.travel,
+            heading: simulation.heading.to_degrees(),
+            falls: simulation.fall.is_some(),
+            // MuJoCo's runner takes the greatest of radians and metres.
+            lag: value(&simulation.lag).max(value(&simulation.lag_length)).to_degrees(),
+        }
+    }
+
+    fn theirs(answer: &Value) -> Outcome {
+        Outcome {
+            travel: Vec3::from([0, 1, 2].map(|axis| number(&answer["travel"][axis]))),
+            heading: number(&answer["yaw"]).to_degrees(),
+            falls: answer["fell"] == true,
+            lag: number(&answer["lag"][0]).to_degrees(),
+        }
+    }
+
+    /// Returns true if this goes as `theirs`.
+    fn is_like(&self, theirs: &Outcome) -> bool {
+        let away = (self.travel - theirs.travel).xy().norm();
+        let (part, least) = TRAVEL;
+        let (turn_part, turn_least) = HEADING;
+        // Headings are from -180 to 180 degrees.
+        let turned = (self.heading - theirs.heading + 540.0).rem_euclid(360.0) - 180.0;
+        away <= least.max(part * theirs.travel.xy().norm())
+            && turned.abs() <= turn_least.max(turn_part * theirs.heading.abs())
+            && self.falls == theirs.falls
+            && (self.lag - theirs.lag).abs() <= LAG
+    }
+
+    fn cell(&self) -> String {
+        let whole = |x: f64| x.round() + 0.0;
+        let falls = if self.falls { ", falls" } else { "" };
+        format!(
+            "{:.0} mm, {:.0}°{falls} | {:.1}°",
+            1e3 * self.travel.xy().norm(),
+            whole(self.heading),
+            self.lag
+        )
+    }
+}
+
+/// Returns both outcomes of each case for servos of a stiffness (N·m/rad) and a factor on friction; `None` without
+/// MuJoCo.
+fn both(plans: &[&Plan], tasks: &[Value], stiffness: f64, friction: f64) -> Option<Vec<[Outcome; 2]>> {
+    let theirs = played(tasks, stiffness, "play", &format!(", friction_scale={friction}"))?;
+    let servo = ServoGains { stiffness: Some(stiffness), ..ServoGains::default() };
+    let settings = Settings { servo, friction, ..Settings::default() };
+    let pair = |(plan, theirs): (&&Plan, &Value)| {
+        let simulation = simulate(plan, &settings).expect("the plan can be simulated");
+        [Outcome::ours(&simulation), Outcome::theirs(theirs)]
+    };
+    Some(plans.iter().zip(&theirs).map(pair).collect())
+}
+
+/// Plays cases with servos of all stiffnesses, prints a row for each (ours beside MuJoCo's: travel, turn, lag), and
+/// fails where they differ and are not among [`UNLIKE`].
+fn compare(names: &[String], cases: &[Case], friction: f64) {
+    let tasks: Vec<Value> = cases.iter().map(Case::task).collect();
+    let plans: Vec<&Plan> = cases.iter().map(|case| &case.plan).collect();
+    let columns: Option<Vec<_>> = thread::scope(|scope| {
+        let (plans, tasks) = (&plans, &tasks);
+        let column = |stiffness: f64| scope.spawn(move || both(plans, tasks, stiffness, friction));
+        let columns: Vec<_> = GAINS.into_iter().map(column).collect();
+        columns.into_iter().map(|column| column.join().expect("no thread panics")).collect()
+    });
+    let Some(columns) = columns else { return };
+    let mut wrong = vec![];
+    for (index, name) in names.iter().enumerate() {
+        let pairs: Vec<&[Outcome; 2]> = columns.iter().map(|column| &column[index]).collect();
+        let cells: Vec<String> =
+            pairs.iter().map(|[ours, theirs]| format!("{} | {}", ours.cell(), theirs.cell())).collect();
+        let row = format!("| {name} | {} |", cells.join(" | "));
+        writeln!(std::io::stderr(), "{row}").expect("stderr is open");
+        let known = |gain: f64| UNLIKE.iter().any(|(known, gains, _)| known == name && gains.contains(&gain));
+        if pairs.iter().zip(GAINS).any(|([ours, theirs], gain)| !ours.is_like(theirs) && !known(gain)) {
+            wrong.push(row);
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn behaviors_of_the_library_go_as_in_mujoco() {
+    let (some, cases, _) = of_the_library(3);
+    let names: Vec<String> = some.iter().map(|(robot, call, _)| format!("`{robot}` | `{call}`")).collect();
+    compare(&names, &cases, 1.0);
+}
+
+#[test]
+fn walkers_go_as_in_mujoco_on_other_ground() {
+    if std::env::var_os("MODL_WHOLE").is_none() {
+        return;
+    }
+    let (some, cases, _) = of_the_library(0);
+    let walkers: Vec<usize> =
+        (0..some.len()).filter(|at| ["Walk4", "FourLeg17", "Walkbot17"].contains(&some[*at].0)).collect();
+    for friction in [0.2, 1.5] {
+        let names: Vec<String> =
+            walkers.iter().map(|at| format!("`{}` | friction {friction}", some[*at].0)).collect();
+        let cases: Vec<Case> = walkers.iter().map(|at| cases[*at].clone()).collect();
+        compare(&names, &cases, friction);
+    }
+}
+
+#[test]
+fn loops_docking_and_held_bases_go_as_in_mujoco() {
+    let (some, cases) = of_structures(2);
+    let names: Vec<String> = some.iter().map(|structure| structure.name.to_owned()).collect();
+    compare(&names, &cases, 1.0);
+}
