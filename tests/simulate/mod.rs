@@ -1,7 +1,9 @@
-//! Simulations of plans: beside closed forms of mechanics, by what mechanics conserves, and beside MuJoCo.
+//! Simulations of plans: beside closed forms of mechanics, by what mechanics conserves, beside MuJoCo, and at the limits
+//! of what may be asked.
 
 mod bonds;
 mod closed_forms;
 mod contacts;
 mod fixtures;
 mod mujoco;
+mod robustness;

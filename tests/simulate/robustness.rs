@@ -1,0 +1,168 @@
+//! Simulations at the limits of what may be asked: the same result wherever they run, and never a value that is no
+//! number, nor a panic.
+
+use super::fixtures::{LEVEL, PENDULUM, plan, play};
+use modl::plan::{Body, Ground, Plan, World};
+use modl::robot::Link;
+use modl::simulate::{Refusal, ServoGains, Settings, Simulation, simulate};
+use std::sync::Arc;
+use std::thread;
+
+/// Robots of the library: wheels, feet that are set down, and a ring that opens and closes.
+const PROGRAMS: &[&str] = &[
+    "use std.smores.Driver1\nlet b = Driver1().turn()\n",
+    "use std.smores.Climber4\nlet b = Climber4().step()\n",
+    "use std.smores.Ring12\nlet ring = Ring12()
+let b = Sc(undock(ring.m[11].bottom), wait(200ms), dock(ring.m[11].bottom, ring.m[0].top), wait(200ms))\n",
+];
+
+fn plans() -> Vec<Plan> {
+    PROGRAMS.iter().map(|program| plan(program, LEVEL)).collect()
+}
+
+#[test]
+fn a_simulation_is_the_same_on_every_thread() {
+    let plans = plans();
+    let digest = |plan: &Plan| format!("{:?}", play(plan, &Settings::default()));
+    let alone: Vec<String> = plans.iter().map(digest).collect();
+    thread::scope(|scope| {
+        // Each thread begins with another plan.
+        let of = |first: usize| {
+            let order: Vec<usize> = (0..plans.len()).map(|k| (first + k) % plans.len()).collect();
+            let plans = &plans;
+            scope.spawn(move || order.iter().map(|at| (*at, digest(&plans[*at]))).collect::<Vec<_>>())
+        };
+        let threads: Vec<_> = (0..4).map(of).collect();
+        for thread in threads {
+            for (at, digest) in thread.join().expect("no thread panics") {
+                assert!(digest == alone[at], "plan {at} differs");
+            }
+        }
+    });
+}
+
+/// Returns true if all that was measured is a number, and the robot has not flown away.
+fn is_sound(simulation: &Simulation) -> bool {
+    let extremes = [
+        simulation.lag,
+        simulation.lag_length,
+        simulation.effort,
+        simulation.saturated,
+        simulation.bond_load,
+    ];
+    let values =
+        [simulation.heading, simulation.lean, simulation.lean_max, simulation.impact, simulation.work];
+    let mut all = extremes
+        .iter()
+        .flatten()
+        .map(|extreme| extreme.value)
+        .chain(values)
+        .chain(simulation.travel.iter().copied());
+    let moments = simulation.motion.iter().all(|moment| {
+        let joints = moment.joints.iter().all(|q| q.is_finite());
+        joints
+            && moment.base.translation.vector.norm() < 10.0
+            && moment.base.rotation.coords.iter().all(|x| x.is_finite())
+    });
+    all.all(f64::is_finite) && moments && !simulation.motion.is_empty()
+}
+
+#[test]
+fn extreme_settings_give_numbers_or_are_refused() {
+    let soft = ServoGains { stiffness: Some(1e-3), ..ServoGains::default() };
+    let stiff = ServoGains { stiffness: Some(1e6), ..ServoGains::default() };
+    let strong = ServoGains { unlimited: true, ..stiff };
+    let weak = ServoGains { effort: 0.0, ..ServoGains::default() };
+    let undamped = ServoGains { damping: Some(0.0), ..ServoGains::default() };
+    let plain = Settings::default();
+    let settings = [
+        Settings { step: Settings::STEP_MAX, ..plain },
+        Settings { step: Settings::STEP_MAX, servo: strong, ..plain },
+        Settings { servo: stiff, ..plain },
+        Settings { servo: strong, ..plain },
+        Settings { servo: soft, ..plain },
+        Settings { servo: weak, ..plain },
+        Settings { servo: undamped, ..plain },
+        Settings { mass: 1e-3, ..plain },
+        Settings { mass: 1e-3, servo: strong, step: Settings::STEP_MAX, ..plain },
+        Settings { mass: 10.0, ..plain },
+        Settings { friction: 0.0, ..plain },
+        Settings { friction: 10.0, ..plain },
+        Settings { friction: 10.0, step: Settings::STEP_MAX, servo: strong, ..plain },
+        Settings { link_contacts: false, ..plain },
+    ];
+    let mut wrong = vec![];
+    for (number, plan) in plans().iter().enumerate() {
+        for settings in &settings {
+            match simulate(plan, settings) {
+                Ok(simulation) if is_sound(&simulation) => {}
+                Ok(simulation) => {
+                    wrong.push(format!("plan {number}, {settings:?}: {:?}", simulation.motion.last()))
+                }
+                Err(refusal) => wrong.push(format!("plan {number}, {settings:?}: {refusal}")),
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn steps_and_factors_out_of_range_are_refused() {
+    let plan = &plan(PROGRAMS[0], LEVEL);
+    for step in [0.0, -1e-3, 0.9e-6, 5.1e-3, f64::NAN, f64::INFINITY] {
+        let refusal = simulate(plan, &Settings { step, ..Settings::default() });
+        assert_eq!(refusal.map(|_| ()), Err(Refusal::Step), "{step}");
+    }
+    let no_stiffness = ServoGains { stiffness: Some(f64::NAN), ..ServoGains::default() };
+    for settings in [
+        Settings {
+            mass: 0.0,
+            servo: ServoGains { effort: 0.0, ..ServoGains::default() },
+            ..Settings::default()
+        },
+        Settings { mass: f64::NAN, ..Settings::default() },
+        Settings { friction: f64::NAN, ..Settings::default() },
+        Settings { servo: no_stiffness, ..Settings::default() },
+    ] {
+        let refusal = simulate(plan, &settings);
+        assert!(
+            matches!(refusal, Err(Refusal::NoInertia { .. })),
+            "{settings:?}: {:?}",
+            refusal.map(|s| s.travel)
+        );
+    }
+}
+
+/// Takes the mass of some links away.
+fn without_mass(plan: &mut Plan, links: impl Fn(&Link) -> bool) {
+    let mut library = (*plan.library).clone();
+    for link in library.modules.iter_mut().flat_map(|module| &mut module.links).filter(|link| links(link)) {
+        (link.mass, link.inertia) = (0.0, [0.0; 6]);
+    }
+    plan.library = Arc::new(library);
+    let Body::Tracks(tracks) = &mut plan.body else { unreachable!("the robot has joints") };
+    tracks.robot.library = plan.library.clone();
+}
+
+#[test]
+fn what_has_no_mass_is_refused_only_if_it_must_be_moved() {
+    let no_inertia =
+        |plan: &Plan| matches!(simulate(plan, &Settings::default()), Err(Refusal::NoInertia { .. }));
+    let held = World { ground: Ground::Held, ..LEVEL };
+    let program = format!("{PENDULUM}let x = Pendulum(30deg)\nlet b = x.rest(1s)\n");
+    // A bob that swings freely needs mass; the post that is held does not.
+    let mut bob = plan(&program, held);
+    without_mass(&mut bob, |link| link.name == "bob");
+    assert!(no_inertia(&bob));
+    let mut post = plan(&program, held);
+    without_mass(&mut post, |link| link.name == "post");
+    assert!(!no_inertia(&post));
+    // A robot must have some mass.
+    let mut all = plan(PROGRAMS[0], World::FREE);
+    without_mass(&mut all, |_| true);
+    assert!(simulate(&all, &Settings::default()).is_err());
+    // Wheels without mass are turned by their servos.
+    let mut wheels = plan(PROGRAMS[0], LEVEL);
+    without_mass(&mut wheels, |link| link.name.ends_with("_disc"));
+    assert!(is_sound(&play(&wheels, &Settings::default())));
+}
