@@ -162,7 +162,7 @@ fn joints_that_follow_others_keep_their_relation() {
     }
     // At rest the servo carries all: what the followers need counts by their factors, the third by 1 - 2/2 = 0.
     let q = &simulation.motion.last().expect("it moves").joints;
-    let weigh = |angle: f64| 0.5 * GRAVITY * 0.1 * angle.cos();
+    let weigh = |angle: f64| 0.5 * GRAVITY * 0.1 * libm::cos(angle);
     let torque = 300.0 * (-60_f64.to_radians() - q[0]);
     close(torque, weigh(q[0]) - 0.5 * weigh(q[1]), 1e-3);
 }

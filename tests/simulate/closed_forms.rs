@@ -38,7 +38,7 @@ fn a_pendulum_swings_with_the_period_of_its_amplitude() {
         let program = format!("{PENDULUM}let x = Pendulum({degrees}deg)\nlet b = x.rest(12s)\n");
         let simulation = play(&plan(&program, HELD), &Settings::default());
         // T = T₀ 2/π K(sin θ/2), and K(k) = π / (2 agm(1, √(1 - k²))).
-        let expected = small / mean(1.0, (degrees.to_radians() / 2.0).cos());
+        let expected = small / mean(1.0, libm::cos(degrees.to_radians() / 2.0));
         close(period(&simulation, 0), expected, 2e-4 * expected);
     }
 }
@@ -128,8 +128,8 @@ fn two_floating_rods_keep_their_momentum_as_they_fold() {
     let reduced = m_1 * m_2 / (m_1 + m_2);
     // With no angular momentum, θ' H₀₀(q) + q' H₀₁(q) = 0 about the common centre of mass.
     let slope = |q: f64| {
-        let own = i_2 + reduced * (b * b + a * b * q.cos());
-        -own / (i_1 + own + reduced * (a * a + a * b * q.cos()))
+        let own = i_2 + reduced * (b * b + a * b * libm::cos(q));
+        -own / (i_1 + own + reduced * (a * a + a * b * libm::cos(q)))
     };
     let folded = 120_f64.to_radians();
     let n = 1000;
@@ -141,7 +141,7 @@ fn two_floating_rods_keep_their_momentum_as_they_fold() {
     let turned: f64 = (0..n).map(simpson).sum();
     // The common centre of mass stays: the rear rod is at -m₂/M of the way to the front rod from it.
     let off = |q: f64, heading: f64| {
-        let way = Vec3::new(a + b * q.cos(), b * q.sin(), 0.0);
+        let way = Vec3::new(a + b * libm::cos(q), b * libm::sin(q), 0.0);
         Pose::rotation(Vec3::z() * heading).transform_vector(&way) * (-m_2 / (m_1 + m_2))
     };
     let travel = off(folded, turned) - off(0.0, 0.0);
@@ -281,12 +281,12 @@ let b = Reach().both()
         let servo = [0, 1]
             .map(|joint| stiffness * off(index, joint) + damping * rate(FRAME, index, |at| off(at, joint)));
         // Spong, Hutchinson and Vidyasagar, Robot Modeling and Control, 2006, eq. 7.87.
-        let (s_2, cos_2) = q[1].sin_cos();
+        let (s_2, cos_2) = libm::sincos(q[1]);
         let own = i_2 + m_2 * c_2 * c_2;
         let cross = own + m_2 * l_1 * c_2 * cos_2;
         let all = i_1 + m_1 * c_1 * c_1 + own + m_2 * (l_1 * l_1 + 2.0 * l_1 * c_2 * cos_2);
         let turning = m_2 * l_1 * c_2 * s_2;
-        let weigh = |angle: f64| GRAVITY * angle.cos();
+        let weigh = |angle: f64| GRAVITY * libm::cos(angle);
         let elbow = cross * a[0] + own * a[1] + turning * v[0] * v[0] + m_2 * c_2 * weigh(q[0] + q[1]);
         let shoulder = all * a[0] + cross * a[1] - turning * (2.0 * v[0] * v[1] + v[1] * v[1])
             + (m_1 * c_1 + m_2 * l_1) * weigh(q[0])
@@ -325,7 +325,7 @@ fn a_motor_too_weak_for_its_arm_lets_it_down_on_the_stop() {
     // The stop is a spring of 1000 N·m/rad, and bears what the motor leaves of the weight.
     let mut angle = -30_f64.to_radians();
     for _ in 0..50 {
-        angle = -30_f64.to_radians() - (GRAVITY * 0.2 * angle.cos() - 1.0) / 1000.0;
+        angle = -30_f64.to_radians() - (GRAVITY * 0.2 * libm::cos(angle) - 1.0) / 1000.0;
     }
     close(simulation.motion.last().expect("it moves").joints[0], angle, 1e-5);
     let saturated = simulation.saturated.expect("its motor has a limit");
@@ -336,10 +336,14 @@ fn a_motor_too_weak_for_its_arm_lets_it_down_on_the_stop() {
     let simulation = play(&plan, &Settings { servo, ..Settings::default() });
     let mut angle: f64 = 0.0;
     for _ in 0..50 {
-        angle = -GRAVITY * 0.2 * angle.cos() * 1_f64.to_radians();
+        angle = -GRAVITY * 0.2 * libm::cos(angle) * 1_f64.to_radians();
     }
     close(simulation.motion.last().expect("it stands").joints[0], angle, 1e-5);
-    close(simulation.effort.expect("its motor has a limit").value, GRAVITY * 0.2 * angle.cos() / 3.0, 1e-3);
+    close(
+        simulation.effort.expect("its motor has a limit").value,
+        GRAVITY * 0.2 * libm::cos(angle) / 3.0,
+        1e-3,
+    );
 }
 
 #[test]
@@ -348,7 +352,7 @@ fn a_servo_yields_under_a_load_as_its_spring_does() {
     let simulation = play(&plan(&program, HELD), &Settings::default());
     let mut angle: f64 = 0.0;
     for _ in 0..50 {
-        angle = -GRAVITY * 0.2 * angle.cos() / 50.0;
+        angle = -GRAVITY * 0.2 * libm::cos(angle) / 50.0;
     }
     close(simulation.motion.last().expect("it stands").joints[0], angle, 1e-7);
 }
@@ -363,7 +367,7 @@ fn a_passive_joint_stops_at_the_ends_of_its_range() {
     let simulation = play(&plan(&program, HELD), &Settings::default());
     let mut angle = -30_f64.to_radians();
     for _ in 0..50 {
-        angle = -30_f64.to_radians() - GRAVITY * 0.2 * angle.cos() / 1000.0;
+        angle = -30_f64.to_radians() - GRAVITY * 0.2 * libm::cos(angle) / 1000.0;
     }
     close(simulation.motion.last().expect("it stands").joints[0], angle, 1e-4);
 }
@@ -379,7 +383,7 @@ fn the_work_of_a_motor_is_the_energy_that_it_gives() {
     let simulation = play(&plan, &Settings::default());
     let first = simulation.motion[0].joints[0];
     let last = simulation.motion.last().expect("it moves").joints[0];
-    close(simulation.work, GRAVITY * 0.2 * (last.sin() - first.sin()), 2e-3 * GRAVITY * 0.2);
+    close(simulation.work, GRAVITY * 0.2 * (libm::sin(last) - libm::sin(first)), 2e-3 * GRAVITY * 0.2);
     // In any motion, what the motor gives in a time is the change of energy, up to what steps miss.
     let quick = format!(
         "{}let b = x.lifts(80deg, 500ms)\n",
@@ -416,7 +420,7 @@ fn most_energy_missed(plan: &Plan, h: f64) -> f64 {
     }
     // Up to the first of these moments it has given what the arm then has more than at the start, where it is at rest.
     let first = &motion[0];
-    let start = 2.0 * GRAVITY * first.base.translation.vector.z + GRAVITY * 0.2 * first.joints[0].sin();
+    let start = 2.0 * GRAVITY * first.base.translation.vector.z + GRAVITY * 0.2 * libm::sin(first.joints[0]);
     let before = energies[0].1 + energies[0].2 - start;
     // Where power changes its sign the rule is off by some mJ.
     close(simulation.work, before + given, 0.02);

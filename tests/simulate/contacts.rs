@@ -139,11 +139,11 @@ fn an_arm_presses_on_a_link_in_its_way() {
     let held = |simulation: &Simulation| at(simulation, 2.98).joints[0];
     // The ball is at (300, 100) mm; its surface is 20 mm and that of the arm 10 mm from the line of the arm's middle, less
     // the depth of the contact: the 0.1 mm that count as touching, and its force by 1e5 N/m.
-    let (distance, direction) = (0.3_f64.hypot(0.1), 0.1_f64.atan2(0.3));
+    let (distance, direction) = (libm::hypot(0.3, 0.1), libm::atan2(0.1, 0.3));
     let (mut depth, mut angle) = (0.0, 0.0);
     for _ in 0..50 {
         let off = 0.03 - 1e-4 - depth;
-        angle = direction - (off / distance).asin();
+        angle = direction - libm::asin(off / distance);
         let lever = (distance * distance - off * off).sqrt();
         depth = 150.0 * (30_f64.to_radians() - angle) / lever / 1e5;
     }
