@@ -264,7 +264,7 @@ impl Model {
 
 /// Returns the joint of an id that moves a step.
 fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: &ServoGains) -> Joint {
-    // What follows others is stopped with them.
+    // A joint that follows others is stopped with them.
     let (limits, stops, passive) = match owner {
         JointOwner::Module { module, joint } => {
             let declared = &robot.module_type(module).joints[joint];
