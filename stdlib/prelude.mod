@@ -937,7 +937,8 @@ extern fn placed(
 ///
 /// `stiffness` is that with which its servo holds a position against a load; where it is not stated, a servo yields by 1°
 /// under `max_torque`, and is 150 N*m/rad where that is not stated either. `armature` is the inertia of rotor and gears as the
-/// joint feels it, none unless stated. Full dynamics use both (see `world`).
+/// joint feels it. Full dynamics use both (see `world`), with no armature unless it is stated; simulations assume 2e-3 kg*m^2 for
+/// 150 N*m/rad then.
 ///
 /// Example:
 /// ```modl

@@ -103,7 +103,9 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .label(call.at("what"), "this can't be simulated")
             .hint("state the `mass` of every link that a joint moves, or take a shorter `step`")
             .into(),
-        Refusal::Family | Refusal::Invalid(_) | Refusal::Shape(_) => call.refuse("what", refusal.to_string()),
+        Refusal::Family | Refusal::Invalid(_) | Refusal::Shape(_) | Refusal::Setting(_) => {
+            call.refuse("what", refusal.to_string())
+        }
     }
 }
 

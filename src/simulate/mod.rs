@@ -82,6 +82,23 @@ impl Settings {
     pub const STEP_MAX: f64 = 5e-3;
     /// The shortest time step, s.
     pub const STEP_MIN: f64 = 1e-6;
+
+    /// Returns the name of a setting that is negative or not finite, or zero where it must be positive; `None` if all are
+    /// sound. The time step is not among them.
+    fn unsound(&self) -> Option<&'static str> {
+        let ServoGains { stiffness, damping, factor, effort, .. } = self.servo;
+        let sound = |x: f64| x.is_finite() && x >= 0.0;
+        let positive = |x: f64| x.is_finite() && x > 0.0;
+        let all = [
+            ("friction", sound(self.friction)),
+            ("mass", positive(self.mass)),
+            ("stiffness", stiffness.is_none_or(positive)),
+            ("damping", damping.is_none_or(sound)),
+            ("factor on the stiffness", positive(factor)),
+            ("factor on the efforts", sound(effort)),
+        ];
+        all.into_iter().find(|(_, sound)| !sound).map(|(name, _)| name)
+    }
 }
 
 impl Default for Settings {
@@ -99,13 +116,16 @@ impl Default for Settings {
 /// Plays a plan: the robot stands for 0.3 s, moves as its servos follow the plan, and stands for 0.3 s again.
 ///
 /// # Errors
-/// A [`Refusal`] for plans of lattices and trusses, those that are not valid, a time step out of range, and robots without
+/// A [`Refusal`] for plans of lattices and trusses, those that are not valid, settings out of range, and robots without
 /// inertia.
 pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal> {
     let tracks = plan.body.tracks().ok_or(Refusal::Family)?;
     validation::check(plan).map_err(Refusal::Invalid)?;
     if !(Settings::STEP_MIN..=Settings::STEP_MAX).contains(&settings.step) {
         return Err(Refusal::Step);
+    }
+    if let Some(setting) = settings.unsound() {
+        return Err(Refusal::Setting(setting));
     }
     let mut apart = Vec::new();
     // A bond of a tree that breaks is a constraint from the start on, in the next run.

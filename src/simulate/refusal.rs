@@ -15,6 +15,8 @@ pub enum Refusal {
     Shape(Unsound),
     /// The time step is not from [`Settings::STEP_MIN`] to [`Settings::STEP_MAX`].
     Step,
+    /// The setting of this name is negative or not finite, or zero where it must be positive.
+    Setting(&'static str),
     /// A joint or a base has no inertia to move, or values are no longer finite.
     NoInertia {
         /// The time from the start of the plan, s.
@@ -34,6 +36,7 @@ impl std::fmt::Display for Refusal {
                 Settings::STEP_MIN * 1e6,
                 Settings::STEP_MAX * 1e3
             ),
+            Refusal::Setting(name) => write!(f, "the {name} must be a number, and not below zero"),
             Refusal::NoInertia { time } => {
                 write!(f, "at {time:.3}s something moves that has no mass, or moves beyond all bounds")
             }

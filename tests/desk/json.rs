@@ -33,6 +33,7 @@ const ANSWERS: &[Row] = &[
     row("check", &["."], &["report", "programs"]),
     row("test", &["a.mod"], &["report", "printed", "values", "tests"]),
     row("verify", &["p.plan.json"], &["report", "plans"]),
+    row("simulate", &["p.plan.json"], &["report", "simulations"]),
     row("show", &["a.mod"], &["report", "printed", "values", "written"]),
     row("show", &["p.plan.json"], &["report", "written"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
@@ -43,6 +44,7 @@ const ANSWERS: &[Row] = &[
     wrong("watch", &["-"]),
     wrong("run", &["nothing.mod"]),
     wrong("verify", &["nothing.plan.json"]),
+    wrong("simulate", &["nothing.plan.json"]),
     wrong("new", &["a.mod"]),
     wrong("explain", &["E9999"]),
     // The command line can't be read.
