@@ -113,23 +113,20 @@ fn steps_and_factors_out_of_range_are_refused() {
         let refusal = simulate(plan, &Settings { step, ..Settings::default() });
         assert_eq!(refusal.map(|_| ()), Err(Refusal::Step), "{step}");
     }
-    let no_stiffness = ServoGains { stiffness: Some(f64::NAN), ..ServoGains::default() };
-    for settings in [
-        Settings {
-            mass: 0.0,
-            servo: ServoGains { effort: 0.0, ..ServoGains::default() },
-            ..Settings::default()
-        },
-        Settings { mass: f64::NAN, ..Settings::default() },
-        Settings { friction: f64::NAN, ..Settings::default() },
-        Settings { servo: no_stiffness, ..Settings::default() },
+    let servo = |servo: ServoGains| Settings { servo, ..Settings::default() };
+    let gains = ServoGains::default();
+    for (name, settings) in [
+        ("mass", Settings { mass: 0.0, ..Settings::default() }),
+        ("mass", Settings { mass: f64::NAN, ..Settings::default() }),
+        ("friction", Settings { friction: f64::NAN, ..Settings::default() }),
+        ("friction", Settings { friction: -1.0, ..Settings::default() }),
+        ("stiffness", servo(ServoGains { stiffness: Some(f64::NAN), ..gains })),
+        ("stiffness", servo(ServoGains { stiffness: Some(-150.0), ..gains })),
+        ("damping", servo(ServoGains { damping: Some(-1e-3), ..gains })),
+        ("factor on the efforts", servo(ServoGains { effort: -1.0, ..gains })),
     ] {
         let refusal = simulate(plan, &settings);
-        assert!(
-            matches!(refusal, Err(Refusal::NoInertia { .. })),
-            "{settings:?}: {:?}",
-            refusal.map(|s| s.travel)
-        );
+        assert_eq!(refusal.map(|_| ()), Err(Refusal::Setting(name)), "{settings:?}");
     }
 }
 
