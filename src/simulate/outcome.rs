@@ -12,6 +12,10 @@ const WINDOW: f64 = 0.05;
 /// The speed at which the centre of mass sinks where a robot falls and is not let down, m/s.
 const FALL_SPEED: f64 = 0.5;
 
+/// Threshold: the part of a motor's limit below it at which it is at its limit: the effort of a motor that drives several
+/// joints follows from theirs, with rounding.
+const TOL_LIMIT: f64 = 1e-9;
+
 /// The time between two moments of the motion that is kept, s.
 const FRAME: f64 = 0.02;
 
@@ -108,6 +112,8 @@ pub(super) struct Recorder<'a> {
     slot: usize,
     /// The time that each motor has been at its limit, s, by body.
     saturated: Vec<f64>,
+    /// The same of the motors that drive several joints.
+    saturated_coupled: Vec<Vec<f64>>,
     start: Pose,
     height: f64,
     frame: f64,
@@ -151,6 +157,7 @@ impl<'a> Recorder<'a> {
             sums: vec![0.0; count],
             slot: 0,
             saturated: vec![0.0; count],
+            saturated_coupled: model.coupled.iter().map(|coupled| vec![0.0; coupled.motors.len()]).collect(),
             start: model.start[0],
             height: 0.0,
             frame: 0.0,
@@ -205,11 +212,35 @@ impl<'a> Recorder<'a> {
                 }
             }
         }
+        self.see_coupled(stepper, time);
         let turn = stepper.base(0).rotation * self.start.rotation.inverse();
         self.out.lean = tilt(&turn);
         self.out.lean_max = self.out.lean_max.max(self.out.lean);
         if time + 0.5 * self.step >= self.frame {
             self.frame(stepper, commands, time);
+        }
+    }
+
+    /// Measures the motors that drive several joints. The joint that is told is the first of them.
+    fn see_coupled(&mut self, stepper: &Stepper, time: f64) {
+        let window = self.history.len() as f64;
+        for (number, coupled) in self.model.coupled.iter().enumerate() {
+            let joint = |(body, _): &(usize, f64)| self.model.bodies[*body].joint.as_ref().map(|j| j.id);
+            let Some(joint) = coupled.bodies.first().and_then(joint) else { continue };
+            for (motor, saturated) in coupled.motors.iter().zip(&mut self.saturated_coupled[number]) {
+                let terms = || coupled.bodies.iter().zip(&motor.shares);
+                let of = |efforts: &[f64]| -> f64 {
+                    terms().map(|((body, sign), share)| share * sign * efforts[*body]).sum()
+                };
+                if !motor.effort.is_finite() || motor.effort <= 0.0 {
+                    continue;
+                }
+                keep(&mut self.out.effort, of(&self.sums).abs() / window / motor.effort, joint, time);
+                if of(&stepper.efforts).abs() >= motor.effort * (1.0 - TOL_LIMIT) {
+                    *saturated += self.step;
+                    keep(&mut self.out.saturated, *saturated, joint, time);
+                }
+            }
         }
     }
 

@@ -199,8 +199,17 @@ fn motors_that_drive_joints_together_bear_their_sum_and_difference() {
         let plan = plan(&coupled(second), HELD);
         for (part, held) in [(1.03, true), (0.97, false)] {
             let servo = ServoGains { effort: part * needed, ..ServoGains::default() };
-            let lag = play(&plan, &Settings { servo, ..step(1e-3) }).lag.expect("it is driven").value;
+            let played = play(&plan, &Settings { servo, ..step(1e-3) });
+            let lag = played.lag.expect("it is driven").value;
             assert_eq!(lag < 0.02, held, "{part} of {needed} N·m for {second} kg: {lag}");
+            // Limits are times the same factor: a motor that holds bears 1/1.03 of its own.
+            let effort = played.effort.expect("its motors have limits").value;
+            if held {
+                close(effort, 1.0 / part, 5e-3);
+            } else {
+                close(effort, 1.0, 1e-9);
+                assert!(played.saturated.expect("its motors have limits").value > 0.5);
+            }
         }
     }
 }
