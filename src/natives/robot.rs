@@ -89,9 +89,7 @@ fn connections(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         })
     };
     let connection = |bond: &Bond| {
-        let connector = assembly.module_type(bond.a.module).ports[bond.a.port].connector;
-        let turns = assembly.library.connectors[connector].turns;
-        let turn = TAU * f64::from(bond.turn) / f64::from(turns);
+        let turn = TAU * f64::from(bond.turn) / f64::from(assembly.connector(bond.a).turns);
         let fields = vec![port(bond.a), port(bond.b), Value::Quantity(turn, Dimension::ANGLE)];
         Value::Record(Rc::new(Record::Declared(DeclaredRecord { def, fields })))
     };

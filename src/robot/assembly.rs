@@ -4,7 +4,7 @@
 //! A configuration is a tree of parts to a person; here it is a list of modules with path names and a list of bonds
 //! between their ports.
 
-use super::library::{Hinge, JointKind, Library, ModuleType, Servo};
+use super::library::{Connector, Hinge, JointKind, Library, ModuleType, Servo};
 use crate::geometry::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -154,9 +154,25 @@ impl Assembly {
     /// Returns the hinge of a bond, given by its index: that of the connector at its first port; `None` for a bond
     /// that does not turn. Panics if there is no such bond.
     pub fn hinge(&self, bond: usize) -> Option<&Hinge> {
-        let a = self.bonds[bond].a;
-        let connector = self.module_type(a.module).ports[a.port].connector;
-        self.library.connectors[connector].hinge.as_ref()
+        self.connector(self.bonds[bond].a).hinge.as_ref()
+    }
+
+    /// Returns the connector of a port. Panics if there is no such port.
+    pub fn connector(&self, port: PortRef) -> &Connector {
+        &self.library.connectors[self.module_type(port.module).ports[port.port].connector]
+    }
+
+    /// Returns the greatest pull along the normal (N) and the greatest moment (N·m) that a bond, given by its index,
+    /// holds: what the weaker of its two connectors states; `None` where neither states a limit. Panics if there is no
+    /// such bond.
+    pub fn bond_strength(&self, bond: usize) -> (Option<f64>, Option<f64>) {
+        let least = |x: Option<f64>, y: Option<f64>| match (x, y) {
+            (Some(x), Some(y)) => Some(x.min(y)),
+            (x, y) => x.or(y),
+        };
+        let Bond { a, b, .. } = self.bonds[bond];
+        let (a, b) = (self.connector(a), self.connector(b));
+        (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
     }
 
     /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports, `a.front --

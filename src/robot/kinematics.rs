@@ -323,8 +323,7 @@ struct Pair {
 /// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`. `robot`: the assembly. Panics if there is no such bond.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
     let bond = &robot.bonds[bond];
-    let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;
-    let turns = f64::from(robot.library.connectors[connector].turns);
+    let turns = f64::from(robot.connector(bond.a).turns);
     turned(Vec3::z(), PI) * turned(Vec3::x(), TAU * f64::from(bond.turn) / turns)
 }
 

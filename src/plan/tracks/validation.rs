@@ -141,8 +141,7 @@ pub(super) fn robot(robot: &Assembly) -> Result<(), PlanFault> {
     for bond in &robot.bonds {
         port(bond.a, robot)?;
         port(bond.b, robot)?;
-        let connector = robot.module_type(bond.a.module).ports[bond.a.port].connector;
-        need_index(bond.turn as usize, robot.library.connectors[connector].turns as usize, "turn")?;
+        need_index(bond.turn as usize, robot.connector(bond.a).turns as usize, "turn")?;
     }
     Ok(())
 }

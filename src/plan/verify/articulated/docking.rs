@@ -177,9 +177,7 @@ pub(super) fn within(robot: &Assembly, residual: &Residual, tolerances: &Toleran
 /// Returns the greatest distance (m) and angle (rad) between the two ports of a bond, given by its index, with which
 /// it docks and holds: the capture that the connector of its port `a` states, or else the tolerances for loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
-    let a = robot.bonds[bond].a;
-    let connector = robot.module_type(a.module).ports[a.port].connector;
-    let capture = robot.library.connectors[connector].capture;
+    let capture = robot.connector(robot.bonds[bond].a).capture;
     capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
 }
 

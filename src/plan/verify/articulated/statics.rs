@@ -293,7 +293,7 @@ impl Structure {
                 false => (declared.b, declared.a),
             };
             let name = model.robot.bond_name(bond);
-            let (force, moment) = holds(model, near, far);
+            let (force, moment) = model.robot.bond_strength(bond);
             let link = |port: PortRef| model.kinematics.port_link(model.robot, port);
             let pose = model.robot.module_type(near.module).ports[near.port].pose;
             let cut = |axis: Vec3, moment| Cut::Bond {
@@ -327,21 +327,6 @@ impl Structure {
         let posture = &stance.posture;
         stance.R * (posture.R[link] * port.pose.translation.vector + posture.p[link] - posture.centre)
     }
-}
-
-/// Returns the force (N) and the moment (N·m) that the weaker of two connectors holds; `None` if neither states a
-/// limit.
-fn holds(model: &Model, a: PortRef, b: PortRef) -> (Option<f64>, Option<f64>) {
-    let connector = |port: PortRef| {
-        let index = model.robot.module_type(port.module).ports[port.port].connector;
-        &model.robot.library.connectors[index]
-    };
-    let least = |x: Option<f64>, y: Option<f64>| match (x, y) {
-        (Some(x), Some(y)) => Some(x.min(y)),
-        (x, y) => x.or(y),
-    };
-    let (a, b) = (connector(a), connector(b));
-    (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
 }
 
 /// Returns true if a step of the kinematics is moved by at least one joint.
