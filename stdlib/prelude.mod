@@ -769,6 +769,8 @@ extern fn box(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A cylinder, centred at the origin of its link. Options as for `box`.
@@ -791,6 +793,8 @@ extern fn cylinder(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A ball, centred at the origin of its link. Options as for `box`.
@@ -809,6 +813,8 @@ extern fn sphere(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A cylinder with round caps; `length` lies between the centres of the caps. Options as for `box`.
@@ -829,6 +835,8 @@ extern fn capsule(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A prism over a convex outline in the xy plane, from z = -height/2 to height/2. Options as for `box`.
@@ -850,6 +858,8 @@ extern fn prism(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// The convex hull of points in the link's frame. Options as for `box`.
@@ -870,6 +880,8 @@ extern fn hull(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A closed mesh from a file of this project: STL, OBJ, OFF or PLY. Options as for `box`.
@@ -890,6 +902,8 @@ extern fn mesh(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// Several shapes as one. Options as for `box`; those of the parts count for nothing.
@@ -910,6 +924,8 @@ extern fn union(
   com: Vec3<Length>?,
   inertia: Vec3<Quantity<kg*m^2>>?,
   friction: Number = 0.5,
+  static_friction: Number?,
+  contact_stiffness: Quantity<N/m>?,
 ) -> Shape
 
 /// A shape turned about an axis through its origin, then moved: for the parts of a `union`.
@@ -940,6 +956,10 @@ extern fn placed(
 /// joint feels it. Full dynamics use both (see `world`), with no armature unless it is stated; simulations assume 2e-3 kg*m^2 for
 /// 150 N*m/rad then.
 ///
+/// Two facts are known to simulations alone. `damping` is that of the servo, 1/25 s of its stiffness unless stated; of a
+/// passive joint that of its bearing, none unless stated. At `no_load_speed` the motor has no torque left: what it can do
+/// falls from `max_torque` in proportion to the speed at which it drives; unless stated it does not.
+///
 /// Example:
 /// ```modl
 /// module Wheel {
@@ -958,12 +978,14 @@ extern fn revolute(
   max_torque: Torque?,
   stiffness: Quantity<N*m/rad>?,
   armature: Quantity<kg*m^2>?,
+  damping: Quantity<N*m*s/rad>?,
+  no_load_speed: AngularSpeed?,
   passive: Bool = false,
 ) -> JointKind
 
 /// A joint that slides along an axis.
 ///
-/// `stiffness` and `armature` are as for `revolute`: a servo yields by 1.75 mm under `max_force` where no stiffness is stated.
+/// `stiffness`, `armature`, `damping` and `no_load_speed` are as for `revolute`: a servo yields by 1.75 mm under `max_force` where no stiffness is stated.
 ///
 /// Example:
 /// ```modl
@@ -983,6 +1005,8 @@ extern fn prismatic(
   max_force: Force?,
   stiffness: Quantity<N/m>?,
   armature: Mass?,
+  damping: Quantity<N*s/m>?,
+  no_load_speed: Speed?,
   passive: Bool = false,
 ) -> JointKind
 

@@ -128,6 +128,7 @@ impl Interpreter<'_> {
             com: Vec3::zeros(),
             inertia: [0.0; 6],
             friction: solid.friction.unwrap_or(Link::FRICTION_DEFAULT),
+            surface: solid.surface,
         };
         Ok((solid, built))
     }

@@ -11,7 +11,7 @@ use super::record::Record;
 use crate::check::typed::{DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
 use crate::plan;
-use crate::robot::{JointId, JointKind, JointOwner, Limits, PortRef, Servo};
+use crate::robot::{JointKind, JointOwner, Limits, PortRef, Servo, Surface};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
@@ -248,6 +248,8 @@ pub struct Solid {
     pub inertia: Option<[f64; 6]>,
     /// The coefficient of friction against the ground, without unit; `None` if none is stated.
     pub friction: Option<f64>,
+    /// The facts of the surface that only simulations know.
+    pub surface: Surface,
 }
 
 /// A kind of joint with its axis and limits: `revolute(...)`, `prismatic(...)`, `fixed()`.

@@ -9,14 +9,14 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};
-use crate::robot::{JointKind, Limits, Servo};
+use crate::robot::{JointKind, Limits, Servo, Surface};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
 /// Lists the parameters of a solid: its own, and those that all solids have.
 macro_rules! solid_parameters {
     ($($name:ident: $type:ty),*) => {
-        parameters![$($name: $type,)* mass: Option<Positive>, com: Option<Vec3>, inertia: Option<Vec3>, friction: f64]
+        parameters![$($name: $type,)* mass: Option<Positive>, com: Option<Vec3>, inertia: Option<Vec3>, friction: f64, static_friction: Option<f64>, contact_stiffness: Option<Positive>]
     };
 }
 
@@ -34,12 +34,12 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("placed", parameters![shape: &Solid, at: Vec3, axis: Vec3, turn: f64], placed),
     Native::pure(
         "revolute",
-        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_torque: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, passive: bool],
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_torque: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, damping: Option<Positive>, no_load_speed: Option<Positive>, passive: bool],
         revolute,
     ),
     Native::pure(
         "prismatic",
-        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_force: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, passive: bool],
+        parameters![axis: Vec3, range: Option<(f64, f64)>, max_speed: Option<Positive>, max_accel: Option<Positive>, max_force: Option<Positive>, stiffness: Option<Positive>, armature: Option<Positive>, damping: Option<Positive>, no_load_speed: Option<Positive>, passive: bool],
         prismatic,
     ),
     Native::pure("fixed", parameters![], fixed),
@@ -160,7 +160,7 @@ fn solid(call: &Call, shape: Shape) -> Eval<Value> {
 /// Returns a solid of these parts with the mass, centre of mass, moments of inertia and friction of the call.
 ///
 /// # Errors
-/// A fault where a moment of inertia is not positive, or friction is negative.
+/// A fault where a moment of inertia is not positive, friction is negative, or static friction is below it.
 fn with_options(call: &Call, parts: Vec<Placed>) -> Eval<Value> {
     let inertia: Option<Vec3> = call.get("inertia")?;
     if let Some(moments) = inertia
@@ -172,8 +172,15 @@ fn with_options(call: &Call, parts: Vec<Placed>) -> Eval<Value> {
     if friction < 0.0 {
         return Err(call.refuse("friction", "friction must not be negative"));
     }
+    let static_friction: Option<f64> = call.get("static_friction")?;
+    if static_friction.is_some_and(|sticking| sticking < friction) {
+        let message = "static friction must not be below `friction`";
+        return Err(call.refuse("static_friction", message));
+    }
+    let stiffness = call.positive_if("contact_stiffness", "a stiffness")?;
     Ok(Value::Shape(Rc::new(Solid {
         parts,
+        surface: Surface { static_friction, stiffness },
         mass: call.positive_if("mass", "a mass")?,
         com: call.get("com")?,
         inertia: inertia.map(|m| [m.x, m.y, m.z, 0.0, 0.0, 0.0]),
@@ -207,6 +214,8 @@ fn joint(call: &Call, kind: JointKind, max_effort: &str) -> Eval<Value> {
     let servo = Servo {
         stiffness: call.positive_if("stiffness", "a stiffness")?,
         armature: call.positive_if("armature", "an inertia of the rotor")?,
+        damping: call.positive_if("damping", "a damping")?,
+        no_load_speed: call.positive_if("no_load_speed", "a speed without load")?,
     };
     let (axis, passive) = (axis(call, "axis")?, call.get("passive")?);
     Ok(Value::JointKind(Rc::new(JointSpec { kind, axis, limits, passive, servo })))

@@ -116,8 +116,16 @@ fn of_joint(joint: &Joint) -> String {
 /// Returns what is stated of a servo in words, each fact after a comma; `slides`: that of a joint that slides.
 fn of_servo(servo: &Servo, slides: bool) -> String {
     let (stiffness, inertia) = if slides { ("N/m", "kg") } else { ("N*m/rad", "kg*m^2") };
-    let stated = [(servo.stiffness, stiffness), (servo.armature, inertia)];
-    let words = stated.into_iter().filter_map(|(value, unit)| Some(format!(", {}{unit}", number(value?))));
+    let (damping, rate) = if slides { ("N*s/m", "m/s") } else { ("N*m*s/rad", "rad/s") };
+    let stated = [
+        (servo.stiffness, "", stiffness),
+        (servo.armature, "", inertia),
+        (servo.damping, "", damping),
+        (servo.no_load_speed, "no load at ", rate),
+    ];
+    let words = stated
+        .into_iter()
+        .filter_map(|(value, what, unit)| Some(format!(", {what}{}{unit}", number(value?))));
     words.collect()
 }
 

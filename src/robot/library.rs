@@ -131,8 +131,35 @@ pub struct Link {
     /// The entries xx, yy, zz, xy, xz, yz of the symmetric inertia matrix about the centre of mass, along the axes of
     /// the link's frame, kg·m².
     pub inertia: [f64; 6],
-    /// The Coulomb coefficient of friction against the ground, without unit.
+    /// The Coulomb coefficient of friction against the ground, without unit: of a surface that slides.
     pub friction: f64,
+    /// The facts of the surface that only simulations know.
+    #[serde(default, skip_serializing_if = "Surface::is_unstated")]
+    pub surface: Surface,
+}
+
+/// The facts of a link's surface that only simulations know.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Surface {
+    /// The coefficient of friction up to which it sticks, without unit, at least that of a surface that slides; `None`: the
+    /// same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub static_friction: Option<f64>,
+    /// The stiffness of a contact, N/m; `None`: [`STIFFNESS_DEFAULT`](Surface::STIFFNESS_DEFAULT).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
+}
+
+impl Surface {
+    /// The stiffness of a contact where none is stated, N/m: stiffer than servos are at a lever of 0.1 m. It is that of the
+    /// judge.
+    pub const STIFFNESS_DEFAULT: f64 = 1e5;
+
+    /// Returns true if no fact of the surface is stated.
+    pub fn is_unstated(&self) -> bool {
+        *self == Surface::default()
+    }
 }
 
 /// The kind of a joint: its degree of freedom.
@@ -191,6 +218,13 @@ pub struct Servo {
     /// The inertia of its rotor and gears as the joint feels it, kg·m² or kg; `None`: not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub armature: Option<f64>,
+    /// The damping of its position, N·m·s/rad or N·s/m; of a joint without a motor that of the joint. `None`: not stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<f64>,
+    /// The speed at which its motor has no effort left, rad/s or m/s: the greatest effort falls in proportion to the speed;
+    /// `None`: it does not fall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_load_speed: Option<f64>,
 }
 
 impl Servo {
@@ -210,6 +244,12 @@ impl Servo {
     /// The armature of a servo of unit stiffness where none is stated, s²: 2e-3 kg·m² for 150 N·m/rad, so that the
     /// shortest period of a servo is that of a step of 1 ms or more.
     pub const ARMATURE_DEFAULT: f64 = 2e-3 / 150.0;
+
+    /// Returns the damping of a motor's servo with a stiffness (N·m/rad or N/m), N·m·s/rad or N·s/m: as stated, or
+    /// [`DAMPING_DEFAULT`](Servo::DAMPING_DEFAULT) of the stiffness.
+    pub fn damping_with(&self, stiffness: f64) -> f64 {
+        self.damping.unwrap_or(Servo::DAMPING_DEFAULT * stiffness)
+    }
 
     /// Returns true if no fact of the servo is stated.
     pub fn is_unstated(&self) -> bool {

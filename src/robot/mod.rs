@@ -41,7 +41,7 @@ pub use fault::{LibraryFault, ModulePart};
 pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{
     Capture, Cell, Connector, Hinge, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Port, Servo,
-    Strut,
+    Strut, Surface,
 };
 pub use mass::Mass;
 pub use matching::{Matching, Mismatch, matching};

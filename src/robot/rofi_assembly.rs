@@ -5,7 +5,7 @@
 use super::rofi::{Dock, World};
 use super::{
     Assembly, Bond, Capture, Connector, Joint, JointKind, Library, Limits, Link, ModuleInstance, ModuleType,
-    Port, PortRef, Servo, State,
+    Port, PortRef, Servo, State, Surface,
 };
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Placed, Pose, Shape, Vec3};
@@ -109,6 +109,7 @@ fn link(name: &str, pose: Pose, radius: f64) -> Link {
         com: Vec3::zeros(),
         inertia: [inertia, inertia, inertia, 0.0, 0.0, 0.0],
         friction: Link::FRICTION_DEFAULT,
+        surface: Surface::default(),
     }
 }
 

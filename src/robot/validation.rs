@@ -5,7 +5,7 @@
 
 use super::fault::{LibraryFault, ModulePart};
 use super::library::{
-    Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Servo, Strut,
+    Cell, Connector, Joint, JointKind, Library, Limits, Link, ModuleType, Motor, Servo, Strut, Surface,
 };
 use super::step::MIMIC_DEPTH_MAX;
 use crate::geometry::soundness::{EXTENT_MAX, TOL_THICKNESS, TOL_UNIT, check_placed, check_pose};
@@ -197,6 +197,9 @@ fn check_link(link: &Link) -> Checked {
     }
     need_not_negative(link.mass, QUANTITY_MAX, "its mass")?;
     need_not_negative(link.friction, QUANTITY_MAX, "its friction")?;
+    let Surface { static_friction, stiffness } = link.surface;
+    static_friction.iter().try_for_each(|f| need_not_negative(*f, QUANTITY_MAX, "its static friction"))?;
+    stiffness.iter().try_for_each(|k| need_positive(*k, QUANTITY_MAX, "the stiffness of its surface"))?;
     link.com.iter().try_for_each(|c| need_bounded(*c, EXTENT_MAX, "its centre of mass"))?;
     let most = QUANTITY_MAX * EXTENT_MAX * EXTENT_MAX;
     link.inertia.iter().try_for_each(|i| need_bounded(*i, most, "its inertia"))?;
@@ -307,9 +310,13 @@ fn check_joint(joint: &Joint) -> Checked {
     unit(&joint.axis)?;
     let farthest = if joint.kind == JointKind::Prismatic { MODULE_EXTENT_MAX } else { POSITION_MAX };
     check_limits(&joint.limits, farthest)?;
-    let Servo { stiffness, armature } = joint.servo;
+    let Servo { stiffness, armature, damping, no_load_speed } = joint.servo;
     stiffness.iter().try_for_each(|k| need_positive(*k, QUANTITY_MAX, "the stiffness of its servo"))?;
     armature.iter().try_for_each(|i| need_positive(*i, QUANTITY_MAX, "the armature of its servo"))?;
+    damping.iter().try_for_each(|d| need_positive(*d, QUANTITY_MAX, "the damping of its servo"))?;
+    no_load_speed
+        .iter()
+        .try_for_each(|v| need_positive(*v, QUANTITY_MAX, "the no-load speed of its motor"))?;
     joint.mimic.iter().flatten().try_for_each(|(_, factor)| need_bounded(*factor, POSITION_MAX, "a factor"))
 }
 

@@ -59,6 +59,7 @@ pub fn link(name: &str, shape: Vec<Placed>, mass: f64, com: Vec3, friction: f64)
         com,
         inertia: solid.inertia.map(|i| i * scale),
         friction,
+        surface: modl::robot::Surface::default(),
     }
 }
 

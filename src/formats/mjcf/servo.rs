@@ -38,9 +38,10 @@ impl Servo {
 }
 
 fn servo(trees: &Trees, joint: usize) -> Servo {
-    let (stiffness, armature) = trees.servo(joint);
+    let (stiffness, stated) = trees.servo(joint);
     let assumed = Servo::of_stiffness(Servo::of_class(trees.slides(joint)).class, stiffness);
-    Servo { armature: armature.unwrap_or(assumed.armature), ..assumed }
+    let armature = stated.armature.unwrap_or(assumed.armature);
+    Servo { armature, damping: stated.damping_with(stiffness), ..assumed }
 }
 
 /// Returns the attributes of a driven joint (an index in the robot's joints): its class, and its armature where that is
@@ -80,7 +81,8 @@ pub(super) fn actuators(xml: &mut Xml, trees: &Trees) {
         let (name, servo) = (trees.joint_name(joint), servo(trees, joint));
         let mut attributes: Vec<Attribute> =
             vec![("name", name.clone()), ("class", servo.class.into()), ("joint", name)];
-        if servo.stiffness != Servo::of_class(trees.slides(joint)).stiffness {
+        let class = Servo::of_class(trees.slides(joint));
+        if (servo.stiffness, servo.damping) != (class.stiffness, class.damping) {
             attributes.push(("kp", number(servo.stiffness)));
             attributes.push(("kv", number(servo.damping)));
         }

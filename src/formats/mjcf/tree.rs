@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{LastingTrees, Tracks};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Step};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -144,11 +144,10 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// Returns (stiffness, armature) of a joint's servo: N·m/rad, or N/m if it slides, and kg·m² or kg; `None` if no
-    /// armature is stated.
-    pub(super) fn servo(&self, joint: usize) -> (f64, Option<f64>) {
+    /// Returns the stiffness of a joint's servo, N·m/rad, or N/m if it slides, and what is stated of the servo.
+    pub(super) fn servo(&self, joint: usize) -> (f64, Servo) {
         let owner = self.joints[joint];
-        (self.robot.servo_stiffness(owner), self.robot.servo(owner).armature)
+        (self.robot.servo_stiffness(owner), self.robot.servo(owner))
     }
 
     /// Returns true if a joint is prismatic, so that its positions are in m; false if they are in rad.

@@ -28,6 +28,7 @@
 //! #     com: Vec3::zeros(),
 //! #     inertia: [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0],
 //! #     friction: 0.5,
+//! #     surface: Surface::default(),
 //! # };
 //! # let module = ModuleType {
 //! #     name: "Hinge".to_owned(),

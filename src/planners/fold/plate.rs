@@ -5,7 +5,7 @@ use super::panel::{NotAPanel, Panels, equal_sides};
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
-use crate::robot::{Connector, Hinge, Library, Limits, Link, ModuleType, Port};
+use crate::robot::{Connector, Hinge, Library, Limits, Link, ModuleType, Port, Surface};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -113,6 +113,7 @@ impl Plate {
             com: body.centre,
             inertia: [i[(0, 0)], i[(1, 1)], i[(2, 2)], i[(0, 1)], i[(0, 2)], i[(1, 2)]],
             friction: Link::FRICTION_DEFAULT,
+            surface: Surface::default(),
         };
         let port = |k: usize| {
             let (from, to) = (corners[k], corners[(k + 1) % 3]);
