@@ -1423,7 +1423,7 @@ extern fn elapsed() -> Signal<Time>
 extern fn torque(joint: Joint<Angle>) -> Signal<Torque>
 
 /// The force that the motor of a joint that slides supplies in the joint's positive direction, as the judge works it
-/// out; for `series`, with what `torque` says of the forces of the ground.
+/// out; with what `torque` says of the forces of the ground, and of conditions.
 ///
 /// Example:
 /// ```modl
@@ -1472,7 +1472,7 @@ extern fn clearance() -> Signal<Length>
 /// ```
 extern fn ground_force(on: Config) -> Signal<Force>
 
-/// The distance of two ports' origins; for `series`.
+/// The distance of two ports' origins. In conditions it is measured, so that a plan does not know it before it runs.
 ///
 /// Example:
 /// ```modl
@@ -1482,6 +1482,33 @@ extern fn ground_force(on: Config) -> Signal<Force>
 /// print(last(p.series(separation(c.tail, c.head), step: 100ms)))
 /// ```
 extern fn separation(a: Port, b: Port) -> Signal<Length>
+
+/// The angle by which the body of a module, or of the first module of a part, leans from its attitude at the start.
+///
+/// In conditions it is measured, so that a plan does not know it before it runs.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let p = plan(move(c.m[1].tilt, to: 30deg))
+/// print(last(p.series(tilt(c.m[2]), step: 100ms)))
+/// ```
+extern fn tilt(on: Config) -> Signal<Angle>
+
+/// That a module, or a part, touches the ground or another module that is not docked to it.
+///
+/// It is measured, so that a plan does not know it before it runs: the undisturbed run goes on when the time is out, as if
+/// it held by then.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Chain3
+/// let c = Chain3()
+/// let reach = move(c.m[2].tilt, to: -60deg, in: 3s, until: touching(c.m[2]), timeout: 4s)
+/// print(plan(reach).nominal)
+/// ```
+extern fn touching(on: Config) -> Condition
 
 /// That something is docked at a port.
 ///
@@ -1525,9 +1552,11 @@ let proceed = Sc()
 /// Example:
 /// ```modl
 /// use std.smores.Driver1
-/// print(plan(repeat(Driver1().drive(t: 1s), 3)).duration)
+/// let d = Driver1()
+/// print(plan(repeat(d.drive(t: 1s), 3)).duration)
+/// print(plan(repeat(d.drive(t: 1s), until: elapsed() > 4s, max: 9)).duration)
 /// ```
-extern fn repeat(behavior: Behavior, times: Int) -> Behavior
+extern fn repeat(behavior: Behavior, times: Int?, until: Condition?, max: Int?) -> Behavior
 
 /// A cyclic behaviour begun in the middle: at `shift`, 0 to 1, of its cycle.
 ///
@@ -1683,6 +1712,8 @@ extern type Plan {
   duration: Time
   /// How many actions it carries out, repetitions counted.
   actions: Int
+  /// Whether it depends on sensors or timeouts, so that it is only what happens if nothing disturbs it.
+  nominal: Bool
   /// How many stretches there are between one change of commands and the next.
   steps: Int
   /// The state at the beginning.
@@ -1880,6 +1911,8 @@ extern fn simulate(
 
 /// What happens when a plan is played.
 extern type Simulation {
+  /// How long the motion took: as planned, or as the program went that was executed.
+  duration: Time
   /// How far the base is from where it stood, along the ground, 0.3 s after the end.
   travel: Length
   /// From where the base stood to where it is then.
@@ -1912,7 +1945,7 @@ extern type Simulation {
   falls: Int
   /// How far the base got along the ground in each of the further runs.
   travels: List<Length>
-  /// Falls, bonds that broke, ports that did not dock, in words, in order of time.
+  /// Falls, bonds that broke, ports that did not dock, and why a program was stopped, in words, in order of time.
   failures: List<Text>
   /// What half the step changes, where the verdict on the plan says otherwise, and the mildest of the further runs in
   /// which it fell.

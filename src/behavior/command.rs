@@ -227,6 +227,9 @@ impl Run<'_> {
 
     /// Docks two ports: closes the same bond as before, or a new one with its hinge.
     fn dock(&mut self, a: PortRef, b: PortRef, cause: CauseId) -> Result<(), Reason> {
+        if self.executes {
+            return self.dock_known(a, b, cause);
+        }
         let joints: Vec<f64> = self.motions.iter().map(|m| m.position(self.now)).collect();
         let (bond, hinge) = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
         // A bond whose hinge may have turned since is a new one; without a hinge its ends are alike.
@@ -245,6 +248,23 @@ impl Run<'_> {
         });
         self.holds[index] = true;
         self.docks.push(DockingEvent { time: self.now, kind: DockingKind::Dock, bond: index, cause });
+        Ok(())
+    }
+
+    /// Docks two ports by a bond that the robot knows, one that has not been closed before if there are several: where they
+    /// are is the robot's affair.
+    fn dock_known(&mut self, a: PortRef, b: PortRef, cause: CauseId) -> Result<(), Reason> {
+        docking::free(&self.robot, &self.holds, a, b)?;
+        let joins = |bond: &Bond| (bond.a, bond.b) == (a, b) || (bond.a, bond.b) == (b, a);
+        let closed = |bond: &usize| {
+            self.docks.iter().any(|event| event.bond == *bond && event.kind == DockingKind::Dock)
+        };
+        let known = (0..self.robot.bonds.len()).filter(|bond| joins(&self.robot.bonds[*bond]));
+        let bond = known
+            .min_by_key(closed)
+            .ok_or_else(|| Reason::NotPlanned { a: self.robot.port_name(a), b: self.robot.port_name(b) })?;
+        self.holds[bond] = true;
+        self.docks.push(DockingEvent { time: self.now, kind: DockingKind::Dock, bond, cause });
         Ok(())
     }
 

@@ -1,7 +1,8 @@
 //! The first instant at which a condition holds along the nominal motion: exact crossings of polynomials.
 //!
 //! Conditions are judged on open intervals of time and at the instants where a piece of motion
-//! begins; a signal that only touches a value inside a piece does not reach it.
+//! begins; a signal that only touches a value inside a piece does not reach it. Of what only a robot in motion can measure
+//! nothing is known before, so conditions have three values (Kleene 1938): true, false and unknown.
 
 use super::motion::{Motion, SignalPiece};
 use crate::plan::time::tick_after;
@@ -10,6 +11,16 @@ use crate::robot::{Assembly, PortRef};
 
 /// The greatest depth to which conditions may be nested; an action with a deeper one is refused.
 pub(super) const DEPTH_MAX: usize = 64;
+
+/// The sensors of a robot that executes a program: what they report now.
+pub trait Sensors {
+    /// Returns the value of a signal: rad or m, rad/s or m/s, N·m or N. It is not asked for the time of an action
+    /// ([`Signal::Elapsed`]).
+    fn value(&self, signal: Signal) -> f64;
+
+    /// Returns true if one of some modules, given by their indices, touches the ground or a module that is not among them.
+    fn touches(&self, modules: &[usize]) -> bool;
+}
 
 /// The state of a run on which a condition is judged: the motion of the joints and the bonds.
 pub(super) struct View<'a> {
@@ -21,12 +32,15 @@ pub(super) struct View<'a> {
     pub(super) holds: &'a [bool],
     /// The time at which the action began, s.
     pub(super) began: f64,
+    /// The sensors, where the program is executed; `None` in the undisturbed run, which follows the motion.
+    pub(super) sensors: Option<&'a dyn Sensors>,
 }
 
 /// Returns the first time in `t0..=t1` (s, `t1` may be infinite) from which on the condition holds: `t0`, `t1`, or
 /// the instant rounded up to a tick; `None` if there is none.
 pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Option<f64> {
-    if holds(condition, view, t0) {
+    let holds = |t| holds(condition, view, t) == Some(true);
+    if holds(t0) {
         return Some(t0);
     }
     let mut breaks = vec![t0];
@@ -37,13 +51,11 @@ pub(super) fn first(condition: &Condition, view: &View, t0: f64, t1: f64) -> Opt
     let last = breaks[breaks.len() - 1];
     breaks.push(if t1.is_finite() { t1 } else { last + 1.0 });
     for pair in breaks.windows(2) {
-        if pair[0] > t0 && holds(condition, view, pair[0])
-            || holds(condition, view, (pair[0] + pair[1]) / 2.0)
-        {
+        if pair[0] > t0 && holds(pair[0]) || holds((pair[0] + pair[1]) / 2.0) {
             return Some(tick_after(pair[0])).filter(|t| *t <= t1);
         }
     }
-    (t1.is_finite() && holds(condition, view, t1)).then_some(t1)
+    (t1.is_finite() && holds(t1)).then_some(t1)
 }
 
 /// Returns the depth to which a condition is nested, 1 for a plain comparison or test; where it is more than
@@ -65,7 +77,9 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     let (a, b) = match condition {
         Condition::And(a, b) | Condition::Or(a, b) => (Some(&**a), Some(&**b)),
         Condition::Not(a) => (Some(&**a), None),
-        Condition::Compare { .. } | Condition::Docked(_) | Condition::Mated(..) => (None, None),
+        Condition::Compare { .. } | Condition::Docked(_) | Condition::Mated(..) | Condition::Touching(_) => {
+            (None, None)
+        }
     };
     a.into_iter().chain(b)
 }
@@ -74,28 +88,36 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
 pub(super) fn senses(condition: &Condition) -> bool {
     match condition {
         Condition::Compare { signal, .. } => *signal != Signal::Elapsed,
-        Condition::Docked(_) | Condition::Mated(..) => true,
+        Condition::Docked(_) | Condition::Mated(..) | Condition::Touching(_) => true,
         Condition::And(..) | Condition::Or(..) | Condition::Not(_) => parts(condition).any(senses),
     }
 }
 
-/// Returns `true` where a condition holds at an instant; rates are those just after it.
-fn holds(condition: &Condition, view: &View, t: f64) -> bool {
+/// Returns true or false where it is known that a condition holds, or does not, at an instant; rates are those just after
+/// it.
+pub(super) fn holds(condition: &Condition, view: &View, t: f64) -> Option<bool> {
     match condition {
         Condition::Compare { signal, compare, value } => {
-            let at = value_at(*signal, view, t);
-            match compare {
+            let at = value_at(*signal, view, t)?;
+            Some(match compare {
                 Compare::Less => at < *value,
                 Compare::LessEqual => at <= *value,
                 Compare::Greater => at > *value,
                 Compare::GreaterEqual => at >= *value,
-            }
+            })
         }
-        Condition::Docked(port) => bonds_of(view, *port).next().is_some(),
-        Condition::Mated(a, b) => bonds_of(view, *a).any(|other| other == *b),
-        Condition::And(a, b) => holds(a, view, t) && holds(b, view, t),
-        Condition::Or(a, b) => holds(a, view, t) || holds(b, view, t),
-        Condition::Not(a) => !holds(a, view, t),
+        Condition::Docked(port) => Some(bonds_of(view, *port).next().is_some()),
+        Condition::Mated(a, b) => Some(bonds_of(view, *a).any(|other| other == *b)),
+        Condition::Touching(modules) => view.sensors.map(|sensors| sensors.touches(modules)),
+        Condition::And(a, b) => match (holds(a, view, t), holds(b, view, t)) {
+            (Some(false), _) | (_, Some(false)) => Some(false),
+            (a, b) => a.and(b),
+        },
+        Condition::Or(a, b) => match (holds(a, view, t), holds(b, view, t)) {
+            (Some(true), _) | (_, Some(true)) => Some(true),
+            (a, b) => a.and(b),
+        },
+        Condition::Not(a) => holds(a, view, t).map(|holds| !holds),
     }
 }
 
@@ -109,15 +131,22 @@ fn bonds_of<'a>(view: &'a View, port: PortRef) -> impl Iterator<Item = PortRef> 
     })
 }
 
-/// Returns the value of a signal at an instant, just after it for a speed: s, rad or m, rad/s or m/s.
-fn value_at(signal: Signal, view: &View, t: f64) -> f64 {
+/// Returns the value of a signal at an instant, just after it for a speed: s, rad or m, rad/s or m/s; `None` where only
+/// sensors know it and there are none.
+fn value_at(signal: Signal, view: &View, t: f64) -> Option<f64> {
+    if signal == Signal::Elapsed {
+        return Some(t - view.began);
+    }
+    if let Some(sensors) = view.sensors {
+        return Some(sensors.value(signal));
+    }
     match signal {
-        Signal::Elapsed => t - view.began,
-        Signal::Angle(joint) => view.motions[joint.0 as usize].position(t),
+        Signal::Angle(joint) => Some(view.motions[joint.0 as usize].position(t)),
         Signal::Speed(joint) => {
             let piece = view.motions[joint.0 as usize].pieces(t, f64::INFINITY).into_iter().next();
-            piece.map_or(0.0, |p| p.rate().control[0])
+            Some(piece.map_or(0.0, |p| p.rate().control[0]))
         }
+        Signal::Elapsed | Signal::Effort(_) | Signal::Separation(..) | Signal::Tilt(_) => None,
     }
 }
 
@@ -143,6 +172,7 @@ fn pieces(signal: Signal, view: &View, t0: f64, t1: f64) -> Vec<SignalPiece> {
             let span = if t1.is_finite() { t1 - t0 } else { 1.0 };
             vec![SignalPiece { start: t0, end: t1, control: vec![elapsed, elapsed + span] }]
         }
+        Signal::Effort(_) | Signal::Separation(..) | Signal::Tilt(_) => Vec::new(),
     }
 }
 

@@ -236,7 +236,11 @@ fn absolute_joints(body: &Arc<Node>) -> BTreeSet<JointId> {
 
 /// Returns the part of a behaviour that cannot be shifted or scaled, in words; `None` if there is none.
 fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
-    Graph::of(body).actions().find_map(|Action { command, until, timeout, .. }| match command {
+    let graph = Graph::of(body);
+    if graph.nodes.iter().any(|node| matches!(***node, Node::Repeat { until: Some(_), .. })) {
+        return Some("a condition");
+    }
+    graph.actions().find_map(|Action { command, until, timeout, .. }| match command {
         _ if until.is_some() => Some("a condition"),
         _ if timeout.is_some() => Some("a timeout"),
         Command::Dock { .. } => Some("docking"),

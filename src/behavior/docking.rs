@@ -26,13 +26,8 @@ pub(super) fn docked(
     a: PortRef,
     b: PortRef,
 ) -> Result<(Bond, Option<f64>), Reason> {
+    free(robot, holds, a, b)?;
     let name = |port| robot.port_name(port);
-    for port in [a, b] {
-        if let Some(bond) = bond_at(robot, holds, port).map(|i| robot.bonds[i]) {
-            let other = if bond.a == port { bond.b } else { bond.a };
-            return Err(Reason::PortTaken { port: name(port), by: name(other) });
-        }
-    }
     if !mate(robot, a, b) {
         return Err(Reason::NoMate { a: name(a), b: name(b) });
     }
@@ -40,11 +35,25 @@ pub(super) fn docked(
     Ok(nearest(robot, a, b, &X_PQ))
 }
 
+/// Checks that nothing is docked at two ports.
+///
+/// # Errors
+/// [`Reason::PortTaken`] for the first at which something is.
+pub(super) fn free(robot: &Assembly, holds: &[bool], a: PortRef, b: PortRef) -> Result<(), Reason> {
+    for port in [a, b] {
+        if let Some(bond) = bond_at(robot, holds, port).map(|i| robot.bonds[i]) {
+            let other = if bond.a == port { bond.b } else { bond.a };
+            return Err(Reason::PortTaken { port: robot.port_name(port), by: robot.port_name(other) });
+        }
+    }
+    Ok(())
+}
+
 /// Returns true if two ports belong to different modules and the connector of `a` states that of `b` among those that
 /// it mates with.
 pub(super) fn mate(robot: &Assembly, a: PortRef, b: PortRef) -> bool {
-    let connector = |p: PortRef| robot.module_type(p.module).ports[p.port].connector;
-    a.module != b.module && robot.library.connectors[connector(a)].mates.contains(&connector(b))
+    let own = robot.module_type(b.module).ports[b.port].connector;
+    a.module != b.module && robot.connector(a).mates.contains(&own)
 }
 
 /// Returns the pose of port `b` in the frame of port `a`, `X_PQ`; `None` where no bonds connect them.
@@ -62,8 +71,7 @@ fn between(robot: &Assembly, holds: &[bool], joints: &[f64], a: PortRef, b: Port
 /// Returns the bond with the allowed turn that is nearest to the pose of the ports, and its hinge's position,
 /// rad.
 fn nearest(robot: &Assembly, a: PortRef, b: PortRef, X_PQ: &Pose) -> (Bond, Option<f64>) {
-    let connector = robot.module_type(a.module).ports[a.port].connector;
-    let connector = &robot.library.connectors[connector];
+    let connector = robot.connector(a);
     // The least angle wins; of equals the smallest turn.
     let mut best = (f64::INFINITY, 0, None);
     for turn in 0..connector.turns {

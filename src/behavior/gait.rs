@@ -17,7 +17,7 @@ pub fn cycle(bodies: &[(Arc<Node>, f64)], period: f64, times: u64, cause: CauseI
     };
     let rounds = |(body, shift): &(Arc<Node>, f64)| {
         let round = Arc::new(Node::Phase { body: body.clone(), shift: *shift, cause });
-        Arc::new(Node::Repeat { body: round, times })
+        Arc::new(Node::Repeat { body: round, times, until: None })
     };
     let begin = Arc::new(Node::Parallel(bodies.iter().map(approach).collect()));
     let go_on = Arc::new(Node::Parallel(bodies.iter().map(rounds).collect()));

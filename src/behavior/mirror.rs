@@ -30,6 +30,8 @@ pub enum MirrorError {
     Joint(String),
     /// A command or condition about docking, which has no mirror image.
     Docking,
+    /// A condition on the distance of ports or on modules, of which no image is known.
+    Sensing,
 }
 
 impl std::fmt::Display for MirrorError {
@@ -37,6 +39,9 @@ impl std::fmt::Display for MirrorError {
         match self {
             MirrorError::Joint(name) => write!(f, "no joint is the mirror image of `{name}`"),
             MirrorError::Docking => write!(f, "docking has no mirror image"),
+            MirrorError::Sensing => {
+                write!(f, "conditions on modules and ports have no mirror image, only those on joints have")
+            }
         }
     }
 }
@@ -46,7 +51,8 @@ impl std::fmt::Display for MirrorError {
 /// closed. `program`: the behaviour; `plane`: the mirror plane.
 ///
 /// # Errors
-/// [`MirrorError`] for a joint without an image, and for behaviours that dock, undock or test for bonds.
+/// [`MirrorError`] for a joint without an image, for behaviours that dock, undock or test for bonds, and for conditions on
+/// modules and ports.
 pub fn mirrored(
     robot: &Assembly,
     holds: &[bool],
@@ -59,7 +65,7 @@ pub fn mirrored(
         let index = joint.0 as usize;
         images[index].ok_or_else(|| MirrorError::Joint(names[index].clone()))
     };
-    rewritten(program, |action| mirrored_action(action, &image))
+    rewritten(program, |action| mirrored_action(action, &image), |until| mirrored_condition(until, &image))
 }
 
 /// Returns the mirror image of every joint in a plane of the base's frame, by the number in its `JointId`, as (image,
@@ -198,11 +204,14 @@ fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, 
                 Signal::Angle(joint) => image(joint).map(|(other, sign)| (Signal::Angle(other), sign))?,
                 Signal::Speed(joint) => image(joint).map(|(other, sign)| (Signal::Speed(other), sign))?,
                 Signal::Elapsed => (Signal::Elapsed, 1.0),
+                Signal::Effort(joint) => image(joint).map(|(other, sign)| (Signal::Effort(other), sign))?,
+                Signal::Separation(..) | Signal::Tilt(_) => return Err(MirrorError::Sensing),
             };
             let compare = if sign < 0.0 { compare.turned() } else { *compare };
             Condition::Compare { signal, compare, value: value * sign }
         }
         Condition::Docked(_) | Condition::Mated(..) => return Err(MirrorError::Docking),
+        Condition::Touching(_) => return Err(MirrorError::Sensing),
         Condition::And(a, b) => Condition::And(boxed(a)?, boxed(b)?),
         Condition::Or(a, b) => Condition::Or(boxed(a)?, boxed(b)?),
         Condition::Not(a) => Condition::Not(boxed(a)?),

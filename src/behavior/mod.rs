@@ -4,7 +4,8 @@
 //! [`schedule`] runs a behaviour undisturbed and records the trajectory of every joint. Before that,
 //! [`issues`] finds commands that ask for more than a joint can do, and [`conflicts`] those that command one joint
 //! twice at one time (Definition IV.5), both without running anything. [`gait`] composes cyclic
-//! behaviours, [`mirror`] reflects them, and [`unfaithful`] compares a plan's program with its motion.
+//! behaviours, [`mirror`] reflects them, [`Execution`] carries them out step by step with sensors, and [`unfaithful`]
+//! compares a plan's program with its motion.
 #![allow(non_snake_case)]
 
 mod joints;
@@ -15,6 +16,7 @@ mod command;
 mod condition;
 mod cyclic;
 mod docking;
+mod execution;
 mod motion;
 mod run;
 mod schedule;
@@ -27,7 +29,9 @@ mod limits;
 pub mod gait;
 pub mod mirror;
 
+pub use condition::Sensors;
 pub use conflict::{Conflict, Conflicts, PAIRS_MAX, conflicts};
+pub use execution::{Ending, Execution};
 pub use faithful::unfaithful;
 pub use joints::Uncommandable;
 pub use limits::{Issue, IssueKind, Part, issues};

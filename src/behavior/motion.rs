@@ -91,6 +91,14 @@ impl Motion {
         }
     }
 
+    /// Returns the rate just after the time `t` (s), rad/s or m/s; 0 in a gap and at rest.
+    pub(super) fn rate(&self, t: f64) -> f64 {
+        match self.turning.filter(|turning| t >= turning.since) {
+            Some(turning) => turning.speed,
+            None => self.ahead.iter().find(|s| s.start <= t && t < s.end).map_or(0.0, |s| s.velocity(t)),
+        }
+    }
+
     /// Returns true if a segment ends at `now`.
     fn joins(&self, now: f64) -> bool {
         self.ahead.iter().chain(self.past.last()).any(|s| s.end == now)

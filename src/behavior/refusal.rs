@@ -89,6 +89,13 @@ pub enum Reason {
         /// The path name of the second port.
         b: String,
     },
+    /// Two ports are to be docked in a branch that the plan's undisturbed run does not take, so that it has no bond of them.
+    NotPlanned {
+        /// The path name of the first port.
+        a: String,
+        /// The path name of the second port.
+        b: String,
+    },
     /// Two ports to be docked are on parts of the robot that no bonds connect.
     Apart {
         /// The path name of the first port.
@@ -158,6 +165,7 @@ impl std::fmt::Display for Reason {
             Reason::PortFree { port } => write!(f, "nothing is docked at `{port}`"),
             Reason::NoMate { a, b } => write!(f, "`{a}` and `{b}` do not mate"),
             Reason::Apart { a, b } => write!(f, "nothing connects the parts of `{a}` and `{b}`"),
+            Reason::NotPlanned { a, b } => write!(f, "the plan does not dock `{a}` and `{b}`"),
             Reason::NotCyclic { what } => write!(f, "{what} cannot be part of a cycle"),
             Reason::TooShort => write!(f, "a piece of the motion is shorter than a tick of time"),
             Reason::Limit { what, limit } => write!(f, "more than {limit} {what}"),

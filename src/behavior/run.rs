@@ -1,14 +1,14 @@
 //! The run of a program (discrete-event simulation): frames for the nodes that have begun, a queue of the times at
 //! which actions end.
 
-use super::condition::{self, View};
+use super::condition::{self, Sensors, View};
 use super::joints::JointFacts;
 use super::limits::Issue;
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
 use super::schedule::Settings;
 use crate::plan::time::{DURATION_MAX, tick_after};
-use crate::plan::{Action, CauseId, DockingEvent, Exemption, Node, Otherwise, Track};
+use crate::plan::{Action, CauseId, Condition, DockingEvent, Exemption, Node, Otherwise, Track};
 use crate::robot::{Assembly, JointId};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -46,6 +46,8 @@ pub(super) struct Run<'a> {
     /// The number of cycles (phases, stretches) within which this run is, each a run of its own; at most
     /// [`Settings::cycles_max`].
     pub(super) cycles: u64,
+    /// True if the program is executed: docking then closes bonds that the robot knows, and no new ones.
+    pub(super) executes: bool,
     tasks: Vec<Task<'a>>,
     frames: Vec<Frame<'a>>,
     free: Vec<usize>,
@@ -99,7 +101,7 @@ struct Frame<'a> {
 enum FrameKind<'a> {
     Series { rest: std::slice::Iter<'a, Arc<Node>> },
     Parallel { left: usize },
-    Repeat { body: &'a Arc<Node>, left: u64 },
+    Repeat { body: &'a Arc<Node>, left: u64, until: Option<&'a Condition>, began: f64 },
     Exempt { index: usize },
 }
 
@@ -174,6 +176,7 @@ impl<'a> Run<'a> {
             steps: 0,
             segments: 0,
             cycles: 0,
+            executes: false,
             tasks: vec![],
             frames: vec![],
             free: vec![],
@@ -192,20 +195,80 @@ impl<'a> Run<'a> {
     /// A [`Refusal`] if a command can't be carried out, a condition never holds, the behaviour aborts, a joint still
     /// turns at the end, or a limit of the settings is exceeded.
     pub(super) fn play(mut self, program: &'a Arc<Node>) -> Result<Played, Refusal> {
-        self.tasks.push(Task::Begin(program, None));
+        self.start_with(program);
         loop {
-            while let Some(task) = self.tasks.pop() {
-                crate::interrupt::checkpoint();
-                match task {
-                    Task::Begin(node, parent) => self.begin(node, parent)?,
-                    Task::Complete(frame) => self.complete(frame),
-                }
-            }
+            self.carry_out(None)?;
             if self.done {
                 return self.finish();
             }
             self.advance()?;
         }
+    }
+
+    /// Sets the program that is to be run.
+    pub(super) fn start_with(&mut self, program: &'a Arc<Node>) {
+        self.tasks.push(Task::Begin(program, None));
+    }
+
+    /// Carries out the tasks at the present instant.
+    fn carry_out(&mut self, sensors: Option<&dyn Sensors>) -> Result<(), Refusal> {
+        while let Some(task) = self.tasks.pop() {
+            crate::interrupt::checkpoint();
+            match task {
+                Task::Begin(node, parent) => self.begin(node, parent)?,
+                Task::Complete(frame) => self.complete(frame, sensors),
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on up to a time (s), at which sensors report: actions end and time out at their times, and where their
+    /// conditions hold on what is reported. Returns true if the program has come to its end.
+    ///
+    /// # Errors
+    /// A [`Refusal`] if a command can't be carried out, the behaviour aborts, or a limit of the settings is exceeded.
+    pub(super) fn advance_to(&mut self, time: f64, sensors: &dyn Sensors) -> Result<bool, Refusal> {
+        loop {
+            self.carry_out(Some(sensors))?;
+            if self.done {
+                return Ok(true);
+            }
+            self.drop_void_events();
+            let next = self.queue.peek().filter(|event| event.time <= time);
+            let Some((at, slot, kind)) = next.map(|event| (event.time, event.slot, event.kind)) else {
+                self.now = self.now.max(time);
+                self.within_time()?;
+                self.motions.iter_mut().for_each(|motion| motion.pass(time));
+                match self.waiting.iter().copied().find(|&slot| self.is_met(slot, sensors)) {
+                    Some(slot) => self.end_early(slot),
+                    None => return Ok(false),
+                }
+                continue;
+            };
+            self.queue.pop();
+            self.now = self.now.max(at);
+            self.within_time()?;
+            match kind {
+                EventKind::End => self.end(slot),
+                // A condition that holds by now comes before the timeout, as in the undisturbed run.
+                EventKind::Timeout if self.is_met(slot, sensors) => self.end_early(slot),
+                EventKind::Timeout => self.time_out(slot, Some(sensors))?,
+            }
+        }
+    }
+
+    /// Returns true if the condition of the action in a slot holds on what sensors report.
+    fn is_met(&self, slot: usize, sensors: &dyn Sensors) -> bool {
+        let Some(active) = &self.active[slot] else { return false };
+        let until = active.action.and_then(|action| action.until.as_ref());
+        until.is_some_and(|until| {
+            condition::holds(until, &self.view(active.began, Some(sensors)), self.now) == Some(true)
+        })
+    }
+
+    /// Returns the present state for conditions that measure time from `began` (s) on.
+    fn view<'v>(&'v self, began: f64, sensors: Option<&'v dyn Sensors>) -> View<'v> {
+        View { robot: &self.robot, motions: &self.motions, holds: &self.holds, began, sensors }
     }
 
     /// Begins a node.
@@ -218,7 +281,17 @@ impl<'a> Run<'a> {
                 self.begin_action(action, parent)?;
             }
             Node::Series(list) => self.enter(parent, FrameKind::Series { rest: list.iter() }),
-            Node::Repeat { body, times } => self.enter(parent, FrameKind::Repeat { body, left: *times }),
+            Node::Repeat { body, times, until } => {
+                let until = until.as_ref();
+                limit(
+                    until.map_or(0, condition::depth) as u64,
+                    condition::DEPTH_MAX as u64,
+                    "nested conditions",
+                )?;
+                let kind = FrameKind::Repeat { body, left: *times, until, began: self.now };
+                let frame = self.open(parent, kind);
+                self.repeat(frame);
+            }
             Node::Parallel(list) if list.is_empty() => self.tasks.push(Task::Complete(parent)),
             Node::Parallel(list) => {
                 let frame = self.open(parent, FrameKind::Parallel { left: list.len() });
@@ -259,18 +332,39 @@ impl<'a> Run<'a> {
         self.frames.len() - 1
     }
 
+    /// Begins the body of a repetition once more, if it is not over.
+    fn repeat(&mut self, frame: usize) {
+        let Frame { parent, kind } = &mut self.frames[frame];
+        let task = match kind {
+            FrameKind::Repeat { body, left, .. } if *left > 0 => {
+                *left -= 1;
+                Task::Begin(body, Some(frame))
+            }
+            _ => {
+                self.free.push(frame);
+                Task::Complete(*parent)
+            }
+        };
+        self.tasks.push(task);
+    }
+
     /// Completes a child of the frame: the next begins, or the frame completes, too.
-    fn complete(&mut self, frame: Option<usize>) {
+    fn complete(&mut self, frame: Option<usize>, sensors: Option<&dyn Sensors>) {
         let Some(index) = frame else {
             self.done = true;
             return;
         };
+        if let FrameKind::Repeat { until: Some(until), began, .. } = self.frames[index].kind
+            && condition::holds(until, &self.view(began, sensors), self.now) == Some(true)
+            && let FrameKind::Repeat { left, .. } = &mut self.frames[index].kind
+        {
+            *left = 0;
+        }
+        if matches!(self.frames[index].kind, FrameKind::Repeat { .. }) {
+            return self.repeat(index);
+        }
         let next = match &mut self.frames[index].kind {
             FrameKind::Series { rest } => rest.next(),
-            FrameKind::Repeat { body, left } if *left > 0 => {
-                *left -= 1;
-                Some(*body)
-            }
             FrameKind::Parallel { left } if *left > 1 => {
                 *left -= 1;
                 return;
@@ -362,7 +456,7 @@ impl<'a> Run<'a> {
         self.within_time()?;
         match kind {
             EventKind::End => self.end(slot),
-            EventKind::Timeout => self.time_out(slot)?,
+            EventKind::Timeout => self.time_out(slot, None)?,
         }
         Ok(())
     }
@@ -387,8 +481,7 @@ impl<'a> Run<'a> {
             let active = self.active[slot].as_ref().expect("what waits is active");
             let action = active.action.expect("only actions wait");
             let until = action.until.as_ref().expect("what waits has a condition");
-            let (robot, motions, holds) = (&*self.robot, &self.motions[..], &self.holds[..]);
-            let view = View { robot, motions, holds, began: active.began };
+            let view = self.view(active.began, None);
             let before = best.map_or(horizon, |(_, t)| t);
             let hit = condition::first(until, &view, self.now, before);
             if let Some(time) = hit.filter(|t| best.is_none_or(|(_, b)| *t < b)) {
@@ -416,11 +509,17 @@ impl<'a> Run<'a> {
         self.tasks.push(Task::Complete(active.parent));
     }
 
-    /// Ends an action whose timeout has come, and goes on as it says.
-    fn time_out(&mut self, slot: usize) -> Result<(), Refusal> {
+    /// Ends an action whose timeout has come, and goes on as it says; the undisturbed run goes on as if a condition held of
+    /// which nothing is known.
+    fn time_out(&mut self, slot: usize, sensors: Option<&dyn Sensors>) -> Result<(), Refusal> {
         let active = self.leave(slot);
         self.hold(&active);
         let action = active.action.expect("only actions time out");
+        let view = self.view(active.began, sensors);
+        if action.until.as_ref().is_some_and(|until| condition::holds(until, &view, self.now).is_none()) {
+            self.tasks.push(Task::Complete(active.parent));
+            return Ok(());
+        }
         match &action.otherwise {
             Otherwise::Proceed => self.tasks.push(Task::Complete(active.parent)),
             Otherwise::Node(node) => self.tasks.push(Task::Begin(node, active.parent)),

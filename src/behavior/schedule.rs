@@ -102,10 +102,14 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     if graph.depth as u64 > settings.depth_max {
         return Err(Refusal::whole(Reason::Limit { what: "nested behaviours", limit: settings.depth_max }));
     }
-    let nominal = graph.actions().any(|a| {
-        a.timeout.is_some()
-            || matches!(a.otherwise, Otherwise::Node(_))
-            || a.until.as_ref().is_some_and(super::condition::senses)
+    let nominal = graph.nodes.iter().any(|node| match &***node {
+        Node::Action(action) => {
+            action.timeout.is_some()
+                || matches!(action.otherwise, Otherwise::Node(_))
+                || action.until.as_ref().is_some_and(super::condition::senses)
+        }
+        Node::Repeat { until: Some(until), .. } => super::condition::senses(until),
+        _ => false,
     });
     let facts: Vec<JointFacts> = joints::facts(&robot);
     assert_eq!(facts.len(), start.joints.len(), "a state has one position for every joint");

@@ -23,22 +23,33 @@ const PLAN_BYTES_MAX: usize = 1 << 30;
 /// # Errors
 /// A message if a file can't be read or is larger than `PLAN_BYTES_MAX`.
 pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallError> {
-    // All files are read first, so that a wrong call does nothing.
-    let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
-    listen_for_cancel();
     let mut report = Report::default();
     report.plans = Some(Vec::new());
+    each_plan(files, report, globals, |name, plan, report| Ok(report_verdict(name, plan, report, globals)))
+}
+
+/// A mistake in a plan file, with the text that its span refers to.
+pub(super) type PlanFileFault = Box<(Sources, Diagnostic)>;
+
+/// Does the same with each of some plan files, adds the mistakes of those that are not sound to a report, and finishes it.
+/// All files are read before the first is used, so that a wrong call does nothing. `work` gets the name of a file, its plan
+/// and the report, and returns true if all is well with it.
+///
+/// # Errors
+/// A message if a file can't be read or is larger than `PLAN_BYTES_MAX`.
+pub(super) fn each_plan(
+    files: &[PathBuf],
+    mut report: Report,
+    globals: &Globals,
+    mut work: impl FnMut(&str, &Plan, &mut Report) -> Result<bool, PlanFileFault>,
+) -> Result<Ending, CallError> {
+    let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, CallError>>()?;
+    listen_for_cancel();
     let mut ok = true;
     for (file, bytes) in files.iter().zip(texts) {
         let name = file.to_string_lossy().into_owned();
-        match parsed(&name, bytes) {
-            Ok(plan) => ok &= report_verdict(&name, &plan, &mut report, globals),
-            Err(fault) => {
-                let (sources, diagnostic) = *fault;
-                report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
-                ok = false;
-            }
-        }
+        let found = parsed(&name, bytes).and_then(|plan| work(&name, &plan, &mut report));
+        ok &= noted(found, &mut report, globals);
         if cancelled() {
             report.finish(false, globals);
             return Ok(Ending::Cancelled);
@@ -48,11 +59,20 @@ pub(super) fn run(files: &[PathBuf], globals: &Globals) -> Result<Ending, CallEr
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
+/// Adds the fault of a plan file to a report; returns true if there is none and all is well.
+pub(super) fn noted(found: Result<bool, PlanFileFault>, report: &mut Report, globals: &Globals) -> bool {
+    found.unwrap_or_else(|fault| {
+        let (sources, diagnostic) = *fault;
+        report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
+        false
+    })
+}
+
 /// Returns the plan that the bytes of a plan file hold; `name`: the file's name in the diagnostic.
 ///
 /// # Errors
 /// (texts, diagnostic): the diagnostic of the mistake, with the text that its span refers to.
-pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, Box<(Sources, Diagnostic)>> {
+pub(super) fn parsed(name: &str, bytes: Vec<u8>) -> Result<Plan, PlanFileFault> {
     let mut sources = Sources::default();
     let Ok(text) = String::from_utf8(bytes) else {
         return Err(Box::new((

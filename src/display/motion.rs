@@ -213,7 +213,8 @@ impl Drawer<'_> {
             Node::Action(action) => self.names.action(action),
             Node::Series(_) => "Sc".to_owned(),
             Node::Parallel(_) => "Pc".to_owned(),
-            Node::Repeat { times, .. } => format!("repeat {times} times"),
+            Node::Repeat { times, until: None, .. } => format!("repeat {times} times"),
+            Node::Repeat { times, .. } => format!("repeat at most {times} times, until a condition holds"),
             Node::Phase { shift, .. } => format!("phase, from {shift} of its cycle"),
             Node::Approach { shift, .. } => format!("approach {shift} of the cycle"),
             Node::Stretch { duration, .. } => format!("in {}", quantity(*duration, Dimension::TIME)),
@@ -258,7 +259,8 @@ impl Drawer<'_> {
             Node::Parallel(nodes) => {
                 nodes.iter().try_fold(from, |latest, node| Some(self.end(node, from)?.max(latest)))
             }
-            Node::Repeat { body, times } => {
+            Node::Repeat { until: Some(_), .. } => None,
+            Node::Repeat { body, times, until: None } => {
                 // Only the first time may begin elsewhere than the others.
                 let first = self.end(body, from)?;
                 let Some(more) = times.checked_sub(1).filter(|more| *more > 0) else { return Some(first) };

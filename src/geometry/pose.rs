@@ -29,3 +29,9 @@ pub fn turned(axis: Vec3, angle: f64) -> Pose {
 pub fn shifted(p: Vec3) -> Pose {
     Pose::from_parts(p.into(), nalgebra::UnitQuaternion::identity())
 }
+
+/// Returns the angle by which a rotation leans the vertical, rad, from 0 to π.
+pub fn lean(turn: &nalgebra::UnitQuaternion<f64>) -> f64 {
+    let up = turn.transform_vector(&Vec3::z());
+    libm::atan2(libm::hypot(up.x, up.y), up.z)
+}

@@ -93,8 +93,9 @@ impl PlanCauses {
             Node::Series(nodes) => Node::Series(all(nodes)),
             Node::Parallel(nodes) => Node::Parallel(all(nodes)),
             Node::Action(action) => Node::Action(self.renumber_action(action, done)),
-            Node::Repeat { body, times } => {
-                Node::Repeat { body: self.renumber_shared(body, done), times: *times }
+            Node::Repeat { body, times, until } => {
+                let body = self.renumber_shared(body, done);
+                Node::Repeat { body, times: *times, until: until.clone() }
             }
             Node::Phase { body, shift, cause } => {
                 let body = self.renumber_shared(body, done);

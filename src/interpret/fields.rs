@@ -96,6 +96,7 @@ type PlanField = (&'static str, fn(&mut Interpreter, &Rc<PlanValue>, Span) -> Ev
 const PLAN: &[PlanField] = &[
     ("duration", |_, plan, _| Ok(Value::time(plan.plan.body.duration()))),
     ("actions", |_, plan, _| Ok(Value::count(plan.actions()))),
+    ("nominal", |_, plan, _| Ok(Value::Bool(plan.plan.nominal))),
     ("steps", |_, plan, _| Ok(Value::count(plan.steps()))),
     ("start", |interpreter, plan, span| interpreter.state_at(plan, 0.0, span)),
     ("end", |interpreter, plan, span| interpreter.state_at(plan, plan.plan.body.duration(), span)),

@@ -141,6 +141,15 @@ impl<'c> Call<'c> {
         self.get_named(name, what)
     }
 
+    /// Returns a whole number that must not be negative; `None` where it was left out. `what`: its name in words, for the
+    /// fault.
+    ///
+    /// # Errors
+    /// A fault at the argument where the number is negative or too large.
+    pub fn optional_count(&self, name: &str, what: &str) -> Eval<Option<usize>> {
+        self.get_named(name, what)
+    }
+
     /// Returns the index of a parameter in the declaration.
     fn index(&self, name: &str) -> usize {
         let found = self.params.iter().position(|param| param.name.as_str() == name);

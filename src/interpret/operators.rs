@@ -342,7 +342,7 @@ fn compare_signal(signal: &SignalValue, compare: Compare, value: f64, span: Span
         return Err(Diagnostic::error(code::BAD_ACTION, message)
             .label(span, "worked out by the judge")
             .hint(
-                "conditions sense `angle`, `displacement`, `speed`, `elapsed` and `docked`; `p.series(...)` gives all others",
+                "conditions sense `angle`, `displacement`, `speed`, `elapsed`, `docked`, `torque`, `force`, `separation`, `tilt` and `touching`; `p.series(...)` gives all others",
             )
             .into());
     };

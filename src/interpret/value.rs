@@ -197,10 +197,9 @@ pub struct SignalValue {
 /// A quantity of a robot that changes while it moves.
 #[derive(Clone, Debug)]
 pub enum Measure {
-    /// A quantity that the robot senses by itself; conditions can wait for it.
+    /// A quantity that the robot senses by itself; conditions can wait for it. Over a plan, efforts are as the judge
+    /// computes them.
     Sensed(plan::Signal),
-    /// The force (N) or torque (N·m) that the motor of a joint supplies, as the judge computes it.
-    Effort(JointId),
     /// The static stability margin (McGhee and Frank 1968): the distance of the centre of mass inside the support
     /// polygon, m; negative outside.
     Margin,
@@ -208,8 +207,6 @@ pub enum Measure {
     Clearance,
     /// The normal force of the ground on the modules of these indices together, N.
     GroundForce(Range<usize>),
-    /// The distance of the origins of two ports, m.
-    Separation(PortRef, PortRef),
     /// The pose of a port or of a module's body in the world.
     Pose(MovingFrame),
     /// The origin of a port or of a module's body in the world, m.

@@ -241,9 +241,11 @@ fn refusal_code(reason: &Reason) -> Code {
         Reason::Jump { .. } => code::FOLLOW_JUMP,
         Reason::StillTurning { .. } => code::NOT_AT_REST,
         Reason::Aborted { .. } => code::ABORTED,
-        Reason::PortTaken { .. } | Reason::PortFree { .. } | Reason::NoMate { .. } | Reason::Apart { .. } => {
-            code::BAD_DOCK
-        }
+        Reason::PortTaken { .. }
+        | Reason::PortFree { .. }
+        | Reason::NoMate { .. }
+        | Reason::NotPlanned { .. }
+        | Reason::Apart { .. } => code::BAD_DOCK,
         Reason::NoTimeToStop { .. } => code::TOO_FAST,
         Reason::Limit { .. } => code::SIZE_LIMIT,
         Reason::NoSpeed { .. }

@@ -13,7 +13,7 @@ use crate::interpret::value::{
 };
 use crate::plan::{Action, Command, Condition, Node, Otherwise, Profile, Signal, Target};
 use crate::robot::JointId;
-use crate::source::{Span, code};
+use crate::source::{Diagnostic, Span, code};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -42,7 +42,11 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("docked", parameters![port: &PortValue], docked),
     Native::pure("Sc", parameters![behaviors: &[Value]], |i, call| compose(i, call, Node::Series)),
     Native::pure("Pc", parameters![behaviors: &[Value]], |i, call| compose(i, call, Node::Parallel)),
-    Native::pure("repeat", parameters![behavior: &Rc<Behavior>, times: usize], repeat),
+    Native::pure(
+        "repeat",
+        parameters![behavior: &Rc<Behavior>, times: Option<usize>, until: Option<&ConditionValue>, max: Option<usize>],
+        repeat,
+    ),
     Native::pure("phase", parameters![behavior: &Rc<Behavior>, shift: f64], phase),
     Native::pure("stretch", parameters![behavior: &Rc<Behavior>, to: Positive], stretch),
     Native::pure(
@@ -334,10 +338,29 @@ fn compose(interpreter: &mut Interpreter, call: &Call, make: fn(Vec<Arc<Node>>) 
     Ok(behavior(robot, make(nodes)))
 }
 
-fn repeat(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+/// Runs `repeat`: a number of `times`, or `until` a condition holds after one of at most `max`.
+///
+/// # Errors
+/// A fault where the number is negative, or both are given, or none.
+fn repeat(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let body = call.get::<&Rc<Behavior>>("behavior")?;
-    let times = call.count("times", "the number of repetitions")? as u64;
-    Ok(behavior(body.robot.clone(), Node::Repeat { body: body.node.clone(), times }))
+    let condition: Option<&ConditionValue> = call.get("until")?;
+    let what = "the number of repetitions";
+    let (times, max) = (call.optional_count("times", what)?, call.optional_count("max", what)?);
+    let times = match (condition, times, max) {
+        (None, Some(times), None) | (Some(_), None, Some(times)) => times as u64,
+        _ => {
+            let message = "`repeat` wants a number of times, or `until:` with `max:`";
+            return Err(Diagnostic::error(code::BAD_ACTION, message)
+                .label(call.span, "this repetition")
+                .hint("write `repeat(b, 3)`, or `repeat(b, until: touching(m), max: 10)`")
+                .into());
+        }
+    };
+    let on = condition.and_then(|condition| condition.robot.as_ref());
+    let robot = interpreter.common_subject(body.robot.as_ref(), on, call.span)?;
+    let until = condition.map(|condition| condition.condition.clone());
+    Ok(behavior(robot, Node::Repeat { body: body.node.clone(), times, until }))
 }
 
 fn phase(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

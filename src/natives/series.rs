@@ -3,6 +3,7 @@
 use super::Native;
 use super::robot::pose_in;
 use super::sequence::STEP_ROUNDING;
+use crate::geometry::pose::lean;
 use crate::interpret::argument::{Positive, parameters};
 use crate::interpret::design::{Instance, Subject, port_ref};
 use crate::interpret::interpreter::Interpreter;
@@ -11,9 +12,11 @@ use crate::interpret::plan_value::PlanValue;
 use crate::interpret::planning::state_value;
 use crate::interpret::record::{Field, NativeRecord, Record, StateValue, field_names, read_field};
 use crate::interpret::stop::{Eval, Stop, fault};
-use crate::interpret::value::{JointValue, Measure, PortValue, SignalValue, Value};
+use crate::interpret::value::{
+    ConditionValue, JointValue, Measure, MovingFrame, PortValue, SignalValue, Value,
+};
 use crate::plan::verify::articulated::{Detail, GroundForce, Instant};
-use crate::plan::{Ground, Signal, Tracks, World};
+use crate::plan::{Condition, Ground, Signal, Tracks, World};
 use crate::robot::{JointId, Kinematics};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
@@ -29,6 +32,8 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("margin", parameters![], |_, _| Ok(signal(None, Measure::Margin))),
     Native::pure("clearance", parameters![], |_, _| Ok(signal(None, Measure::Clearance))),
     Native::pure("ground_force", parameters![on: &Rc<Instance>], ground_force),
+    Native::pure("tilt", parameters![on: &Rc<Instance>], tilt_of),
+    Native::pure("touching", parameters![on: &Rc<Instance>], touching),
     Native::pure("separation", parameters![a: &PortValue, b: &PortValue], separation),
     Native::on_run("Plan.times", parameters![self: &Value, step: Positive], plan_times),
     Native::on_run("Plan.series", parameters![self: &Value, of: &Value, step: Positive], plan_series),
@@ -53,7 +58,7 @@ fn effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(robot) = interpreter.robot_at(&joint.robot, call.at("joint"))? else {
         return Ok(Value::Unknown);
     };
-    Ok(signal(Some(joint.robot.clone()), Measure::Effort(robot.joint(joint))))
+    Ok(signal(Some(joint.robot.clone()), Measure::Sensed(Signal::Effort(robot.joint(joint)))))
 }
 
 fn ground_force(_: &mut Interpreter, call: &Call) -> Eval<Value> {
@@ -61,10 +66,21 @@ fn ground_force(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(signal(Some(on.robot.clone()), Measure::GroundForce(modules_of(on))))
 }
 
+fn tilt_of(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let on = call.get::<&Rc<Instance>>("on")?;
+    Ok(signal(Some(on.robot.clone()), Measure::Sensed(Signal::Tilt(on.offset))))
+}
+
+fn touching(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let on = call.get::<&Rc<Instance>>("on")?;
+    let condition = Condition::Touching(modules_of(on).collect());
+    Ok(Value::Condition(Rc::new(ConditionValue { robot: Some(on.robot.clone()), condition })))
+}
+
 fn separation(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (a, b) = (call.get::<&PortValue>("a")?, call.get::<&PortValue>("b")?);
     let robot = interpreter.common_subject(Some(&a.robot), Some(&b.robot), call.span)?;
-    Ok(signal(robot, Measure::Separation(port_ref(a), port_ref(b))))
+    Ok(signal(robot, Measure::Sensed(Signal::Separation(port_ref(a), port_ref(b)))))
 }
 
 /// Returns the indices of an instance's modules in the whole robot.
@@ -147,11 +163,29 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         Ok(known.iter().map(|known| read(known, &signal.measure)).collect())
     };
     let (values, dimension): (Vec<Option<f64>>, _) = match &signal.measure {
-        Measure::Sensed(sensed) => {
-            let (value, dimension) = sensed_over(tracks, *sensed);
-            (times.iter().map(|time| Some(value(*time))).collect(), dimension)
+        Measure::Sensed(Signal::Effort(joint)) => {
+            (judged(Detail::Loads, effort_of)?, effort_dimension(position_dimension(tracks, *joint)))
         }
-        Measure::Separation(a, b) => {
+        Measure::Sensed(Signal::Angle(joint)) => {
+            let start = tracks.start.joints[joint.0 as usize];
+            let position =
+                |time: &f64| tracks.track(*joint).map_or(start, |track| track.position(start, *time));
+            (times.iter().map(|time| Some(position(time))).collect(), position_dimension(tracks, *joint))
+        }
+        Measure::Sensed(Signal::Speed(joint)) => {
+            let dimension = speed_dimension(position_dimension(tracks, *joint));
+            (times.iter().map(|time| Some(speed(tracks, *joint, *time))).collect(), dimension)
+        }
+        Measure::Sensed(Signal::Elapsed) => (times.iter().copied().map(Some).collect(), Dimension::TIME),
+        Measure::Sensed(Signal::Tilt(module)) => {
+            let known = instants(call, &plan, &times, Detail::Stance)?;
+            let turns = states(&plan, &times, &known)
+                .map(|state| pose_in(&state, MovingFrame::Module(*module)).rotation)
+                .collect::<Vec<_>>();
+            let leans = turns.iter().map(|turn| Some(lean(&(turn * turns[0].inverse())))).collect();
+            (leans, Dimension::ANGLE)
+        }
+        Measure::Sensed(Signal::Separation(a, b)) => {
             let at = |time: &f64| {
                 let state = tracks.state(*time);
                 let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
@@ -172,9 +206,6 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             return Ok(Value::list(states(&plan, &times, &known).map(value).collect()));
         }
         Measure::Clearance => (plan.clearances(&times).to_vec(), Dimension::LENGTH),
-        Measure::Effort(joint) => {
-            (judged(Detail::Loads, effort_of)?, effort_dimension(position_dimension(tracks, *joint)))
-        }
         Measure::Margin => (judged(Detail::Stance, |known, _| known.margin)?, Dimension::LENGTH),
         Measure::GroundForce(_) => (judged(Detail::Loads, normal_force)?, Dimension::FORCE),
     };
@@ -182,22 +213,6 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         return Err(unknown(call, &plan, &signal.measure, times[at]));
     }
     Ok(Value::list(values.into_iter().flatten().map(|x| Value::Quantity(x, dimension)).collect()))
-}
-
-/// Returns what a robot senses as a function of time (s), with its dimension.
-fn sensed_over(tracks: &Tracks, signal: Signal) -> (Box<dyn Fn(f64) -> f64 + '_>, Dimension) {
-    match signal {
-        Signal::Angle(joint) => {
-            let start = tracks.start.joints[joint.0 as usize];
-            let position = move |time| tracks.track(joint).map_or(start, |track| track.position(start, time));
-            (Box::new(position), position_dimension(tracks, joint))
-        }
-        Signal::Speed(joint) => {
-            let dimension = speed_dimension(position_dimension(tracks, joint));
-            (Box::new(move |time| speed(tracks, joint, time)), dimension)
-        }
-        Signal::Elapsed => (Box::new(|time| time), Dimension::TIME),
-    }
 }
 
 /// Returns the dimension of a joint's position: a length where it is prismatic, otherwise an angle.
@@ -221,7 +236,7 @@ fn speed(tracks: &Tracks, joint: JointId, time: f64) -> f64 {
 }
 
 fn effort_of(known: &Instant, measure: &Measure) -> Option<f64> {
-    let Measure::Effort(joint) = measure else { return None };
+    let Measure::Sensed(Signal::Effort(joint)) = measure else { return None };
     known.efforts[joint.0 as usize]
 }
 
@@ -241,10 +256,10 @@ fn unknown(call: &Call, plan: &PlanValue, measure: &Measure, time: f64) -> Stop 
         .map_or_else(World::default, |w| w.world);
     let weightless = gravity == 0.0 || ground == Ground::Off;
     let (what, why) = match measure {
-        Measure::Effort(_) | Measure::GroundForce(_) if weightless => {
+        Measure::Sensed(Signal::Effort(_)) | Measure::GroundForce(_) if weightless => {
             ("load", "nothing is weighed without gravity and a ground")
         }
-        Measure::Effort(_) | Measure::GroundForce(_) => {
+        Measure::Sensed(Signal::Effort(_)) | Measure::GroundForce(_) => {
             ("load", "no forces of the ground are known that carry the robot")
         }
         Measure::Margin if weightless => ("margin", "there is no ground to stand on"),
@@ -271,7 +286,7 @@ fn state_effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
     let dimension = effort_dimension(joint.dimension);
-    let joint = Measure::Effort(state.body.joint(joint));
+    let joint = Measure::Sensed(Signal::Effort(state.body.joint(joint)));
     let known = state.judged(Detail::Loads, |known| effort_of(known, &joint)).flatten();
     Ok(Value::optional(known.map(|effort| Value::Quantity(effort, dimension))))
 }

@@ -11,7 +11,7 @@ use crate::interpret::value::Value;
 use crate::plan::Verdict;
 use crate::robot::Assembly;
 use crate::simulate::{
-    Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate as play, study,
+    Extreme, Refusal, Run, ServoGains, Settings, Simulation, Spread, simulate_halving, study,
 };
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, fixed, quantity};
@@ -59,17 +59,19 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if read.runs > RUNS_MAX {
         return Err(call.refuse("runs", format!("at most {RUNS_MAX} runs")));
     }
-    let spread = Spread {
-        friction: read.friction_spread,
-        mass: read.mass_spread,
-        effort: read.torque_spread,
-        stiffness: read.stiffness_spread,
-    };
-    for name in ["friction_spread", "mass_spread", "torque_spread", "stiffness_spread"] {
-        if !(0.0..1.0).contains(&call.get::<f64>(name)?) {
+    let spreads = [
+        ("friction_spread", read.friction_spread),
+        ("mass_spread", read.mass_spread),
+        ("torque_spread", read.torque_spread),
+        ("stiffness_spread", read.stiffness_spread),
+    ];
+    for (name, spread) in spreads {
+        if !(0.0..1.0).contains(&spread) {
             return Err(call.refuse(name, "a spread is a part of what is stated, from 0 to below 1"));
         }
     }
+    let [friction, mass, effort, stiffness] = spreads.map(|(_, spread)| spread);
+    let spread = Spread { friction, mass, effort, stiffness };
     let Some(planned) = interpreter.plan_of(read.what, call.at("what"))? else { return Ok(Value::Unknown) };
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let settings = Settings { step: read.step.0, friction: read.friction, servo, ..Settings::default() };
@@ -80,16 +82,19 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     crate::interrupt::start_task(format!("simulating {}", planned.robot.name));
     let plan = &planned.plan;
-    let halved = Settings { step: settings.step / 2.0, ..settings };
-    let (outcome, finer) = crate::interrupt::join(|| play(plan, &settings), || play(plan, &halved));
-    let outcome = outcome.map_err(refused)?;
+    let (outcome, halving) = simulate_halving(plan, &settings).map_err(refused)?;
     let runs = study(plan, &settings, &spread, read.runs, read.seed as u64).map_err(refused)?;
     let plain = settings == Settings { step: settings.step, ..Settings::default() };
     let verdict = plain.then(|| interpreter.judge(&planned, plan.settings, None));
-    let mut notes = vec![match &finer {
-        Ok(finer) => outcome.halving(finer),
-        Err(refusal) => format!("at half the step: {refusal}"),
-    }];
+    let mut notes = vec![halving];
+    if plan.nominal && plan.program.is_some() {
+        notes.push(
+            "its program was executed with sensors: the plan is what happens if nothing disturbs it"
+                .to_string(),
+        );
+    } else if plan.nominal {
+        notes.push("the plan holds no program, so that its conditions are as planned".to_string());
+    }
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
@@ -103,9 +108,11 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .label(call.at("what"), "this can't be simulated")
             .hint("state the `mass` of every link that a joint moves, or take a shorter `step`")
             .into(),
-        Refusal::Family | Refusal::Invalid(_) | Refusal::Shape(_) | Refusal::Setting(_) => {
-            call.refuse("what", refusal.to_string())
-        }
+        Refusal::Family
+        | Refusal::Invalid(_)
+        | Refusal::Unfaithful(_)
+        | Refusal::Shape(_)
+        | Refusal::Setting(_) => call.refuse("what", refusal.to_string()),
     }
 }
 
@@ -154,11 +161,11 @@ fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
 
 /// The value of the language's type `Simulation`.
 #[derive(Debug)]
-struct Simulated {
-    planned: Rc<PlanValue>,
-    outcome: Simulation,
-    runs: Vec<Run>,
-    notes: Vec<String>,
+pub(super) struct Simulated {
+    pub planned: Rc<PlanValue>,
+    pub outcome: Simulation,
+    pub runs: Vec<Run>,
+    pub notes: Vec<String>,
 }
 
 impl Simulated {
@@ -179,6 +186,7 @@ impl Simulated {
 
 /// The fields of a `Simulation`.
 const SIMULATION: &[Field<Simulated>] = &[
+    ("duration", |s| Value::time(s.outcome.duration)),
     ("travel", |s| Value::length(s.outcome.travel.xy().norm())),
     ("displacement", |s| Value::Vec3(s.outcome.travel, Dimension::LENGTH)),
     ("heading", |s| Value::Quantity(s.outcome.heading, Dimension::ANGLE)),

@@ -30,8 +30,11 @@ pub enum Node {
     Repeat {
         /// The behaviour that is repeated.
         body: Arc<Node>,
-        /// The number of times that the behaviour is carried out.
+        /// The number of times that the behaviour is carried out, at most.
         times: u64,
+        /// The condition that ends the repetition if it holds after one of these times; `None`: no condition does. The
+        /// time that it measures begins with the repetition.
+        until: Option<Condition>,
     },
     /// A cyclic behaviour that begins at the fraction `shift` of its cycle, and ends there.
     Phase {
@@ -173,7 +176,8 @@ pub enum Otherwise {
     Node(Arc<Node>),
 }
 
-/// A quantity that a condition measures while an action runs.
+/// A quantity that a condition measures while an action runs. A plan knows positions, rates and times before it is
+/// executed; of the others, [measured](Signal::is_measured) ones, nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Signal {
@@ -183,6 +187,22 @@ pub enum Signal {
     Speed(JointId),
     /// The time since the action began, s.
     Elapsed,
+    /// The effort of a joint's motor in the joint's positive direction, N·m or N.
+    Effort(JointId),
+    /// The distance of the origins of two ports, m.
+    Separation(PortRef, PortRef),
+    /// The angle by which the body of a module, given by its index, leans from its attitude at the start, rad.
+    Tilt(usize),
+}
+
+impl Signal {
+    /// Returns true for a quantity of which a plan knows nothing before it is executed.
+    pub fn is_measured(self) -> bool {
+        match self {
+            Signal::Angle(_) | Signal::Speed(_) | Signal::Elapsed => false,
+            Signal::Effort(_) | Signal::Separation(..) | Signal::Tilt(_) => true,
+        }
+    }
 }
 
 /// A comparison of a signal with a value.
@@ -216,6 +236,9 @@ pub enum Condition {
     Docked(PortRef),
     /// The condition that two ports are docked to each other.
     Mated(PortRef, PortRef),
+    /// The condition that one of some modules, given by their indices, touches the ground or a module that is not among
+    /// them; measured.
+    Touching(Vec<usize>),
     /// A conjunction: both conditions hold at once.
     And(Box<Condition>, Box<Condition>),
     /// A disjunction: one of the conditions holds, or both.

@@ -1,6 +1,6 @@
 //! Programs as graphs: every node once, however often it is used.
 
-use super::program::{Action, Node, Otherwise};
+use super::program::{Action, Condition, Node, Otherwise};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ pub fn extent(root: &Arc<Node>) -> Extent {
             Node::Series(list) | Node::Parallel(list) => {
                 list.iter().map(of).fold(Extent { actions: 0, steps: 1 }, Extent::plus)
             }
-            Node::Repeat { body, times } => {
+            Node::Repeat { body, times, .. } => {
                 let Extent { actions, steps } = of(body);
                 let steps = steps.saturating_mul(*times).saturating_add(1);
                 Extent { actions: actions.saturating_mul(*times), steps }
@@ -159,13 +159,14 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
 }
 
 /// Returns the same graph, sharing kept, with every action rewritten, children first; `rewrite` receives the action
-/// with its `else` branch already rewritten. `root`: the root of the graph.
+/// with its `else` branch already rewritten, `condition` what ends a repetition. `root`: the root of the graph.
 ///
 /// # Errors
-/// The first error of `rewrite`.
+/// The first error of `rewrite` or `condition`.
 pub fn rewritten<E>(
     root: &Arc<Node>,
     mut rewrite: impl FnMut(&Action) -> Result<Action, E>,
+    mut condition: impl FnMut(&Condition) -> Result<Condition, E>,
 ) -> Result<Arc<Node>, E> {
     let graph = Graph::of(root);
     let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());
@@ -185,6 +186,10 @@ pub fn rewritten<E>(
                 };
                 Node::Action(rewrite(&shallow)?)
             }
+            Node::Repeat { body, times, until } => {
+                let until = until.as_ref().map(&mut condition).transpose()?;
+                Node::Repeat { body: new(body), times: *times, until }
+            }
             other => with_children(other, new),
         };
         done.push(Arc::new(made));
@@ -199,7 +204,9 @@ pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node
         Node::Action(action) => Node::Action(action.clone()),
         Node::Series(list) => Node::Series(list.iter().map(new).collect()),
         Node::Parallel(list) => Node::Parallel(list.iter().map(new).collect()),
-        Node::Repeat { body, times } => Node::Repeat { body: new(body), times: *times },
+        Node::Repeat { body, times, until } => {
+            Node::Repeat { body: new(body), times: *times, until: until.clone() }
+        }
         Node::Phase { body, shift, cause } => Node::Phase { body: new(body), shift: *shift, cause: *cause },
         Node::Approach { body, shift, cause } => {
             Node::Approach { body: new(body), shift: *shift, cause: *cause }

@@ -291,9 +291,11 @@ impl ArticulatedBodies {
 
     /// Adds changes of accelerations, as [`respond`](Self::respond) finds them, to those found last.
     pub fn add_response(&mut self, response: &Response) {
-        for ((body, change), joint) in self.bodies.iter_mut().zip(&response.bodies).zip(&response.joints) {
-            body.acceleration = body.acceleration.plus(change, 1.0);
-            body.joint_acceleration += joint;
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.acceleration = body.acceleration.plus(&response.bodies[index], 1.0);
+            body.joint_acceleration += response.joints[index];
+            // The bodies that a joint carries pass on the loads on them, too.
+            body.bias = body.bias.plus(&response.bias[index], 1.0);
         }
     }
 }

@@ -1,34 +1,136 @@
-//! Commanded positions and velocities of a plan's joints over time.
+//! Commanded positions and velocities of joints over time, and the bonds that are commanded to change: as a plan says, or
+//! as its program does that is executed.
 
-use crate::plan::{Track, Tracks, polynomial};
+use super::sensing::Measured;
+use super::stepper::Stepper;
+use crate::behavior::{Ending, Execution, Reason, Refusal};
+use crate::plan::{DockingEvent, Program, Track, Tracks, polynomial};
+use crate::robot::Assembly;
 
 /// The commanded position and velocity of every joint, by the number of its id, at ascending times.
-#[derive(Clone, Debug)]
 pub(super) struct Commands<'a> {
-    tracks: &'a [Track],
-    /// The index of the segment of each track that has begun last, or that comes first.
-    current: Vec<usize>,
-    /// The derivative of that segment by its argument, as control points; empty until it is needed.
-    rates: Vec<Vec<f64>>,
+    source: Source<'a>,
     /// The position (rad or m) and velocity (rad/s or m/s) of each joint at the time asked for last.
     pub joints: Vec<(f64, f64)>,
 }
 
+enum Source<'a> {
+    Planned(Planned<'a>),
+    Executed {
+        execution: Box<Execution<'a>>,
+        /// The time by which the program must have ended, s.
+        deadline: f64,
+    },
+}
+
+/// The motion of a plan.
+struct Planned<'a> {
+    tracks: &'a Tracks,
+    /// The index of the segment of each track that has begun last, or that comes first.
+    current: Vec<usize>,
+    /// The derivative of that segment by its argument, as control points; empty until it is needed.
+    rates: Vec<Vec<f64>>,
+    /// The number of events that have been told.
+    told: usize,
+}
+
+/// The time that an executed program may take beyond twice that of the plan, s.
+const PATIENCE: f64 = 60.0;
+
 impl<'a> Commands<'a> {
-    /// Returns the commands of a plan, at its start.
-    pub(super) fn new(tracks: &'a Tracks) -> Commands<'a> {
-        Commands {
-            tracks: &tracks.tracks,
-            current: vec![0; tracks.tracks.len()],
-            rates: vec![Vec::new(); tracks.tracks.len()],
-            joints: tracks.start.joints.iter().map(|&position| (position, 0.0)).collect(),
+    /// Returns the commands of a plan, at its start; those of its program with sensors where there is one to be executed.
+    pub(super) fn new(tracks: &'a Tracks, executed: Option<&'a Program>) -> Commands<'a> {
+        let source = match executed {
+            Some(program) => Source::Executed {
+                execution: Box::new(Execution::new(tracks, &program.root)),
+                deadline: 2.0 * tracks.duration + PATIENCE,
+            },
+            None => Source::Planned(Planned {
+                tracks,
+                current: vec![0; tracks.tracks.len()],
+                rates: vec![Vec::new(); tracks.tracks.len()],
+                told: 0,
+            }),
+        };
+        let joints = tracks.start.joints.iter().map(|&position| (position, 0.0)).collect();
+        Commands { source, joints }
+    }
+
+    /// Returns the changes of bonds that are commanded up to a time (s, not before that of the last call), each once. A
+    /// program is executed up to that time, at which its sensors report on the robot in motion.
+    pub(super) fn bonds(&mut self, time: f64, robot: &Assembly, stepper: &Stepper) -> Vec<DockingEvent> {
+        if time < 0.0 {
+            return Vec::new();
+        }
+        match &mut self.source {
+            Source::Planned(Planned { tracks, told, .. }) => {
+                let first = *told;
+                *told = tracks.events.partition_point(|event| event.time <= time);
+                tracks.events[first..*told].to_vec()
+            }
+            Source::Executed { execution, deadline } => {
+                let sensors = Measured { stepper, robot, commands: &self.joints };
+                let events = execution.advance(time, &sensors);
+                if time > *deadline && execution.ending().is_none() {
+                    let limit = *deadline as u64;
+                    execution.stop(Refusal::whole(Reason::Limit { what: "seconds", limit }));
+                }
+                events
+            }
         }
     }
 
     /// Finds the commands at a time (s), which must not be before that asked for last. Before the start and after the end
-    /// of the plan joints are at rest.
+    /// joints are at rest.
     pub(super) fn advance(&mut self, time: f64) {
-        for ((track, current), rates) in self.tracks.iter().zip(&mut self.current).zip(&mut self.rates) {
+        match &mut self.source {
+            Source::Planned(planned) => planned.advance(time, &mut self.joints),
+            Source::Executed { execution, .. } => {
+                for (number, joint) in self.joints.iter_mut().enumerate() {
+                    *joint = execution.command(number, time.max(0.0));
+                }
+            }
+        }
+    }
+
+    /// Says of a bond, by its index, whether it holds, where a program is executed that may ask.
+    pub(super) fn set_bond(&mut self, bond: usize, holds: bool) {
+        if let Source::Executed { execution, .. } = &mut self.source {
+            execution.set_bond(bond, holds);
+        }
+    }
+
+    /// Returns the longest that the motion may take, s.
+    pub(super) fn longest(&self) -> f64 {
+        match &self.source {
+            Source::Planned(planned) => planned.tracks.duration,
+            Source::Executed { deadline, .. } => *deadline,
+        }
+    }
+
+    /// Returns the time at which all is done, s; `None` while that is not known.
+    pub(super) fn end(&self) -> Option<f64> {
+        match &self.source {
+            Source::Planned(planned) => Some(planned.tracks.duration),
+            Source::Executed { execution, .. } => execution.ending().map(|(_, time)| time),
+        }
+    }
+
+    /// Returns the reason why the program was stopped before its end; `None` if it was not.
+    pub(super) fn stopped(&self) -> Option<&Reason> {
+        let Source::Executed { execution, .. } = &self.source else { return None };
+        match execution.ending()?.0 {
+            Ending::Done => None,
+            Ending::Stopped(refusal) => Some(&refusal.reason),
+        }
+    }
+}
+
+impl Planned<'_> {
+    /// Finds the commands at a time, s.
+    fn advance(&mut self, time: f64, joints: &mut [(f64, f64)]) {
+        let tracks: &[Track] = &self.tracks.tracks;
+        for ((track, current), rates) in tracks.iter().zip(&mut self.current).zip(&mut self.rates) {
             while track.segments.get(*current + 1).is_some_and(|next| next.start <= time) {
                 *current += 1;
                 rates.clear();
@@ -37,7 +139,7 @@ impl<'a> Commands<'a> {
             if time < segment.start {
                 continue;
             }
-            let joint = &mut self.joints[track.joint.0 as usize];
+            let joint = &mut joints[track.joint.0 as usize];
             if time >= segment.end {
                 *joint = (segment.last(), 0.0);
                 continue;

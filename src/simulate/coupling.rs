@@ -12,7 +12,7 @@ use crate::geometry::pose::turned;
 use crate::geometry::{Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Load, Response};
 use crate::robot::spatial::SpatialVector;
-use crate::robot::{Assembly, PortRef, mate};
+use crate::robot::{Assembly, mate};
 use nalgebra::{DMatrix, DVector};
 
 /// A bond that is in no tree.
@@ -81,9 +81,8 @@ pub(super) struct Instant<'a> {
     pub poses: &'a [Pose],
     /// The point that spatial vectors are about, m.
     pub origin: Vec3,
-    /// The coordinates of the joints of the bodies and their rates.
+    /// The coordinates of the joints of the bodies.
     pub coordinates: &'a [f64],
-    pub rates: &'a [f64],
 }
 
 impl Couplings {
@@ -101,27 +100,20 @@ impl Couplings {
                 hinges[bond] = Some((id, (stiffness, crate::robot::Servo::DAMPING_DEFAULT * stiffness)));
             }
         }
-        let mut first = 0;
-        let mut firsts = Vec::with_capacity(robot.modules.len());
-        for module in 0..robot.modules.len() {
-            firsts.push(first);
-            first += robot.module_type(module).links.len();
-        }
-        let end = |port: PortRef| {
-            let declared = &robot.module_type(port.module).ports[port.port];
-            (model.body_of[firsts[port.module] + declared.link], declared.pose)
-        };
         let bond = |&bond: &usize| LooseBond {
             bond,
             holds: holds[bond],
-            ends: [end(robot.bonds[bond].a), end(robot.bonds[bond].b)],
+            ends: [robot.bonds[bond].a, robot.bonds[bond].b].map(|port| model.port(robot, port)),
             mate: mate(robot, bond),
             hinge: robot.hinge(bond).zip(hinges[bond]).map(|(hinge, (id, _))| (hinge.axis, id)),
             servo: hinges[bond].map_or((0.0, 0.0), |(_, servo)| servo),
             docked: None,
             wrench: [Vec3::zeros(); 2],
         };
-        Couplings { bonds: model.constraints.iter().map(bond).collect(), links, ..Couplings::default() }
+        let bonds = model.constraints.iter().map(bond).collect();
+        let mut couplings = Couplings { bonds, links, ..Couplings::default() };
+        couplings.update_bonded();
+        couplings
     }
 
     /// Lets a bond, by its index in the assembly, hold from now on or no longer. Returns the distance (m) and the angle
@@ -139,26 +131,28 @@ impl Couplings {
         known.docked = None;
         let command = known.hinge.map_or(0.0, |(_, joint)| commands[joint].0);
         let [distance, angle] = known.error(poses, command).map(|error| error.norm());
+        self.update_bonded();
         Some((distance, angle))
+    }
+
+    /// Tells the contacts between links which bodies bonds hold together.
+    fn update_bonded(&mut self) {
+        if let Some(links) = &mut self.links {
+            let holding = self.bonds.iter().filter(|bond| bond.holds);
+            links.set_bonded(holding.map(|bond| (bond.ends[0].0, bond.ends[1].0)));
+        }
     }
 
     /// Returns the loads of the bonds here that hold and state what they hold, as (index of the bond in the assembly,
     /// part of what it holds, true).
     pub(super) fn loads(&self, robot: &Assembly, poses: &[Pose]) -> Vec<(usize, f64, bool)> {
-        let holding = self.bonds.iter().filter(|bond| bond.holds && states(robot, bond.bond));
+        let holding =
+            self.bonds.iter().filter(|bond| bond.holds && robot.bond_strength(bond.bond) != (None, None));
         let of = |bond: &LooseBond| {
             let (body, X_BP) = &bond.ends[0];
             (bond.bond, load(robot, bond.bond, &(poses[*body] * X_BP), bond.wrench), true)
         };
         holding.map(of).collect()
-    }
-
-    /// Returns the body of the first port of a bond, and the port's pose in the frame of its link.
-    pub(super) fn port(&self, robot: &Assembly, bond: usize, model: &Model) -> Option<(usize, Pose)> {
-        let a = robot.bonds[bond].a;
-        let declared = robot.module_type(a.module).ports.get(a.port)?;
-        let first = (0..a.module).map(|module| robot.module_type(module).links.len()).sum::<usize>();
-        Some((model.body_of[first + declared.link], declared.pose))
     }
 
     /// Finds the rows at an instant. `commands`: the commanded position and velocity of each joint by its id.
@@ -188,18 +182,19 @@ impl Couplings {
         }
     }
 
-    /// Adds to the accelerations of a round what the couplings change in them. `None` where the system of their rows has
-    /// no solution.
+    /// Adds to the accelerations of a round what the couplings change in them. `step`: the time step, s; `rates`: those of
+    /// the joints at its start, by body. `None` where the system of the rows has no solution.
     #[must_use]
     pub(super) fn solve(
         &mut self,
         model: &Model,
         bodies: &mut ArticulatedBodies,
-        at: &Instant,
+        step: f64,
+        rates: &[f64],
     ) -> Option<()> {
         self.rows.truncate(self.lasting);
         if let Some(links) = &self.links {
-            links.add_rows(at.step, &mut self.rows);
+            links.add_rows(&mut self.rows);
         }
         let n = self.rows.len();
         if n == 0 {
@@ -213,10 +208,10 @@ impl Couplings {
             bodies.respond(&self.loads, &mut self.response);
             for (other, reacting) in self.rows.iter().enumerate() {
                 matrix[(other, index)] =
-                    at.step * reacting.rate(model, &self.response.bodies, &self.response.joints);
+                    step * reacting.rate(model, &self.response.bodies, &self.response.joints);
             }
             matrix[(index, index)] += 1.0 / row.resistance;
-            right[index] = row.offset / row.resistance - row.free(model, bodies, at);
+            right[index] = row.offset / row.resistance - row.free(model, bodies, step, rates);
         }
         let forces = matrix.cholesky()?.solve(&right);
         self.loads.clear();
@@ -316,22 +311,14 @@ impl LooseBond {
     }
 }
 
-/// Returns true if the connector of a bond states what it holds.
-fn states(robot: &Assembly, bond: usize) -> bool {
-    let a = robot.bonds[bond].a;
-    let connector = &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
-    connector.holds_force.is_some() || connector.holds_moment.is_some()
-}
-
 /// Returns the load of a bond in parts of what it holds: its pull along the normal of the first port, whose world pose is
 /// `X_WP`, and its moment, for the force (N) and the moment (N·m, about that port) on the second port.
 pub(super) fn load(robot: &Assembly, bond: usize, X_WP: &Pose, [force, moment]: [Vec3; 2]) -> f64 {
-    let a = robot.bonds[bond].a;
-    let connector = &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
+    let (greatest_pull, greatest_moment) = robot.bond_strength(bond);
     // A force that pulls the second port back to the first is a pull across the bond.
     let pull = -force.dot(&(X_WP.rotation * Vec3::x()));
-    let of_force = connector.holds_force.map_or(0.0, |holds| pull.max(0.0) / holds);
-    let of_moment = connector.holds_moment.map_or(0.0, |holds| moment.norm() / holds);
+    let of_force = greatest_pull.map_or(0.0, |holds| pull.max(0.0) / holds);
+    let of_moment = greatest_moment.map_or(0.0, |holds| moment.norm() / holds);
     of_force.max(of_moment)
 }
 
@@ -374,15 +361,15 @@ impl Row {
     }
 
     /// Returns the velocity of this row after the step without the forces of couplings.
-    fn free(&self, model: &Model, bodies: &ArticulatedBodies, at: &Instant) -> f64 {
+    fn free(&self, model: &Model, bodies: &ArticulatedBodies, step: f64, rates: &[f64]) -> f64 {
         match self.kind {
             RowKind::Wrench { first, second, unit } => {
-                let after = |body| bodies.velocity(body).plus(bodies.acceleration(body), at.step);
+                let after = |body| bodies.velocity(body).plus(bodies.acceleration(body), step);
                 unit.dot(&after(second).plus(&after(first), -1.0))
             }
             RowKind::Follower(index) => {
                 let follower = &model.followers[index];
-                let after = |body: usize| at.rates[body] + bodies.joint_acceleration(body) * at.step;
+                let after = |body: usize| rates[body] + bodies.joint_acceleration(body) * step;
                 let sum: f64 = follower.terms.iter().map(|(body, factor)| factor * after(*body)).sum();
                 after(follower.body) - sum
             }

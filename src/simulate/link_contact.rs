@@ -1,14 +1,14 @@
 //! Contacts between links: which of them meet, and the forces with which they push each other apart.
 
+use super::contact::{Contact, Spring};
 use super::coupling::{Instant, Row, RowKind};
 use super::model::Model;
-use super::parameters::PARAMETERS;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::distance::signed_distance_within;
 use crate::geometry::{Part, Pose, Solid, Unsound, Vec3, contact_point};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::spatial::SpatialVector;
-use crate::robot::{Assembly, PortRef};
+use crate::robot::{Assembly, Bond};
 use std::collections::BTreeSet;
 
 /// A convex part of a link, in the frame of the link.
@@ -29,9 +29,8 @@ struct Pair {
     free: f64,
     /// The direction of their distance at the last look, in the frame of the first.
     normal: Option<Vec3>,
-    /// The spring across the contact: the number of the step in which it was loaded last, its displacement (m, in the
-    /// world), and the part of its force that friction bore.
-    spring: (u64, Vec3, f64),
+    /// The spring across the contact.
+    spring: Spring,
 }
 
 /// A contact of two links.
@@ -43,26 +42,19 @@ pub(super) struct LinkContact {
     pub first: usize,
     pub second: usize,
     /// The point, from that which spatial vectors are about, m.
-    point: Vec3,
-    /// Three orthogonal unit vectors, the first from the first body to the second.
-    axes: [Vec3; 3],
-    /// The depth beyond that which counts as touching, m.
-    depth: f64,
-    friction: f64,
-    /// The displacement of the spring across at the start of the step, m.
-    shift: Vec3,
-    pub pushes: bool,
-    share: f64,
-    /// The force on the second body, N.
-    pub force: Vec3,
+    pub point: Vec3,
+    /// The contact of the second body with the first, as deep as is beyond what counts as touching.
+    pub contact: Contact,
 }
 
 /// All shapes of a robot, and those that touch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LinkContacts {
     shapes: Vec<Shape>,
-    /// The pairs of bodies that do not push each other, the lesser index first.
+    /// The pairs of bodies that never push each other, the lesser index first.
     excluded: BTreeSet<(usize, usize)>,
+    /// The pairs of bodies that bonds in no tree hold together now, likewise.
+    bonded: BTreeSet<(usize, usize)>,
     pairs: Vec<Pair>,
     /// The value of `moved` from which on each pair may be close; those that are close are looked at in every step.
     wakes: Vec<f64>,
@@ -77,24 +69,25 @@ pub(super) struct LinkContacts {
 /// The distance within which pairs are listed, m.
 const NEAR: f64 = 0.02;
 
+/// Threshold: the depth from which on links begin inside each other, and not at each other, m.
+const TOL_INSIDE: f64 = 1e-6;
+
 /// The distance within which a pair is close, m: its own motion is followed, instead of that of the whole robot.
 const CLOSE: f64 = 1e-3;
 
 impl LinkContacts {
-    /// Compiles the shapes of all links; those that joints or bonds join, that are declared as touching, or that hang
-    /// together, never push each other.
+    /// Compiles the shapes of all links; those that joints or bonds of trees join, that are declared as touching, or that
+    /// begin inside each other, never push each other.
     ///
     /// # Errors
     /// [`Unsound`] for the first shape that is not sound.
     pub(super) fn new(model: &Model, robot: &Assembly) -> Result<LinkContacts, Unsound> {
         let mut all = LinkContacts::default();
-        let mut first = 0;
-        let mut firsts = Vec::with_capacity(robot.modules.len());
         let pair = |a: usize, b: usize| (a.min(b), a.max(b));
         for module in 0..robot.modules.len() {
             let kind = robot.module_type(module);
             for (own, link) in kind.links.iter().enumerate() {
-                let body = model.body_of[first + own];
+                let body = model.body(module, own);
                 let parts = Solid::new(&link.collides)?.parts;
                 all.shapes.extend(parts.into_iter().map(|part| Shape { body, part, touch: kind.touch }));
             }
@@ -102,15 +95,12 @@ impl LinkContacts {
             all.excluded.extend(
                 joined
                     .chain(kind.touching.iter().copied())
-                    .map(|(a, b)| pair(model.body_of[first + a], model.body_of[first + b])),
+                    .map(|(a, b)| pair(model.body(module, a), model.body(module, b))),
             );
-            firsts.push(first);
-            first += kind.links.len();
         }
-        let of = |port: PortRef| {
-            model.body_of[firsts[port.module] + robot.module_type(port.module).ports[port.port].link]
-        };
-        all.excluded.extend(robot.bonds.iter().map(|bond| pair(of(bond.a), of(bond.b))));
+        let bodies = |bond: &Bond| pair(model.port(robot, bond.a).0, model.port(robot, bond.b).0);
+        let lasting = robot.bonds.iter().enumerate().filter(|(bond, _)| !model.constraints.contains(bond));
+        all.excluded.extend(lasting.map(|(_, bond)| bodies(bond)));
         // Links that hang together are one body.
         let mut whole: Vec<usize> = (0..model.bodies.len()).collect();
         for (at, body) in model.bodies.iter().enumerate() {
@@ -124,7 +114,9 @@ impl LinkContacts {
             let bodies = pair(first.body, second.body);
             let X_AB = model.start[first.body].inv_mul(&model.start[second.body]);
             let distance = signed_distance_within(&first.part, &second.part, &X_AB, None, NEAR).distance;
-            if whole[first.body] == whole[second.body] || distance < -first.touch.min(second.touch) {
+            if whole[first.body] == whole[second.body]
+                || distance < -first.touch.min(second.touch) - TOL_INSIDE
+            {
                 all.excluded.insert(bodies);
             }
         }
@@ -144,11 +136,18 @@ impl LinkContacts {
         near_boxes(&boxes, NEAR, size, |a, b| {
             let bodies = (self.shapes[a].body, self.shapes[b].body);
             let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
-            if bodies.0 != bodies.1 && !self.excluded.contains(&bodies) {
+            if bodies.0 != bodies.1 && !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {
                 found.push((a, b));
             }
         });
         found
+    }
+
+    /// Sets the pairs of bodies that bonds in no tree hold together from now on: they do not push each other.
+    pub(super) fn set_bonded(&mut self, pairs: impl Iterator<Item = (usize, usize)>) {
+        self.bonded = pairs.map(|(a, b)| (a.min(b), a.max(b))).collect();
+        // The next step lists the pairs anew.
+        self.listed_until = f64::NEG_INFINITY;
     }
 
     /// Finds the links that meet in step `now`. `bodies`: the bodies with their velocities.
@@ -181,21 +180,13 @@ impl LinkContacts {
             if depth > 0.0 {
                 let normal = at.poses[a.body].rotation * found.normal;
                 let on_a = contact_point(&a.part, &b.part, &X_AB);
-                let (touched, shift, share) = pair.spring;
-                let lasts = touched > 0 && touched + 1 >= now;
-                let shift = if lasts { shift - normal * normal.dot(&shift) } else { Vec3::zeros() };
+                let surface = model.bodies[a.body].surface.against(&model.bodies[b.body].surface);
                 self.contacts.push(LinkContact {
                     pair: index,
                     first: a.body,
                     second: b.body,
                     point: at.poses[a.body].transform_point(&on_a.into()).coords - at.origin,
-                    axes: super::coupling::basis(Some(normal)),
-                    depth,
-                    friction: model.bodies[a.body].friction.max(model.bodies[b.body].friction),
-                    shift,
-                    pushes: true,
-                    share: if lasts { share } else { 1.0 },
-                    force: Vec3::zeros(),
+                    contact: Contact::new(normal, depth, &surface, (&pair.spring, now), at.step),
                 });
             }
             let pair = &mut self.pairs[index];
@@ -214,7 +205,7 @@ impl LinkContacts {
         for (first, second) in near {
             let kept = known.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second));
             self.pairs.push(kept.map_or_else(
-                |_| Pair { first, second, free: 0.0, normal: None, spring: (0, Vec3::zeros(), 1.0) },
+                |_| Pair { first, second, free: 0.0, normal: None, spring: Spring::default() },
                 |index| known[index].clone(),
             ));
         }
@@ -222,49 +213,39 @@ impl LinkContacts {
         self.listed_until = self.moved + NEAR;
     }
 
-    /// Adds three rows for each contact that pushes: along its normal, and across.
-    pub(super) fn add_rows(&self, step: f64, rows: &mut Vec<Row>) {
-        let stiffness = PARAMETERS.contact_stiffness;
-        let resistance = (step + PARAMETERS.contact_damping) * stiffness;
-        for contact in self.contacts.iter().filter(|contact| contact.pushes) {
-            for (number, axis) in contact.axes.iter().enumerate() {
-                let unit = SpatialVector::of_force(*axis, &contact.point);
-                let kind = RowKind::Wrench { first: contact.first, second: contact.second, unit };
-                let share = if number == 0 { 1.0 } else { contact.share.max(SHARE_MIN) };
-                let offset = match number {
-                    0 => stiffness * contact.depth,
-                    _ => -share * stiffness * contact.shift.dot(axis),
-                };
+    /// Adds a row for the normal of each contact that pushes, and two across it where friction bears something.
+    pub(super) fn add_rows(&self, rows: &mut Vec<Row>) {
+        for link_contact in self.contacts.iter().filter(|contact| contact.contact.pushes) {
+            let LinkContact { first, second, point, contact, .. } = link_contact;
+            let Contact { stiffness, resistance, .. } = *contact;
+            let [normal, across @ ..] = super::coupling::basis(Some(contact.normal));
+            let mut add = |axis: Vec3, share: f64, offset: f64| {
+                let unit = SpatialVector::of_force(axis, point);
+                let kind = RowKind::Wrench { first: *first, second: *second, unit };
                 rows.push(Row { kind, resistance: share * resistance, offset });
+            };
+            add(normal, 1.0, stiffness * contact.depth);
+            if contact.share > 0.0 {
+                for axis in across {
+                    add(axis, contact.share, -contact.share * stiffness * contact.shift.dot(&axis));
+                }
             }
         }
+    }
+
+    /// Iterates over the pairs of bodies that push each other.
+    pub(super) fn touching(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let pushing = self.contacts.iter().filter(|contact| contact.contact.pushes);
+        pushing.map(|contact| (contact.first, contact.second))
     }
 
     /// Finds how the contacts go on for the accelerations of a round. Returns the greatest change of a force that comes
     /// of it, N.
     pub(super) fn update(&mut self, bodies: &ArticulatedBodies, step: f64) -> f64 {
-        let stiffness = PARAMETERS.contact_stiffness;
-        let resistance = (step + PARAMETERS.contact_damping) * stiffness;
         let mut greatest: f64 = 0.0;
         for contact in &mut self.contacts {
             let velocity = contact.velocity(bodies, step);
-            let [normal, ..] = contact.axes;
-            let along = velocity.dot(&normal);
-            let across = velocity - normal * along;
-            let tried = -contact.shift * stiffness - across * resistance;
-            let applied = match contact.pushes {
-                true => {
-                    normal * (stiffness * contact.depth - resistance * along)
-                        + tried * contact.share.max(SHARE_MIN)
-                }
-                false => Vec3::zeros(),
-            };
-            let pressing = (stiffness * contact.depth - resistance * along).max(0.0);
-            contact.pushes = pressing > 0.0;
-            let (bound, size) = (contact.friction * pressing, tried.norm());
-            contact.share = if size <= bound { 1.0 } else { bound / size };
-            contact.force = applied;
-            greatest = greatest.max((normal * pressing + tried * contact.share - applied).norm());
+            greatest = greatest.max(contact.contact.update(&velocity));
         }
         greatest
     }
@@ -272,19 +253,11 @@ impl LinkContacts {
     /// Keeps the springs for the next step, when the rounds of step `now` have ended.
     pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, step: f64, now: u64) {
         for contact in &self.contacts {
-            let normal = contact.axes[0];
-            let across = |v: &Vec3| v - normal * normal.dot(v);
-            let shift = match contact.share < 1.0 {
-                true => -across(&contact.force) / PARAMETERS.contact_stiffness,
-                false => contact.shift + across(&contact.velocity(bodies, step)) * step,
-            };
-            self.pairs[contact.pair].spring = (now, shift, contact.share);
+            let velocity = contact.velocity(bodies, step);
+            self.pairs[contact.pair].spring = contact.contact.kept(&velocity, step, now);
         }
     }
 }
-
-/// The least part of a spring's force that friction bears: without friction nothing is left to divide by.
-const SHARE_MIN: f64 = 1e-9;
 
 impl LinkContact {
     /// Returns the velocity of the second body against the first at the contact after the step, m/s.

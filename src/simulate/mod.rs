@@ -3,24 +3,30 @@
 //! It answers what a verdict leaves open: what a robot really does when a plan is played on it, also where motors are too
 //! weak, feet slip or it falls. It decides nothing for the judge, whose verdict rests on its own methods.
 //!
-//! In reading order: the robot as trees of bodies with servos (`model`), what the plan commands (`commands`), the
-//! time steps (`stepper`), contacts with the ground (`contact`) and between links (`link_contact`), what couples bodies
-//! besides joints (`coupling`), what is measured (`outcome`), and many runs of one plan (`robustness`). The method is that of articulated bodies
-//! ([`crate::robot::articulated_bodies`]) with all springs and dampers at the end of the step.
+//! In reading order: the robot as trees of bodies with servos (`model`), what the plan or its program commands (`commands`)
+//! and what sensors tell it (`sensing`), the time steps (`stepper`), the force of a contact (`contact`), contacts with the
+//! ground (`ground_contact`) and between links (`link_contact`), what couples bodies besides joints (`coupling`), what is
+//! measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan (`robustness`). The method is that
+//! of articulated bodies ([`crate::robot::articulated_bodies`]) with all springs and dampers at the end of the step.
 #![allow(non_snake_case)]
 
 mod commands;
 mod contact;
 mod coupling;
+mod ground_contact;
 mod link_contact;
 mod model;
 mod outcome;
 mod parameters;
+mod recording;
 mod refusal;
 mod robustness;
+mod sensing;
+mod settings;
 mod stepper;
 mod words;
 
+use crate::behavior::unfaithful;
 use crate::interrupt;
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
@@ -30,94 +36,20 @@ use coupling::Couplings;
 use link_contact::LinkContacts;
 use model::Model;
 use outcome::Recorder;
-pub use outcome::{BondEvent, BondEventKind, Extreme, Moment, Simulation};
+pub use outcome::{BondEvent, BondEventKind, Extreme, Simulation};
 use parameters::PARAMETERS;
+pub use recording::{ContactForce, Drive, Moment};
 pub use refusal::Refusal;
 pub use robustness::{Factors, Run, Spread, study};
+pub use settings::{ServoGains, Settings};
 use stepper::Stepper;
 
-/// The servos where they are not those of the modules.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ServoGains {
-    /// The stiffness of joints that turn, N·m/rad; those that slide have it at a lever of 0.1 m. `None`: as the modules
-    /// state.
-    pub stiffness: Option<f64>,
-    /// The damping of a servo of unit stiffness, s; `None`:
-    /// [`DAMPING_DEFAULT`](crate::robot::Servo::DAMPING_DEFAULT).
-    pub damping: Option<f64>,
-    /// The factor on the stiffness, without unit.
-    pub factor: f64,
-    /// The factor on the greatest efforts, without unit.
-    pub effort: f64,
-    /// True if motors have no limits of effort, so that the effort that is needed shows.
-    pub unlimited: bool,
-}
-
-impl Default for ServoGains {
-    fn default() -> ServoGains {
-        ServoGains { stiffness: None, damping: None, factor: 1.0, effort: 1.0, unlimited: false }
-    }
-}
-
-/// The settings of a simulation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// The time step, s.
-    pub step: f64,
-    /// The factor on all coefficients of friction, besides that of the world.
-    pub friction: f64,
-    /// The factor on all masses, with their moments of inertia.
-    pub mass: f64,
-    /// The servos.
-    pub servo: ServoGains,
-    /// True if links push each other apart where they meet; false if they pass through each other.
-    pub link_contacts: bool,
-}
-
-impl Settings {
-    /// The time step where none is stated, s: 0.5 ms. Half of it changes the travel of the library's walkers by less than
-    /// 1 %.
-    pub const STEP_DEFAULT: f64 = 5e-4;
-    /// The longest time step, s: beyond, robots on stiff contacts are no longer followed.
-    pub const STEP_MAX: f64 = 5e-3;
-    /// The shortest time step, s.
-    pub const STEP_MIN: f64 = 1e-6;
-
-    /// Returns the name of a setting that is negative or not finite, or zero where it must be positive; `None` if all are
-    /// sound. The time step is not among them.
-    fn unsound(&self) -> Option<&'static str> {
-        let ServoGains { stiffness, damping, factor, effort, .. } = self.servo;
-        let sound = |x: f64| x.is_finite() && x >= 0.0;
-        let positive = |x: f64| x.is_finite() && x > 0.0;
-        let all = [
-            ("friction", sound(self.friction)),
-            ("mass", positive(self.mass)),
-            ("stiffness", stiffness.is_none_or(positive)),
-            ("damping", damping.is_none_or(sound)),
-            ("factor on the stiffness", positive(factor)),
-            ("factor on the efforts", sound(effort)),
-        ];
-        all.into_iter().find(|(_, sound)| !sound).map(|(name, _)| name)
-    }
-}
-
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings {
-            step: Settings::STEP_DEFAULT,
-            friction: 1.0,
-            mass: 1.0,
-            servo: ServoGains::default(),
-            link_contacts: true,
-        }
-    }
-}
-
-/// Plays a plan: the robot stands for 0.3 s, moves as its servos follow the plan, and stands for 0.3 s again.
+/// Plays a plan: the robot stands for 0.3 s, moves as its servos follow the plan, and stands for 0.3 s again. The program of
+/// a plan that depends on sensors or timeouts is executed, with conditions on what is simulated.
 ///
 /// # Errors
-/// A [`Refusal`] for plans of lattices and trusses, those that are not valid, settings out of range, and robots without
-/// inertia.
+/// A [`Refusal`] for plans of lattices and trusses, those that are not valid or whose program makes another motion,
+/// settings out of range, and robots without inertia.
 pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal> {
     let tracks = plan.body.tracks().ok_or(Refusal::Family)?;
     validation::check(plan).map_err(Refusal::Invalid)?;
@@ -127,8 +59,13 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
     if let Some(setting) = settings.unsound() {
         return Err(Refusal::Setting(setting));
     }
+    if plan.nominal
+        && let Some(failure) = unfaithful(plan)
+    {
+        return Err(Refusal::Unfaithful(failure.message));
+    }
     let mut apart = Vec::new();
-    // A bond of a tree that breaks is a constraint from the start on, in the next run.
+    // A bond of a tree that breaks, or is undocked, is a constraint from the start on, in the next run.
     loop {
         match run(plan, tracks, settings, &apart)? {
             Ok(simulation) => return Ok(simulation),
@@ -137,8 +74,24 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
     }
 }
 
+/// Plays a plan with a time step and with half of it, at once where there are two threads: [`simulate`]'s result, and in
+/// words what the half step changes in it.
+///
+/// # Errors
+/// Those of [`simulate`] with the whole step.
+pub fn simulate_halving(plan: &Plan, settings: &Settings) -> Result<(Simulation, String), Refusal> {
+    let halved = Settings { step: settings.step / 2.0, ..*settings };
+    let (outcome, finer) = interrupt::join(|| simulate(plan, settings), || simulate(plan, &halved));
+    let outcome = outcome?;
+    let words = match finer {
+        Ok(finer) => outcome.halving(&finer),
+        Err(refusal) => format!("at half the step: {refusal}"),
+    };
+    Ok((outcome, words))
+}
+
 /// Plays a plan, with some bonds that are not in the trees although they hold all the time; gives the first other bond
-/// that breaks.
+/// that breaks or is undocked.
 fn run(
     plan: &Plan,
     tracks: &Tracks,
@@ -157,22 +110,30 @@ fn run(
     let gravity = if world.ground == Ground::Off { 0.0 } else { world.gravity };
     let h = settings.step;
     let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, world.has_floor(), h);
-    let mut commands = Commands::new(tracks);
-    let mut recorder = Recorder::new(tracks, &model, h);
+    let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
+    let mut recorder = Recorder::new(&model, apart, commands.longest(), h);
     let steps = |time: f64| libm::ceil(time / h - 1e-9) as i64;
-    let (first, last) = (-steps(PARAMETERS.settle), steps(tracks.duration + PARAMETERS.rest));
-    let mut events = tracks.events.iter().peekable();
-    for number in first..last {
+    let mut number = -steps(PARAMETERS.settle);
+    while commands.end().is_none_or(|end| number < steps(end + PARAMETERS.rest)) {
         interrupt::progress_checkpoint(|| format!("{:.1} of {:.1} s", number as f64 * h, tracks.duration));
         let time = number as f64 * h;
+        number += 1;
+        let events = commands.bonds(time, robot, &stepper);
         commands.advance(time + h);
-        while let Some(event) = events.next_if(|event| event.time <= time) {
+        for event in events {
+            if !model.constraints.contains(&event.bond) {
+                return Ok(Err(event.bond));
+            }
             let docks = event.kind == DockingKind::Dock;
-            let off = stepper.hold(event.bond, docks, &commands);
+            let off = stepper.hold(event.bond, docks, &commands.joints);
+            if !docks {
+                recorder.bond(BondEvent { bond: event.bond, time, kind: BondEventKind::Undocks });
+            }
             if let Some((distance, angle)) = off.filter(|_| docks) {
                 let captured = captures(robot, event.bond, distance, angle);
                 if !captured {
-                    stepper.hold(event.bond, false, &commands);
+                    stepper.hold(event.bond, false, &commands.joints);
+                    commands.set_bond(event.bond, false);
                 }
                 let kind = match captured {
                     true => BondEventKind::Docks(distance, angle),
@@ -181,7 +142,10 @@ fn run(
                 recorder.bond(BondEvent { bond: event.bond, time, kind });
             }
         }
-        stepper.take(&commands, time).map_err(|_| Refusal::NoInertia { time })?;
+        if let Some(reason) = commands.stopped() {
+            recorder.stop(time, reason);
+        }
+        stepper.take(&commands.joints, time).map_err(|_| Refusal::NoInertia { time })?;
         for (bond, load, loose) in stepper.bond_loads(robot) {
             // Swings of the first moment, as loads set in, are not those of the plan.
             if time < 0.0 {
@@ -192,19 +156,19 @@ fn run(
                 if !loose {
                     return Ok(Err(bond));
                 }
-                stepper.hold(bond, false, &commands);
+                stepper.hold(bond, false, &commands.joints);
+                commands.set_bond(bond, false);
                 recorder.bond(BondEvent { bond, time, kind: BondEventKind::Breaks(load) });
             }
         }
         recorder.see(&stepper, &commands, time + h);
     }
-    Ok(Ok(recorder.end(&stepper)))
+    Ok(Ok(recorder.end(&stepper, commands.end().unwrap_or(tracks.duration))))
 }
 
 /// Returns true if two ports that are so far from a perfect mate (m, rad) dock; where the connector of a bond states no
 /// capture, they always do.
 fn captures(robot: &Assembly, bond: usize, distance: f64, angle: f64) -> bool {
-    let a = robot.bonds[bond].a;
-    let connector = &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
-    connector.capture.is_none_or(|capture| distance <= capture.distance && angle <= capture.angle)
+    let capture = robot.connector(robot.bonds[bond].a).capture;
+    capture.is_none_or(|capture| distance <= capture.distance && angle <= capture.angle)
 }

@@ -1,12 +1,14 @@
 //! The robot of a plan as trees of rigid bodies with servos, for a simulation.
 
-use super::{ServoGains, Settings};
+use super::settings::{ServoGains, Settings};
 use crate::geometry::ground_features::{self, Feature};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, LastingTrees, Tracks, World};
 use crate::robot::articulated_bodies::Attachment;
 use crate::robot::dynamics::{Dynamics, RigidBody};
-use crate::robot::{Assembly, JointKind, JointOwner, Servo, Step, motor_efforts};
+use crate::robot::{
+    self, Assembly, Bond, JointKind, JointOwner, Kinematics, Link, PortRef, Servo, Step, motor_efforts,
+};
 
 /// A link with what carries it.
 #[derive(Clone, Debug)]
@@ -19,8 +21,8 @@ pub(super) struct Body {
     pub rigid: RigidBody,
     /// The joint that moves the body.
     pub joint: Option<Joint>,
-    /// The coefficient of friction, with the world's factor.
-    pub friction: f64,
+    /// The surface, as contacts feel it.
+    pub surface: Surface,
     /// The radius about the origin of the link's frame that holds all its ground features, m.
     pub reach: f64,
     /// The parts of its surface that can touch the ground, in the frame of the link.
@@ -40,6 +42,8 @@ pub(super) struct Joint {
     pub servo: Option<DrivenServo>,
     /// The inertia of its rotor, kg·m² or kg; 0 without a servo.
     pub armature: f64,
+    /// The damping of its bearing, N·m·s/rad or N·s/m; 0 with a servo, whose own counts.
+    pub damping: f64,
     /// The least and greatest coordinate, rad or m; `None` without ends, and for one that follows others.
     pub range: Option<(f64, f64)>,
 }
@@ -55,6 +59,50 @@ pub(super) struct DrivenServo {
     pub effort: f64,
     /// The greatest effort that is stated, N·m or N.
     pub limit: Option<f64>,
+    /// The speed at which no effort is left, rad/s or m/s; infinite where none is stated, or motors have no limits.
+    pub no_load_speed: f64,
+}
+
+impl DrivenServo {
+    /// Returns an effort (N·m or N) as far as the motor can supply it at a rate (rad/s or m/s): the effort that drives a
+    /// motion is the less the faster that is.
+    pub(super) fn limited(&self, effort: f64, rate: f64) -> f64 {
+        let driving = (rate * effort.signum()).max(0.0);
+        let most = self.effort * (1.0 - driving / self.no_load_speed).max(0.0);
+        effort.clamp(-most, most)
+    }
+}
+
+/// A surface as contacts feel it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    /// The coefficient of friction while it slides.
+    pub friction: f64,
+    /// The coefficient of friction up to which it sticks.
+    pub static_friction: f64,
+    /// The stiffness of a contact, N/m.
+    pub stiffness: f64,
+}
+
+impl Surface {
+    /// Returns that of a link with a factor on friction.
+    fn new(link: &Link, factor: f64) -> Surface {
+        let facts = &link.surface;
+        Surface {
+            friction: link.friction * factor,
+            static_friction: facts.static_friction.unwrap_or(link.friction) * factor,
+            stiffness: facts.stiffness.unwrap_or(robot::Surface::STIFFNESS_DEFAULT),
+        }
+    }
+
+    /// Returns that of a contact of two: friction is that of the rougher one, and the softer one yields.
+    pub(super) fn against(&self, other: &Surface) -> Surface {
+        Surface {
+            friction: self.friction.max(other.friction),
+            static_friction: self.static_friction.max(other.static_friction),
+            stiffness: self.stiffness.min(other.stiffness),
+        }
+    }
 }
 
 /// A joint that follows others.
@@ -85,13 +133,28 @@ pub(super) struct CoupledMotor {
     pub shares: Vec<f64>,
 }
 
+/// A bond of a tree that states what it holds.
+#[derive(Clone, Debug)]
+pub(super) struct CarryingBond {
+    /// The index of the bond in the assembly.
+    pub bond: usize,
+    /// The body that the bond carries.
+    pub carried: usize,
+    /// The body of the bond's first port, and the port's pose in the frame of its link.
+    pub port: (usize, Pose),
+}
+
 /// The robot of a plan for a simulation.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     /// The links, those that carry before those that are carried.
     pub bodies: Vec<Body>,
     /// The index in `bodies` of each link, by its number.
-    pub body_of: Vec<usize>,
+    body_of: Vec<usize>,
+    /// The index of the module of each body.
+    pub module_of: Vec<usize>,
+    /// The kinematics of the whole robot, which numbers links and joints.
+    kinematics: Kinematics,
     /// The index in `bodies` of the body that each joint moves, by the number of its id; `None` for those that move none.
     pub moved_by: Vec<Option<usize>>,
     /// The joints that follow others.
@@ -100,8 +163,8 @@ pub(super) struct Model {
     pub coupled: Vec<Coupled>,
     /// The bonds that hold at some time and are in no tree.
     pub constraints: Vec<usize>,
-    /// The bonds of the trees that state what they hold, each with the body that it carries.
-    pub carrying: Vec<(usize, usize)>,
+    /// The bonds of the trees that state what they hold.
+    pub carrying: Vec<CarryingBond>,
     /// The pose of each body at the start, by its index in `bodies`.
     pub start: Vec<Pose>,
     /// The mass of all bodies, kg.
@@ -133,24 +196,13 @@ impl Model {
             followers: Vec::new(),
             coupled: Vec::new(),
             constraints: lasting.constraints,
+            module_of: Vec::with_capacity(links.len()),
+            kinematics: lasting.start,
             carrying: Vec::new(),
             start: Vec::with_capacity(links.len()),
             mass: 0.0,
         };
         for (index, tree) in lasting.trees.iter().enumerate() {
-            let states = |bond: &usize| {
-                let a = robot.bonds[*bond].a;
-                let connector =
-                    &robot.library.connectors[robot.module_type(a.module).ports[a.port].connector];
-                connector.holds_force.is_some() || connector.holds_moment.is_some()
-            };
-            let carried = tree.tree.order.iter().filter_map(|&(module, bond)| {
-                let bond = bond.filter(states)?;
-                let declared = &robot.bonds[bond];
-                let port = if declared.b.module == module { declared.b } else { declared.a };
-                Some((bond, tree.port_link(robot, port)))
-            });
-            model.carrying.extend(carried);
             let base = if held && index == 0 { Attachment::Held } else { Attachment::Floating };
             let root = tree.link(tree.root, 0);
             let steps = tree.steps.iter().map(|step| (step.link, Some(step)));
@@ -167,6 +219,7 @@ impl Model {
                 });
                 let at = model.bodies.len();
                 model.body_of[link] = at;
+                model.module_of.push(module);
                 if let Some(joint) = &joint {
                     model.moved_by[joint.id] = Some(at);
                 }
@@ -177,18 +230,41 @@ impl Model {
                     step: step.cloned(),
                     rigid: heavier(&rigid.bodies()[link], settings.mass),
                     joint,
-                    friction: declared.friction * world.friction * settings.friction,
+                    surface: Surface::new(declared, world.friction * settings.friction),
                     reach: features.iter().map(Feature::reach).fold(0.0, f64::max),
                     features,
                 });
             }
         }
-        model.carrying.iter_mut().for_each(|(_, link)| *link = model.body_of[*link]);
+        for &(module, bond) in lasting.trees.iter().flat_map(|tree| &tree.tree.order) {
+            let Some(bond) = bond.filter(|bond| robot.bond_strength(*bond) != (None, None)) else { continue };
+            let Bond { a, b, .. } = robot.bonds[bond];
+            let carried = model.port(robot, if b.module == module { b } else { a }).0;
+            model.carrying.push(CarryingBond { bond, carried, port: model.port(robot, a) });
+        }
         model.follow();
         if !gains.unlimited {
             model.couple(robot, gains);
         }
         model
+    }
+
+    /// Returns the body of a link, given by the index of its module and its own in the module.
+    pub(super) fn body(&self, module: usize, link: usize) -> usize {
+        self.body_of[self.kinematics.link(module, link)]
+    }
+
+    /// Returns the number of the link that each body is, among those of all modules in order.
+    pub(super) fn links(&self) -> Vec<usize> {
+        let mut links = vec![0; self.bodies.len()];
+        self.body_of.iter().enumerate().for_each(|(link, body)| links[*body] = link);
+        links
+    }
+
+    /// Returns the body of a port, and the port's pose in the frame of its link.
+    pub(super) fn port(&self, robot: &Assembly, port: PortRef) -> (usize, Pose) {
+        let link = self.kinematics.port_link(robot, port);
+        (self.body_of[link], robot.module_type(port.module).ports[port.port].pose)
     }
 
     /// Finds the joints that follow others.
@@ -209,11 +285,8 @@ impl Model {
 
     /// Finds the motors that drive several joints and have limits of effort.
     fn couple(&mut self, robot: &Assembly, gains: &ServoGains) {
-        let mut first = 0;
         for module in 0..robot.modules.len() {
             let kind = robot.module_type(module);
-            let own = first;
-            first += kind.joints.len();
             let Some(efforts) = motor_efforts(kind) else { continue };
             if kind.motors.iter().all(|motor| motor.limits.effort.is_none()) {
                 continue;
@@ -225,7 +298,7 @@ impl Model {
             let bodies: Option<Vec<(usize, f64)>> = joints
                 .iter()
                 .map(|joint| {
-                    let body = self.moved_by[own + joint]?;
+                    let body = self.moved_by[self.kinematics.joint(module, *joint)]?;
                     Some((body, self.bodies[body].joint.as_ref()?.factor))
                 })
                 .collect();
@@ -285,7 +358,13 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
     ) * gains.factor;
     let servo = driven.then_some(DrivenServo {
         stiffness,
-        damping: gains.damping.unwrap_or(Servo::DAMPING_DEFAULT) * stiffness,
+        damping: match gains.damping {
+            Some(damping) => damping * stiffness,
+            // Gains other than those of the modules have a damping to match.
+            None if gains.stiffness.is_some() => Servo::DAMPING_DEFAULT * stiffness,
+            None => stated.damping_with(stiffness / gains.factor) * gains.factor,
+        },
+        no_load_speed: stated.no_load_speed.filter(|_| !gains.unlimited).unwrap_or(f64::INFINITY),
         effort: if gains.unlimited {
             f64::INFINITY
         } else {
@@ -304,6 +383,7 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         slides: robot.slides(owner),
         servo,
         armature: if driven { armature } else { 0.0 },
+        damping: stated.damping.filter(|_| passive).unwrap_or(0.0),
         range,
     }
 }

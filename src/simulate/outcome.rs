@@ -2,9 +2,12 @@
 
 use super::commands::Commands;
 use super::model::Model;
+use super::parameters::PARAMETERS;
+use super::recording::{Drive, Moment, Recording};
 use super::stepper::Stepper;
+use crate::behavior::Reason;
+use crate::geometry::pose::lean;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::Tracks;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
 const WINDOW: f64 = 0.05;
@@ -15,9 +18,6 @@ const FALL_SPEED: f64 = 0.5;
 /// Threshold: the part of a motor's limit below it at which it is at its limit: the effort of a motor that drives several
 /// joints follows from theirs, with rounding.
 const TOL_LIMIT: f64 = 1e-9;
-
-/// The time between two moments of the motion that is kept, s.
-const FRAME: f64 = 0.02;
 
 /// The greatest value of a quantity, and where and when it was reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +44,8 @@ pub struct BondEvent {
 /// A change of a bond.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BondEventKind {
+    /// Its ports undock.
+    Undocks,
     /// Its ports dock: their distance (m) and the angle (rad) from a perfect mate.
     Docks(f64, f64),
     /// Its ports should dock, and are farther from each other than the connector captures: distance (m) and angle (rad).
@@ -52,24 +54,12 @@ pub enum BondEventKind {
     Breaks(f64),
 }
 
-/// The robot at a moment of a simulation.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Moment {
-    /// The time from the start of the plan, s.
-    pub time: f64,
-    /// The world pose of the base module's body.
-    pub base: Pose,
-    /// The position of each joint by its [`JointId`](crate::robot::JointId), rad or m; of those that do not move, as the
-    /// plan says.
-    pub joints: Vec<f64>,
-}
-
 /// The result of a plan that is played.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
     /// The time step, s.
     pub step: f64,
-    /// The duration of the plan, s.
+    /// The duration of the plan, s, or of its program as it was executed.
     pub duration: f64,
     /// The displacement of the base from the start of the plan to 0.3 s after its end, m.
     pub travel: Vec3,
@@ -95,15 +85,21 @@ pub struct Simulation {
     pub work: f64,
     /// The greatest load of a bond, in parts of what it holds; `None` where no bond states that.
     pub bond_load: Option<Extreme>,
+    /// The time (s) at which the executed program was stopped before its end, and the reason in words; `None`: it was not.
+    pub stop: Option<(f64, String)>,
     /// The changes of bonds, in order of time.
     pub bonds: Vec<BondEvent>,
-    /// The motion, every 20 ms from the start of the plan.
+    /// The bonds that are in no tree although the plan never undocks them: those that break.
+    pub apart: Vec<usize>,
+    /// The servos and motors whose efforts the motion tells.
+    pub drives: Vec<Drive>,
+    /// The motion from the start of the plan, every 20 ms; of a long one at twice that time, four times, and so on, so that
+    /// there are at most 4096 moments, and fewer for more than a thousand joints.
     pub motion: Vec<Moment>,
 }
 
 /// The measurement of a simulation.
 pub(super) struct Recorder<'a> {
-    tracks: &'a Tracks,
     model: &'a Model,
     step: f64,
     /// The efforts of the last steps in a ring, and their sums, by body.
@@ -116,7 +112,7 @@ pub(super) struct Recorder<'a> {
     saturated_coupled: Vec<Vec<f64>>,
     start: Pose,
     height: f64,
-    frame: f64,
+    recording: Recording,
     out: Simulation,
 }
 
@@ -127,13 +123,14 @@ fn keep(known: &mut Option<Extreme>, value: f64, of: usize, time: f64) {
 }
 
 impl<'a> Recorder<'a> {
-    /// Returns the measurement of a robot that has not moved.
-    pub(super) fn new(tracks: &'a Tracks, model: &'a Model, step: f64) -> Recorder<'a> {
+    /// Returns the measurement of a robot that has not moved. `apart`: the bonds that are not in its trees although they
+    /// hold all the time; `longest`: the longest that the motion may take, s; `step`: the time step, s.
+    pub(super) fn new(model: &'a Model, apart: &[usize], longest: f64, step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
         let window = (libm::round(WINDOW / step) as usize).max(1);
         let out = Simulation {
             step,
-            duration: tracks.duration,
+            duration: 0.0,
             travel: Vec3::zeros(),
             heading: 0.0,
             lean: 0.0,
@@ -146,11 +143,13 @@ impl<'a> Recorder<'a> {
             impact: 0.0,
             work: 0.0,
             bond_load: None,
+            stop: None,
             bonds: Vec::new(),
+            apart: apart.to_vec(),
+            drives: Vec::new(),
             motion: Vec::new(),
         };
         Recorder {
-            tracks,
             model,
             step,
             history: vec![vec![0.0; count]; window],
@@ -160,9 +159,17 @@ impl<'a> Recorder<'a> {
             saturated_coupled: model.coupled.iter().map(|coupled| vec![0.0; coupled.motors.len()]).collect(),
             start: model.start[0],
             height: 0.0,
-            frame: 0.0,
+            recording: Recording::new(model, longest + PARAMETERS.rest),
             out,
         }
+    }
+
+    /// Takes down that the program was stopped, the first time.
+    pub(super) fn stop(&mut self, time: f64, reason: &Reason) {
+        self.out.stop.get_or_insert_with(|| match reason {
+            Reason::Aborted { message, .. } => (time, format!("the program is aborted: {message}")),
+            other => (time, format!("the program stops: {other}")),
+        });
     }
 
     /// Takes down something that happens to a bond.
@@ -187,7 +194,8 @@ impl<'a> Recorder<'a> {
         self.height = height;
         if time <= 0.5 * self.step {
             self.start = *stepper.base(0);
-            self.frame(stepper, commands, 0.0);
+            self.recording.restart();
+            self.record(stepper, commands, 0.0);
             return;
         }
         if sink > FALL_SPEED && self.out.fall.is_none() {
@@ -214,11 +222,19 @@ impl<'a> Recorder<'a> {
         }
         self.see_coupled(stepper, time);
         let turn = stepper.base(0).rotation * self.start.rotation.inverse();
-        self.out.lean = tilt(&turn);
+        self.out.lean = lean(&turn);
         self.out.lean_max = self.out.lean_max.max(self.out.lean);
-        if time + 0.5 * self.step >= self.frame {
-            self.frame(stepper, commands, time);
+        self.record(stepper, commands, time);
+    }
+
+    /// Keeps the moment `time` (s), if it is time for one.
+    fn record(&mut self, stepper: &Stepper, commands: &Commands, time: f64) {
+        if !self.recording.is_due(time, self.step) {
+            return;
         }
+        let window = self.history.len() as f64;
+        let means: Vec<f64> = self.sums.iter().map(|sum| sum / window).collect();
+        self.recording.see(stepper, commands, &means, time);
     }
 
     /// Measures the motors that drive several joints. The joint that is told is the first of them.
@@ -244,33 +260,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    fn frame(&mut self, stepper: &Stepper, commands: &Commands, time: f64) {
-        let mut joints: Vec<f64> = commands.joints.iter().map(|(position, _)| *position).collect();
-        for (body, coordinate) in self.model.bodies.iter().zip(&stepper.coordinates) {
-            if let Some(joint) = &body.joint {
-                joints[joint.id] = coordinate * joint.factor;
-            }
-        }
-        if time == 0.0 {
-            self.out.motion.clear();
-        }
-        self.out.motion.push(Moment { time, base: *stepper.base(0), joints });
-        self.frame = time + FRAME;
-    }
-
-    /// Returns what was measured, with the base where it is now.
-    pub(super) fn end(mut self, stepper: &Stepper) -> Simulation {
+    /// Returns what was measured, with the base where it is now; `duration`: that of the motion, s.
+    pub(super) fn end(mut self, stepper: &Stepper, duration: f64) -> Simulation {
+        self.out.duration = duration;
         let end = stepper.base(0);
         self.out.travel = end.translation.vector - self.start.translation.vector;
         let turn = (end.rotation * self.start.rotation.inverse()).to_rotation_matrix();
         self.out.heading = libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)]);
-        debug_assert_eq!(self.out.duration, self.tracks.duration);
+        self.out.drives = self.recording.drives;
+        self.out.motion = self.recording.motion;
         self.out
     }
-}
-
-/// Returns the angle by which a rotation leans the vertical, rad.
-fn tilt(turn: &nalgebra::UnitQuaternion<f64>) -> f64 {
-    let up = turn.transform_vector(&Vec3::z());
-    libm::atan2(libm::hypot(up.x, up.y), up.z)
 }

@@ -3,8 +3,6 @@
 /// The parameters of contacts and bonds that modules do not state, and those of the time steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Parameters {
-    /// The stiffness of a contact along its normal and across, N/m: 1e5, that of the judge: stiffer than servos.
-    pub contact_stiffness: f64,
     /// The damping of a contact, bond or stop of unit stiffness, s. 4 ms: a module of 0.5 kg comes down on such contacts
     /// without bouncing.
     pub contact_damping: f64,
@@ -33,7 +31,6 @@ pub(super) struct Parameters {
 
 /// The parameters of every simulation.
 pub(super) const PARAMETERS: Parameters = Parameters {
-    contact_stiffness: 1e5,
     contact_damping: 4e-3,
     bond_stiffness: 1e6,
     bond_turn_stiffness: 1e4,

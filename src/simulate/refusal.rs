@@ -11,6 +11,8 @@ pub enum Refusal {
     Family,
     /// The plan is not valid.
     Invalid(PlanFault),
+    /// The plan's program makes another motion than the plan; the first difference, in words.
+    Unfaithful(String),
     /// The shape of a link is not sound.
     Shape(Unsound),
     /// The time step is not from [`Settings::STEP_MIN`] to [`Settings::STEP_MAX`].
@@ -29,6 +31,7 @@ impl std::fmt::Display for Refusal {
         match self {
             Refusal::Family => f.write_str("only robots with joints are simulated, no lattices and trusses"),
             Refusal::Invalid(fault) => write!(f, "the plan is not sound: {fault}"),
+            Refusal::Unfaithful(difference) => write!(f, "the plan is not sound: {difference}"),
             Refusal::Shape(fault) => write!(f, "the shape of a link is not sound: {fault}"),
             Refusal::Step => write!(
                 f,

@@ -1,6 +1,6 @@
 //! Many simulations of one plan with friction, masses and motors that differ: does it still happen?
 
-use super::{Refusal, Settings, Simulation, simulate};
+use super::{Moment, Refusal, Settings, Simulation, simulate};
 use crate::interrupt;
 use crate::optimize::random::SplitMix64;
 use crate::plan::Plan;
@@ -39,7 +39,21 @@ pub struct Run {
     pub factors: Factors,
     /// The result, without the motion.
     pub outcome: Simulation,
+    /// The way of the base over the ground, as positions x and y in the world, m, evenly in time: at most 200, and fewer
+    /// where there are more than 5000 runs.
+    pub path: Vec<[f64; 2]>,
+    /// The position of the base on the ground when it falls, m; `None` if it does not.
+    pub fell_at: Option<[f64; 2]>,
 }
+
+/// The most positions in the path of one run.
+const PATH_MAX: usize = 200;
+
+/// The most positions in the paths of all runs, unless they have [`PATH_MIN`] each.
+const PATHS_MAX: usize = 1_000_000;
+
+/// The least number of positions in a path that is thinned.
+const PATH_MIN: usize = 8;
 
 impl Spread {
     /// Returns the factors of the run of an index, from 0, of a study with this seed: those of one run do not depend on
@@ -81,11 +95,12 @@ pub fn study(
     runs: usize,
     seed: u64,
 ) -> Result<Vec<Run>, Refusal> {
+    let points = (PATHS_MAX / runs.max(1)).clamp(PATH_MIN, PATH_MAX);
     let every_other = |first: usize| {
         let mut found = Vec::new();
         for index in (first..runs).step_by(2) {
             interrupt::progress_checkpoint(|| format!("{index} of {runs} runs"));
-            found.push(run(plan, settings, &spread.factors(seed, index)));
+            found.push(run(plan, settings, &spread.factors(seed, index), points));
         }
         found
     };
@@ -94,13 +109,21 @@ pub fn study(
     (0..runs).map(|index| halves[index % 2].next().expect("each half has its runs")).collect()
 }
 
-fn run(plan: &Plan, settings: &Settings, factors: &Factors) -> Result<Run, Refusal> {
+/// Plays a plan with factors; keeps so many points of its way.
+fn run(plan: &Plan, settings: &Settings, factors: &Factors, points: usize) -> Result<Run, Refusal> {
     let mut varied = *settings;
     varied.friction *= factors.friction;
     varied.mass *= factors.mass;
     varied.servo.effort *= factors.effort;
     varied.servo.factor *= factors.stiffness;
     let mut outcome = simulate(plan, &varied)?;
-    outcome.motion = Vec::new();
-    Ok(Run { factors: *factors, outcome })
+    let motion = std::mem::take(&mut outcome.motion);
+    outcome.drives = Vec::new();
+    let place = |moment: &Moment| [moment.base.translation.x, moment.base.translation.y];
+    let count = points.min(motion.len());
+    let index = |i: usize| i * (motion.len() - 1) / (count - 1).max(1);
+    let path = (0..count).map(|i| place(&motion[index(i)])).collect();
+    let after = outcome.fall.map(|fall| motion.partition_point(|moment| moment.time < fall));
+    let fell_at = after.and_then(|after| motion.get(after).or(motion.last())).map(place);
+    Ok(Run { factors: *factors, outcome, path, fell_at })
 }

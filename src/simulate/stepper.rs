@@ -5,17 +5,17 @@
 //! method, which so stays linear in the number of links. Rounds find the contacts that stick, slide or part, and the motors
 //! that are at their limits.
 
-use super::commands::Commands;
-use super::contact::GroundContacts;
 use super::coupling::{Couplings, Instant};
-use super::model::{CoupledMotor, DrivenServo, Model};
+use super::ground_contact::GroundContacts;
+use super::link_contact::LinkContacts;
+use super::model::{CarryingBond, CoupledMotor, DrivenServo, Model};
 use super::parameters::PARAMETERS;
 use crate::geometry::pose::turned;
 use crate::geometry::{Pose, Vec3};
-use crate::robot::Assembly;
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
+use crate::robot::{Assembly, PortRef};
 
 /// The state of a servo in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +38,7 @@ pub(super) struct Stepper<'a> {
     pub ground: Option<GroundContacts>,
     pub couplings: Couplings,
     /// The world poses of the bodies at the start of the step taken last.
-    pub poses: Vec<Pose>,
+    poses: Vec<Pose>,
     /// The poses of the bases now, by body; of other bodies they are of no use.
     bases: Vec<Pose>,
     /// The velocities of the bases, by body.
@@ -52,7 +52,7 @@ pub(super) struct Stepper<'a> {
     /// The bodies that touch the ground, each once, with their own inertia and bias.
     touched: Vec<(usize, (SpatialInertia, SpatialVector))>,
     /// The point that spatial vectors were about in the step taken last, m.
-    origin: Vec3,
+    pub origin: Vec3,
     /// The number of steps taken.
     number: u64,
 }
@@ -94,11 +94,12 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Takes a step from `time` (s) on, with the commands of its end.
+    /// Takes a step from `time` (s) on. `commands`: the commanded position and rate of each joint at its end, by the number of
+    /// its id.
     ///
     /// # Errors
     /// [`NoInertia`] where a joint or base has no inertia, or values are not finite any more.
-    pub(super) fn take(&mut self, commands: &Commands, time: f64) -> Result<(), NoInertia> {
+    pub(super) fn take(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
         self.number += 1;
         let origin = self.bases[0].translation.vector;
         self.origin = origin;
@@ -112,15 +113,9 @@ impl<'a> Stepper<'a> {
                 }
             }
         }
-        let at = Instant {
-            time,
-            step: self.step,
-            poses: &self.poses,
-            origin,
-            coordinates: &self.coordinates,
-            rates: &self.rates,
-        };
-        self.couplings.find(self.model, &self.bodies, &at, &commands.joints, self.number);
+        let at =
+            Instant { time, step: self.step, poses: &self.poses, origin, coordinates: &self.coordinates };
+        self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
         self.servos.iter_mut().for_each(|servo| servo.stop = None);
         let weight = self.model.mass * self.gravity.norm().max(1.0);
         for _ in 0..PARAMETERS.rounds_max {
@@ -132,15 +127,8 @@ impl<'a> Stepper<'a> {
                 ground.add_to(&mut self.bodies);
             }
             self.bodies.accelerate().ok_or(NoInertia)?;
-            let at = Instant {
-                time,
-                step: self.step,
-                poses: &self.poses,
-                origin,
-                coordinates: &self.coordinates,
-                rates: &self.rates,
-            };
-            self.couplings.solve(self.model, &mut self.bodies, &at).ok_or(NoInertia)?;
+            let solved = self.couplings.solve(self.model, &mut self.bodies, self.step, &self.rates);
+            solved.ok_or(NoInertia)?;
             let of_ground = self.ground.as_mut().map_or(0.0, |ground| ground.update(&self.bodies));
             let change = self.couplings.update(&self.bodies, self.step).max(of_ground);
             let settled = self.update_servos(commands);
@@ -181,12 +169,12 @@ impl<'a> Stepper<'a> {
     }
 
     /// Sets the efforts of all joints as their servos are now.
-    fn set_servos(&mut self, commands: &Commands) {
+    fn set_servos(&mut self, commands: &[(f64, f64)]) {
         let h = self.step;
         for (at, body) in self.model.bodies.iter().enumerate() {
             let Some(joint) = &body.joint else { continue };
             let (q, v) = (self.coordinates[at], self.rates[at]);
-            let (mut effort, mut armature) = (0.0, joint.armature);
+            let (mut effort, mut armature) = (-joint.damping * v, joint.armature + h * joint.damping);
             match (joint.servo, self.servos[at].limited) {
                 (Some(_), Some(limited)) => effort += limited,
                 (Some(servo), None) => {
@@ -208,7 +196,7 @@ impl<'a> Stepper<'a> {
 
     /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
     /// true if that was known.
-    fn update_servos(&mut self, commands: &Commands) -> bool {
+    fn update_servos(&mut self, commands: &[(f64, f64)]) -> bool {
         let h = self.step;
         let mut settled = true;
         for (at, body) in self.model.bodies.iter().enumerate() {
@@ -218,8 +206,8 @@ impl<'a> Stepper<'a> {
             let mut now = ServoState::default();
             if let Some(servo) = &joint.servo {
                 let effort = spring(servo, h, q, v, command(commands, joint.id, joint.factor));
-                self.efforts[at] = effort.clamp(-servo.effort, servo.effort);
-                now.limited = (effort.abs() > servo.effort).then_some(self.efforts[at]);
+                self.efforts[at] = servo.limited(effort, v);
+                now.limited = (self.efforts[at] != effort).then_some(self.efforts[at]);
             }
             if let Some((low, high)) = joint.range {
                 let next = q + h * v;
@@ -282,8 +270,8 @@ impl<'a> Stepper<'a> {
 
     /// Lets a bond, by its index in the assembly, hold from now on or no longer. Returns the distance (m) and the angle
     /// (rad) of its ports from a perfect mate; `None` if it is in a tree.
-    pub(super) fn hold(&mut self, bond: usize, holds: bool, commands: &Commands) -> Option<(f64, f64)> {
-        self.couplings.hold(bond, holds, &self.poses, &commands.joints)
+    pub(super) fn hold(&mut self, bond: usize, holds: bool, commands: &[(f64, f64)]) -> Option<(f64, f64)> {
+        self.couplings.hold(bond, holds, &self.poses, commands)
     }
 
     /// Returns the load of each bond that states what it holds, as (index of the bond in the assembly, part of what it
@@ -291,18 +279,46 @@ impl<'a> Stepper<'a> {
     pub(super) fn bond_loads(&self, robot: &Assembly) -> Vec<(usize, f64, bool)> {
         let mut loads = self.couplings.loads(robot, &self.poses);
         let origin = self.origin;
-        for &(bond, body) in &self.model.carrying {
-            let Some(port) = self.couplings.port(robot, bond, self.model) else { continue };
-            let SpatialVector { angular, linear } = self.bodies.transmitted(body);
+        for &CarryingBond { bond, carried, port } in &self.model.carrying {
+            let SpatialVector { angular, linear } = self.bodies.transmitted(carried);
             let X_WP = self.poses[port.0] * port.1;
             let point = X_WP.translation.vector - origin;
             let wrench = [linear, angular - point.cross(&linear)];
             // The load is that of the first port on the second; the tree may carry the first by the second.
-            let sign = if port.0 == body { -1.0 } else { 1.0 };
+            let sign = if port.0 == carried { -1.0 } else { 1.0 };
             let load = super::coupling::load(robot, bond, &X_WP, wrench.map(|w| w * sign));
             loads.push((bond, load, false));
         }
         loads
+    }
+
+    /// Returns the position (rad or m), the rate and the effort (N·m or N) of a joint, by the number of its id, now; `None`
+    /// for one that moves no body of a tree.
+    pub(super) fn joint(&self, joint: usize) -> Option<[f64; 3]> {
+        let body = self.model.moved_by[joint]?;
+        let factor = self.model.bodies[body].joint.as_ref()?.factor;
+        Some([self.coordinates[body], self.rates[body], self.efforts[body]].map(|value| value * factor))
+    }
+
+    /// Returns the world pose of a port at the start of the step taken last.
+    pub(super) fn port_pose(&self, robot: &Assembly, port: PortRef) -> Pose {
+        let (body, X_BP) = self.model.port(robot, port);
+        self.poses[body] * X_BP
+    }
+
+    /// Returns the world poses of a module's body: as the simulation begins, and at the start of the step taken last.
+    pub(super) fn module_poses(&self, module: usize) -> (Pose, Pose) {
+        let body = self.model.body(module, 0);
+        (self.model.start[body], self.poses[body])
+    }
+
+    /// Returns true if one of some modules, given by their indices, touched the ground or another module in the step taken
+    /// last. Modules that are docked to each other do not touch.
+    pub(super) fn touches(&self, modules: &[usize]) -> bool {
+        let among = |body: usize| modules.contains(&self.model.module_of[body]);
+        let ground = self.ground.iter().flat_map(|ground| ground.touching());
+        let links = self.couplings.links.iter().flat_map(LinkContacts::touching);
+        ground.into_iter().any(among) || links.into_iter().any(|(a, b)| among(a) != among(b))
     }
 
     /// Returns the height of the centre of mass at the start of the step taken last, m.
@@ -327,8 +343,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Returns the commanded coordinate of a joint and its rate.
-fn command(commands: &Commands, joint: usize, factor: f64) -> (f64, f64) {
-    let (position, rate) = commands.joints[joint];
+fn command(commands: &[(f64, f64)], joint: usize, factor: f64) -> (f64, f64) {
+    let (position, rate) = commands[joint];
     (position * factor, rate * factor)
 }
 

@@ -33,14 +33,23 @@ impl Simulation {
         lines
     }
 
-    /// Returns the fall, the bonds that broke and the ports that did not dock, in words, in order of time; `robot` names
-    /// the bonds.
+    /// Returns the fall, the bonds that broke, the ports that did not dock, and why the program was stopped, in words, in
+    /// order of time; `robot` names the bonds.
     pub fn failures(&self, robot: &Assembly) -> Vec<String> {
-        let fall = self.fall.map(|time| (time, "it falls".to_string()));
-        let bonds = self.bonds.iter().filter_map(|event| {
+        let line = |(time, _, words): (f64, Option<usize>, String)| {
+            format!("at {}: {words}", quantity(rounded(time, TIME), Dimension::TIME))
+        };
+        self.timed_failures(robot).into_iter().map(line).collect()
+    }
+
+    /// Returns the same as (time in s, index in `bonds`, words); the index is `None` for the fall and for a
+    /// program that is stopped.
+    pub fn timed_failures(&self, robot: &Assembly) -> Vec<(f64, Option<usize>, String)> {
+        let fall = self.fall.map(|time| (time, None, "it falls".to_string()));
+        let bonds = self.bonds.iter().enumerate().filter_map(|(index, event)| {
             let name = robot.bond_name(event.bond);
             let words = match event.kind {
-                BondEventKind::Docks(..) => return None,
+                BondEventKind::Docks(..) | BondEventKind::Undocks => return None,
                 BondEventKind::Misses(distance, angle) => format!(
                     "{name} does not dock: its ports are {} and {} from a perfect mate",
                     length(distance),
@@ -50,16 +59,17 @@ impl Simulation {
                     format!("{name} breaks, at {} of what it holds", fixed(load, 2))
                 }
             };
-            Some((event.time, words))
+            Some((event.time, Some(index), words))
         });
-        let mut found: Vec<(f64, String)> = fall.into_iter().chain(bonds).collect();
+        let stop = self.stop.clone().map(|(time, words)| (time, None, words));
+        let mut found: Vec<(f64, Option<usize>, String)> =
+            fall.into_iter().chain(bonds).chain(stop).collect();
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let line = |(time, words)| format!("at {}: {words}", quantity(rounded(time, TIME), Dimension::TIME));
-        found.into_iter().map(line).collect()
+        found
     }
 
     /// Returns the differences of this simulation from one with half the time step, in words.
-    pub fn halving(&self, finer: &Simulation) -> String {
+    pub(super) fn halving(&self, finer: &Simulation) -> String {
         let falls = match (self.fall, finer.fall) {
             (None, Some(_)) => ", and it falls",
             (Some(_), None) => ", and it does not fall",

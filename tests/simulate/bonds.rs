@@ -107,16 +107,19 @@ fn ports_dock_within_what_their_connectors_capture() {
     for (capture, docks) in [(4.2e-3, true), (3.8e-3, false)] {
         set_capture(&mut plan, Capture { distance: capture, angle: 0.05 });
         let simulation = play(&plan, &Settings::default());
-        let [event] = simulation.bonds[..] else { panic!("one thing happens: {:?}", simulation.bonds) };
+        let [undocking, event] = simulation.bonds[..] else {
+            panic!("it undocks and docks: {:?}", simulation.bonds)
+        };
+        assert_eq!((undocking.time, undocking.kind), (0.0, BondEventKind::Undocks));
         let (happens, distance, angle) = match event.kind {
             BondEventKind::Docks(distance, angle) => (true, distance, angle),
             BondEventKind::Misses(distance, angle) => (false, distance, angle),
-            BondEventKind::Breaks(_) => panic!("nothing breaks"),
+            BondEventKind::Breaks(_) | BondEventKind::Undocks => panic!("nothing breaks"),
         };
         assert_eq!(happens, docks);
         close(distance, 4e-3, 2e-5);
         close(angle, 0.0, 1e-6);
-        // What is docked is drawn in; what is not stays.
+        // Docked ports are drawn in; those that are not stay.
         let slide = simulation.motion.last().expect("it moves").joints[0];
         close(slide, if docks { 0.0 } else { -4e-3 }, 1e-4);
     }

@@ -422,7 +422,7 @@ fn most_energy_missed(plan: &Plan, h: f64) -> f64 {
     let first = &motion[0];
     let start = 2.0 * GRAVITY * first.base.translation.vector.z + GRAVITY * 0.2 * libm::sin(first.joints[0]);
     let before = energies[0].1 + energies[0].2 - start;
-    // Where power changes its sign the rule is off by some mJ.
+    // The rule is off by some mJ where power changes its sign.
     close(simulation.work, before + given, 0.02);
     missed
 }

@@ -4,6 +4,8 @@
 mod bonds;
 mod closed_forms;
 mod contacts;
+mod facts;
 mod fixtures;
 mod mujoco;
 mod robustness;
+mod sensing;

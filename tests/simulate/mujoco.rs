@@ -23,7 +23,7 @@ const HEADING: (f64, f64) = (0.08, 3.0);
 /// 0.1 m for a radian.
 const LAG: f64 = 3.0;
 
-/// What does not go alike in both: the name, the stiffnesses of the servos (N·m/rad), and the reason.
+/// The behaviours that do not go alike in both: the name, the stiffnesses of the servos (N·m/rad), and the reason.
 const UNLIKE: &[(&str, &[f64], &str)] = &[
     (
         "`Tank7` | `x.turn()`",
@@ -42,7 +42,7 @@ const UNLIKE: &[(&str, &[f64], &str)] = &[
     ),
 ];
 
-/// What happens in one of the simulations.
+/// The motion in one of the simulations, as far as it is compared.
 struct Outcome {
     travel: Vec3,
     /// Degrees.

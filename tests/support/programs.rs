@@ -69,7 +69,7 @@ pub fn parallel(list: Vec<Arc<Node>>) -> Arc<Node> {
 }
 
 pub fn repeat(body: Arc<Node>, times: u64) -> Arc<Node> {
-    Arc::new(Node::Repeat { body, times })
+    Arc::new(Node::Repeat { body, times, until: None })
 }
 
 /// Schedules from rest at zero.

@@ -32,7 +32,14 @@ enum NodeJson<'a> {
     Parallel(Vec<usize>),
     Repeat {
         body: usize,
+        /// The number of times that the body is carried out, at most.
         times: u64,
+        /// The condition that ends the repetition if it holds after one of these times.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        until: Option<Cow<'a, Condition>>,
+        /// The names of the joints, ports and modules in `until`, in its order.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        until_on: Vec<String>,
     },
     Phase {
         body: usize,
@@ -68,7 +75,7 @@ struct ActionJson<'a> {
     on: Vec<String>,
     /// The condition that ends the action when it begins to hold.
     until: Option<Cow<'a, Condition>>,
-    /// The names of the joints and ports in `until`, in its order.
+    /// The names of the joints, ports and modules in `until`, in its order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     until_on: Vec<String>,
     /// The timeout, s.
@@ -103,9 +110,9 @@ impl<'a> ProgramJson<'a> {
                     stated.add_all("condition subject", &action.until_on);
                 }
                 NodeJson::Exempt { on, .. } => stated.add_all("exempted subject", on),
+                NodeJson::Repeat { until_on, .. } => stated.add_all("condition subject", until_on),
                 NodeJson::Series(_)
                 | NodeJson::Parallel(_)
-                | NodeJson::Repeat { .. }
                 | NodeJson::Phase { .. }
                 | NodeJson::Approach { .. }
                 | NodeJson::Stretch { .. } => {}
@@ -140,7 +147,12 @@ impl<'a> NodeJson<'a> {
             Node::Action(action) => NodeJson::Action(ActionJson::of(action, graph, names)),
             Node::Series(list) => NodeJson::Series(list.iter().map(at).collect()),
             Node::Parallel(list) => NodeJson::Parallel(list.iter().map(at).collect()),
-            Node::Repeat { body, times } => NodeJson::Repeat { body: at(body), times: *times },
+            Node::Repeat { body, times, until } => NodeJson::Repeat {
+                body: at(body),
+                times: *times,
+                until: until.as_ref().map(Cow::Borrowed),
+                until_on: of_until(until.as_ref(), names),
+            },
             Node::Phase { body, shift, cause } => {
                 NodeJson::Phase { body: at(body), shift: *shift, cause: *cause }
             }
@@ -164,7 +176,9 @@ impl<'a> NodeJson<'a> {
             NodeJson::Parallel(list) => {
                 Node::Parallel(list.into_iter().map(child).collect::<Result<_, _>>()?)
             }
-            NodeJson::Repeat { body, times } => Node::Repeat { body: child(body)?, times },
+            NodeJson::Repeat { body, times, until, .. } => {
+                Node::Repeat { body: child(body)?, times, until: until.map(Cow::into_owned) }
+            }
             NodeJson::Phase { body, shift, cause } => Node::Phase { body: child(body)?, shift, cause },
             NodeJson::Approach { body, shift, cause } => Node::Approach { body: child(body)?, shift, cause },
             NodeJson::Stretch { body, duration, cause } => {
@@ -177,15 +191,11 @@ impl<'a> NodeJson<'a> {
 
 impl<'a> ActionJson<'a> {
     fn of(action: &'a Action, graph: &Graph, names: Option<&RobotNames>) -> ActionJson<'a> {
-        let mut until_on = Vec::new();
-        if let (Some(condition), Some(names)) = (&action.until, names) {
-            add_of_condition(condition, names, &mut until_on);
-        }
         ActionJson {
             command: Cow::Borrowed(&action.command),
             on: names.map_or_else(Vec::new, |names| of_command(&action.command, names)),
             until: action.until.as_ref().map(Cow::Borrowed),
-            until_on,
+            until_on: of_until(action.until.as_ref(), names),
             timeout: action.timeout,
             otherwise: match &action.otherwise {
                 Otherwise::Proceed => OtherwiseJson::Proceed,
@@ -224,13 +234,27 @@ fn of_command(command: &Command, names: &RobotNames) -> Vec<String> {
     }
 }
 
-/// Adds the names of the joints and ports in a condition, in its order.
+/// Returns the names of the joints, ports and modules in a condition, in its order; none without a condition or names.
+fn of_until(condition: Option<&Condition>, names: Option<&RobotNames>) -> Vec<String> {
+    let mut found = Vec::new();
+    if let (Some(condition), Some(names)) = (condition, names) {
+        add_of_condition(condition, names, &mut found);
+    }
+    found
+}
+
+/// Adds the names of the joints, ports and modules in a condition, in its order.
 fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<String>) {
     match condition {
-        Condition::Compare { signal: Signal::Angle(joint) | Signal::Speed(joint), .. } => {
-            found.push(names.joint(*joint));
-        }
-        Condition::Compare { signal: Signal::Elapsed, .. } => {}
+        Condition::Compare { signal, .. } => match signal {
+            Signal::Angle(joint) | Signal::Speed(joint) | Signal::Effort(joint) => {
+                found.push(names.joint(*joint));
+            }
+            Signal::Separation(a, b) => found.extend([names.port(*a), names.port(*b)]),
+            Signal::Tilt(module) => found.push(names.module(*module)),
+            Signal::Elapsed => {}
+        },
+        Condition::Touching(modules) => found.extend(modules.iter().map(|module| names.module(*module))),
         Condition::Docked(port) => found.push(names.port(*port)),
         Condition::Mated(a, b) => found.extend([names.port(*a), names.port(*b)]),
         Condition::And(a, b) | Condition::Or(a, b) => {

@@ -25,7 +25,7 @@ pub struct LastingTrees {
 
 impl LastingTrees {
     /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m. `apart`: the
-    /// bonds, by their indices, that are constraints although they hold all the time.
+    /// bonds, by their indices, that are constraints although they hold all the time, or never.
     pub fn new(tracks: &Tracks, X_WB: &Pose, apart: &[usize]) -> LastingTrees {
         let mut ever = tracks.start.bonds.clone();
         let mut lasting = ever.clone();
@@ -33,7 +33,7 @@ impl LastingTrees {
             lasting[event.bond] = false;
             ever[event.bond] |= event.kind == DockingKind::Dock;
         }
-        apart.iter().for_each(|&bond| lasting[bond] = false);
+        apart.iter().for_each(|&bond| (lasting[bond], ever[bond]) = (false, true));
         let robot = &tracks.robot;
         let start = Kinematics::new(robot, &tracks.start.bonds, robot.base);
         let all = Kinematics::new(robot, &vec![true; robot.bonds.len()], robot.base);

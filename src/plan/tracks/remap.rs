@@ -162,6 +162,10 @@ impl Remap {
             let new = |child: &Arc<Node>| done[graph.position(child)].clone();
             let mut made = match &***node {
                 Node::Action(action) => Node::Action(self.action(action, new)),
+                Node::Repeat { body, times, until } => {
+                    let until = until.as_ref().map(|condition| self.condition(condition));
+                    Node::Repeat { body: new(body), times: *times, until }
+                }
                 other => with_children(other, new),
             };
             match &mut made {
@@ -218,11 +222,17 @@ impl Remap {
                     Signal::Angle(joint) => (Signal::Angle(self.joint(joint)), value + self.offset(joint)),
                     Signal::Speed(joint) => (Signal::Speed(self.joint(joint)), *value),
                     Signal::Elapsed => (Signal::Elapsed, *value),
+                    Signal::Effort(joint) => (Signal::Effort(self.joint(joint)), *value),
+                    Signal::Separation(a, b) => (Signal::Separation(self.port(a), self.port(b)), *value),
+                    Signal::Tilt(module) => (Signal::Tilt(self.found.modules[module]), *value),
                 };
                 Condition::Compare { signal, compare: *compare, value }
             }
             Condition::Docked(port) => Condition::Docked(self.port(*port)),
             Condition::Mated(a, b) => Condition::Mated(self.port(*a), self.port(*b)),
+            Condition::Touching(modules) => {
+                Condition::Touching(modules.iter().map(|module| self.found.modules[*module]).collect())
+            }
             Condition::And(a, b) => Condition::And(boxed(a), boxed(b)),
             Condition::Or(a, b) => Condition::Or(boxed(a), boxed(b)),
             Condition::Not(a) => Condition::Not(boxed(a)),

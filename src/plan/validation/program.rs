@@ -53,7 +53,8 @@ impl Names<'_> {
                 self.cause(*cause)
             }
             Node::Exempt { kind, cause, .. } => self.cause(*cause).and_then(|()| self.exemption(kind)),
-            Node::Series(_) | Node::Parallel(_) | Node::Repeat { .. } => Ok(()),
+            Node::Repeat { until, .. } => self.until(until.as_ref()),
+            Node::Series(_) | Node::Parallel(_) => Ok(()),
         })
     }
 
@@ -67,16 +68,26 @@ impl Names<'_> {
             Command::Undock { port } => self.port(*port)?,
             Command::Wait { .. } => {}
         }
-        action.until.as_ref().map_or(Ok(()), |condition| self.condition(condition))
+        self.until(action.until.as_ref())
+    }
+
+    /// Checks the condition that ends something, if there is one.
+    fn until(&self, condition: Option<&Condition>) -> Result<(), PlanFault> {
+        condition.map_or(Ok(()), |condition| self.condition(condition))
     }
 
     /// Checks a condition, whose nesting is limited by that of the text.
     fn condition(&self, condition: &Condition) -> Result<(), PlanFault> {
         match condition {
-            Condition::Compare { signal: Signal::Angle(joint) | Signal::Speed(joint), .. } => {
-                self.joint(*joint)
+            Condition::Compare { signal, .. } => match signal {
+                Signal::Angle(joint) | Signal::Speed(joint) | Signal::Effort(joint) => self.joint(*joint),
+                Signal::Separation(a, b) => self.port(*a).and(self.port(*b)),
+                Signal::Tilt(module) => need_index(*module, self.robot.modules.len(), "module"),
+                Signal::Elapsed => Ok(()),
+            },
+            Condition::Touching(modules) => {
+                modules.iter().try_for_each(|module| need_index(*module, self.robot.modules.len(), "module"))
             }
-            Condition::Compare { signal: Signal::Elapsed, .. } => Ok(()),
             Condition::Docked(port) => self.port(*port),
             Condition::Mated(a, b) => self.port(*a).and(self.port(*b)),
             Condition::And(a, b) | Condition::Or(a, b) => self.condition(a).and(self.condition(b)),

@@ -139,8 +139,8 @@ print(p.series(elapsed(), step: 1nm / (1m/s)))
 use std.smores.Chain3
 config Lift {
   part c: Chain3
-  behavior up = move(c.m[1].tilt, to: 30deg, until: torque(c.m[1].tilt) > 0.1N*m)
-//                                                  ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0405 no robot senses this | conditions sense `angle`
+  behavior up = move(c.m[1].tilt, to: 30deg, until: clearance() > 1mm)
+//                                                  ^^^^^^^^^^^^^^^^^ E0405 no robot senses this | conditions sense `angle`
 }
 print(plan(Lift().up()).duration)
 //         ~~~~~~~~~~~ `up`

@@ -43,6 +43,43 @@ let at = above.fell_at else 0s
 print(at > 84ms and at < 87ms)
 //> true
 
+--- a bond carries what hangs on the port that will undock below it
+connector Hook { mates Hook, turns 4, holds 15N }
+module Block {
+  link body = box(50mm, 50mm, 50mm, mass: 500g)
+  port top : Hook on body at [0mm, 0mm, 25mm] facing +Z up +X
+  port bottom : Hook on body at [0mm, 0mm, -25mm] facing -Z up +X
+}
+config Hanging {
+  part m[3]: Block
+  for i in 0..2 { connect m[i].bottom -- m[i + 1].top }
+  base m[0]
+  behavior drop = Sc(wait(500ms), undock(m[1].bottom))
+}
+let s = simulate(plan(Hanging().drop(), world: world(ground: held)))
+// Two blocks of 0.5 kg weigh 9.807 N, 0.6538 of 15 N.
+print("{s.bond_load:.3}")
+//> 0.654
+
+--- a bond holds what the weaker of its connectors does
+connector Hook { mates Eye, turns 4, holds 30N }
+connector Eye { mates Hook, turns 4, holds 15N }
+module Block {
+  link body = box(50mm, 50mm, 50mm, mass: 1kg)
+  port top : Eye on body at [0mm, 0mm, 25mm] facing +Z up +X
+  port bottom : Hook on body at [0mm, 0mm, -25mm] facing -Z up +X
+}
+config Hanging {
+  part m[2]: Block
+  connect m[0].bottom -- m[1].top
+  base m[0]
+  behavior hang = wait(500ms)
+}
+let s = simulate(plan(Hanging().hang(), world: world(ground: held)))
+// A block of 1 kg weighs 9.807 N, 0.6538 of 15 N.
+print("{s.bond_load:.3}")
+//> 0.654
+
 --- arguments out of range
 use std.smores.Driver1
 let d = plan(Driver1().drive(t: 100ms))
@@ -76,3 +113,66 @@ let b = simulate(d, runs: 3, seed: 5, friction_spread: 0.5, stiffness_spread: 0.
 let c = simulate(d, runs: 3, seed: 6, friction_spread: 0.5, stiffness_spread: 0.5)
 print(a.travels == b.travels, a.travels == c.travels, len(a.travels), a.falls)
 //> true false 3 0
+
+--- a program with sensors goes on when the cube touches, and its plan when the time is out
+connector Hook { mates Hook, turns 4 }
+module Arm {
+  link post = box(50mm, 50mm, 50mm, mass: 1kg)
+  link rod = box(160mm, 10mm, 10mm, mass: 200g) at [120mm, 0mm, 0mm]
+  joint lift : post -> rod = revolute(axis: -Y, stiffness: 2000N*m/rad)
+  port end : Hook on rod at [80mm, 0mm, 0mm] facing +X up +Z
+}
+module Tip {
+  link cube = box(20mm, 20mm, 20mm, mass: 500g)
+  port back : Hook on cube at [-10mm, 0mm, 0mm] facing -X up +Z
+}
+config Reach {
+  part a: Arm
+  part t: Tip
+  set a.lift = 20deg
+  connect a.end -- t.back
+  base a
+  behavior feels = Sc(
+    move(a.lift, to: -20deg, in: 4s, profile: linear, until: touching(t), timeout: 5s) else abort("nothing there"),
+    move(a.lift, by: 0deg),
+  )
+  behavior counts = repeat(move(a.lift, by: 5deg, in: 100ms), until: angle(a.lift) > 34deg, max: 9)
+}
+let p = plan(Reach().feels(), world: world(ground: fixed))
+print(p.duration)
+//> 5s
+let s = simulate(p)
+// The cube touches at -3.9 degrees, 24 of 40 on the way.
+print(s.failures, s.duration > 2.3s and s.duration < 2.5s)
+//> [] true
+print(plan(Reach().counts()).duration)
+//> 300ms
+
+--- numbers and conditions of a repetition
+use std.smores.Driver1
+let d = Driver1()
+let drive = d.drive(t: 100ms)
+print(repeat(drive))
+//    ^^^^^^^^^^^^^ E0405 wants a number of times
+print(repeat(drive, 2, max: 3))
+//    ^^^^^^^^^^^^^^^^^^^^^^^^ E0405 wants a number of times
+print(repeat(drive, until: elapsed() > 1s))
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0405 wants a number of times
+print(repeat(drive, until: elapsed() > 1s, max: -2))
+//                                              ^^ E0506 must not be negative
+print(wait(1s, until: margin() > 10mm))
+//                    ^^^^^^^^^^^^^^^ E0405 no robot senses this
+print(plan(move(d.m.tilt, to: 10deg, until: touching(d.m))))
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0405 the condition never holds
+
+--- facts of surfaces and motors that make no sense
+module Block {
+  link body = box(50mm, 50mm, 50mm, mass: 1kg, friction: 0.5, static_friction: 0.4)
+//                                                                             ^^^ E0506 must not be below `friction`
+  link lid = box(50mm, 50mm, 5mm, mass: 1kg, contact_stiffness: 0N/m) at [0mm, 0mm, 40mm]
+//                                                              ^^^^ E0506 must be positive
+  joint hinge : body -> lid = revolute(axis: Y, no_load_speed: 0rad/s)
+//                                                             ^^^^^^ E0506 must be positive
+}
+config C { part b: Block }
+print(C())

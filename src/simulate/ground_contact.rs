@@ -1,0 +1,197 @@
+//! Contacts of links with the ground: where they touch it.
+
+use super::contact::{Contact, Spring};
+use super::model::{Model, Surface};
+use crate::geometry::ground_features::{CIRCLE_POINTS, tread};
+use crate::geometry::{Mat3, Pose, Vec3};
+use crate::robot::articulated_bodies::ArticulatedBodies;
+use crate::robot::spatial::{SpatialInertia, SpatialVector};
+
+/// A point of a link that touches the ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GroundContact {
+    /// The index of the body.
+    pub body: usize,
+    /// The index of the contact's spring.
+    spring: usize,
+    /// The position from the point that spatial vectors are about, m.
+    pub point: Vec3,
+    /// The velocity of the body's point after the step if nothing accelerates, m/s.
+    coasting: Vec3,
+    /// True if the body did not touch the ground in the step before.
+    is_new: bool,
+    /// The contact itself.
+    pub contact: Contact,
+}
+
+/// The greatest number of points of a feature: those of a circle, and one between two rims.
+const FEATURE_POINTS: usize = CIRCLE_POINTS as usize + 1;
+
+/// A point of a body below the ground: its spring, its position in the world (m), and the centre of its feature from the
+/// point that spatial vectors are about (m).
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    body: usize,
+    spring: usize,
+    at: Vec3,
+    centre: Vec3,
+}
+
+/// The ground under a robot: level, at height 0.
+#[derive(Clone, Debug)]
+pub(super) struct GroundContacts {
+    /// The springs of all points of all ground features, in the order of the bodies.
+    springs: Vec<Spring>,
+    /// The points that touch now.
+    pub contacts: Vec<GroundContact>,
+    /// The bodies that touched in the step before, ascending.
+    touched: Vec<usize>,
+    /// The time step, s.
+    step: f64,
+}
+
+impl GroundContacts {
+    /// Returns the ground under a robot that touches it nowhere; `step`: the time step, s.
+    pub(super) fn new(model: &Model, step: f64) -> GroundContacts {
+        let points = |features: &Vec<_>| features.len() * FEATURE_POINTS;
+        let springs = model.bodies.iter().map(|body| points(&body.features)).sum();
+        GroundContacts {
+            springs: vec![Spring::default(); springs],
+            contacts: Vec::new(),
+            touched: Vec::new(),
+            step,
+        }
+    }
+
+    /// Finds the points below the ground. `bodies`: the bodies with their velocities; `poses`: their world poses;
+    /// `origin`: the point that spatial vectors are about; `now`: the number of the step, from 1.
+    pub(super) fn find(
+        &mut self,
+        model: &Model,
+        bodies: &ArticulatedBodies,
+        poses: &[Pose],
+        origin: &Vec3,
+        now: u64,
+    ) {
+        self.touched.clear();
+        self.touched.extend(self.contacts.iter().map(|contact| contact.body));
+        self.contacts.clear();
+        let up = Vec3::z();
+        let mut first = 0;
+        for (index, body) in model.bodies.iter().enumerate() {
+            let own = first;
+            first += body.features.len() * FEATURE_POINTS;
+            let pose = &poses[index];
+            let height = pose.translation.vector.z;
+            if height > body.reach {
+                continue;
+            }
+            let own_up = pose.rotation.inverse_transform_vector(&up);
+            for (number, feature) in body.features.iter().enumerate() {
+                if height + feature.lowest(&own_up) >= 0.0 {
+                    continue;
+                }
+                let rims =
+                    number.checked_sub(1).and_then(|before| tread(&body.features[before], feature, &own_up));
+                let points = (0..feature.points()).map(|k| feature.point(k, &own_up)).chain(rims);
+                for (k, p) in points.enumerate() {
+                    let at = pose.transform_point(&p.into()).coords;
+                    if at.z < 0.0 {
+                        // The touching point of a round feature goes with its centre, not with the material.
+                        let centre = pose.transform_point(&feature.centre.into()).coords - origin;
+                        let spring = own + number * FEATURE_POINTS + k;
+                        let touch = Touch { body: index, spring, at, centre };
+                        self.contacts.push(self.contact(touch, bodies, &body.surface, origin, now));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Returns the contact of a point.
+    fn contact(
+        &self,
+        touch: Touch,
+        bodies: &ArticulatedBodies,
+        surface: &Surface,
+        origin: &Vec3,
+        now: u64,
+    ) -> GroundContact {
+        let twist = bodies.velocity(touch.body);
+        let turning = twist.angular.cross(&twist.at(&touch.centre)) * self.step;
+        let point = touch.at - origin;
+        GroundContact {
+            body: touch.body,
+            spring: touch.spring,
+            point,
+            coasting: twist.at(&point) + turning,
+            is_new: self.touched.binary_search(&touch.body).is_err(),
+            contact: Contact::new(
+                Vec3::z(),
+                -touch.at.z,
+                surface,
+                (&self.springs[touch.spring], now),
+                self.step,
+            ),
+        }
+    }
+
+    /// Iterates over the bodies that the ground pushes; one for each point.
+    pub(super) fn touching(&self) -> impl Iterator<Item = usize> + '_ {
+        self.contacts.iter().filter(|contact| contact.contact.pushes).map(|contact| contact.body)
+    }
+
+    /// Returns the greatest speed at which a point comes down that did not touch the ground before, m/s.
+    pub(super) fn impact(&self) -> f64 {
+        let coming = self.contacts.iter().filter(|contact| contact.is_new);
+        coming.map(|contact| -contact.contact.normal.dot(&contact.coasting)).fold(0.0, f64::max)
+    }
+
+    /// Adds the contacts to their bodies: each counts as an inertia `h C` besides its force.
+    pub(super) fn add_to(&self, bodies: &mut ArticulatedBodies) {
+        self.contacts.iter().for_each(|contact| contact.add_to(bodies, self.step));
+    }
+
+    /// Finds the forces of the contacts for the accelerations of a round, and how they go on. Returns the greatest change
+    /// of a force that comes of it, N.
+    pub(super) fn update(&mut self, bodies: &ArticulatedBodies) -> f64 {
+        let mut greatest: f64 = 0.0;
+        for contact in &mut self.contacts {
+            let velocity = contact.velocity(bodies, self.step);
+            greatest = greatest.max(contact.contact.update(&velocity));
+        }
+        greatest
+    }
+
+    /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
+    pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, now: u64) {
+        for contact in &self.contacts {
+            let velocity = contact.velocity(bodies, self.step);
+            self.springs[contact.spring] = contact.contact.kept(&velocity, self.step, now);
+        }
+    }
+}
+
+impl GroundContact {
+    /// Returns the velocity of the body's point at the end of the step, m/s.
+    fn velocity(&self, bodies: &ArticulatedBodies, step: f64) -> Vec3 {
+        self.coasting + bodies.acceleration(self.body).at(&self.point) * step
+    }
+
+    /// Adds the contact to its body.
+    fn add_to(&self, bodies: &mut ArticulatedBodies, step: f64) {
+        let Contact { normal, depth, stiffness, resistance, shift, pushes, share, .. } = self.contact;
+        if !pushes {
+            return;
+        }
+        let across = share * resistance;
+        let along = resistance - across;
+        let matrix = Mat3::from_diagonal_element(across) + normal * normal.transpose() * along;
+        let offset = normal * (stiffness * depth) - shift * (share * stiffness);
+        bodies.add(
+            self.body,
+            &SpatialInertia::at_point(&(matrix * step), &self.point),
+            &SpatialVector::of_force(offset - matrix * self.coasting, &self.point),
+        );
+    }
+}
