@@ -450,7 +450,7 @@ extern fn emit(
   slip_max: Length?,
 )
 
-/// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; or a plot.
+/// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; a simulation; or a plot.
 ///
 /// The end of the file's name says how. `.html` is a page that plays the plan in any browser, from
 /// one file that loads nothing else. `.png` is a picture at the time `at` from a `side`; +x is ahead.
@@ -461,6 +461,9 @@ extern fn emit(
 /// A behaviour is planned first. Unlike `emit`, it draws what the verifier does not accept, too:
 /// played up to the failure, with what is to blame marked, and still reported as an error.
 ///
+/// A simulation is a page, too: it plays what the robot did, with the plan as a ghost beside it, contact forces as
+/// arrows, joints and torques as curves, and the ways of all `runs`. It reports nothing.
+///
 /// Example:
 /// ```modl
 /// use std.smores.Driver1
@@ -468,7 +471,7 @@ extern fn emit(
 /// show(Driver1(), "driver.png", side: front)
 /// ```
 extern fn show(
-  what: Plan | Behavior | Config | Lattice | Truss | Layout | Plot,
+  what: Plan | Behavior | Config | Lattice | Truss | Layout | Plot | Simulation,
   file: Text,
   sample: Time = 10ms,
   unstable_for: Time = 0s,

@@ -1,8 +1,9 @@
-//! Built-ins that draw: plans, robots, lattices and trusses as pages and pictures.
+//! Built-ins that draw: plans, simulations, robots, lattices and trusses as pages and pictures.
 
 use super::Native;
 use super::plan::{output_path, settings, write_output};
 use super::plot::PlotValue;
+use super::simulate::Simulated;
 use crate::check::typed::DefKind;
 use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::causes::PlanCauses;
@@ -22,12 +23,12 @@ use crate::plan::{
 use crate::robot::Library;
 use crate::source::{Diagnostic, Span, code};
 use crate::view::plot::Plot;
-use crate::view::{self, RenderInput, Side, StillOptions};
+use crate::view::{self, RenderInput, Side, SimulationInput, StillOptions};
 use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The built-in `show`, which draws a plan, a robot or a plot into a file: its key with its parameters and its Rust
+/// The built-in `show`, which draws a plan, a simulation, a robot or a plot into a file: its key with its parameters and its Rust
 /// function.
 pub(super) const TABLE: &[Native] = &[Native::on_run(
     "show",
@@ -45,8 +46,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
     show,
 )];
 
-/// Runs `show`: draws a lattice or truss as it is declared, or a plan with its verdict, whose failures are
-/// reported.
+/// Runs `show`: draws a lattice or truss as it is declared, a simulation as it was measured, or a plan with its verdict,
+/// whose failures are reported.
 fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let Some(form) = form(call, &name)? else {
@@ -55,6 +56,14 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if let Some(plot) = plot_of(call.arg("what")) {
         let bytes = picture_of(interpreter, plot, form)
             .ok_or_else(|| call.refuse("file", "the name of a plot's picture ends in `.svg` or `.png`"))?;
+        write_output(interpreter, call.at("file"), &path, bytes)?;
+        return Ok(Value::Nothing);
+    }
+    if let Some(simulated) = simulated_of(call.arg("what")) {
+        let Form::Page = form else {
+            return Err(call.refuse("file", "the name of a simulation's page ends in `.html`"));
+        };
+        let bytes = interpreter.drawn_simulation(simulated);
         write_output(interpreter, call.at("file"), &path, bytes)?;
         return Ok(Value::Nothing);
     }
@@ -81,10 +90,20 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 /// Returns the plot that a value is; `None` for any other value.
 pub(super) fn plot_of(value: &Value) -> Option<&Plot> {
+    native::<PlotValue>(value).map(PlotValue::plot)
+}
+
+/// Returns the simulation that a value is; `None` for any other value.
+fn simulated_of(value: &Value) -> Option<&Simulated> {
+    native(value)
+}
+
+/// Returns the record of a type that a value is; `None` for any other value.
+fn native<T: 'static>(value: &Value) -> Option<&T> {
     let Value::Record(record) = value else { return None };
     let Record::Native(record) = &**record else { return None };
     let record: &dyn Any = record.as_ref();
-    record.downcast_ref::<PlotValue>().map(PlotValue::plot)
+    record.downcast_ref()
 }
 
 /// Returns a plot as a picture of this form, the bytes of a file; `None` in a form that plots do not have
@@ -207,6 +226,15 @@ impl Interpreter<'_> {
                 view::png(&input, &StillOptions { time, side, width, height })
             }
         }
+    }
+
+    /// Returns the page of a simulation, the bytes of a file.
+    fn drawn_simulation(&self, simulated: &Simulated) -> Vec<u8> {
+        let Simulated { planned, outcome, runs, notes } = simulated;
+        let texts = self.texts_of(&planned.plan);
+        let (title, command) = (&planned.robot.name, &self.shared.options.command);
+        let input = RenderInput { title, plan: &planned.plan, texts: &texts, command };
+        view::simulation_page(&input, &SimulationInput { outcome, runs, notes }).into_bytes()
     }
 
     /// Returns the user's own files that a plan's causes are written in, in order of loading.

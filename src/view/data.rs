@@ -4,7 +4,7 @@ use super::input::RenderInput;
 use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
-use crate::plan::verify::articulated::{CONTACTS_MAX, clearances, history};
+use crate::plan::verify::articulated::{CONTACTS_MAX, Moment, clearances, history};
 use crate::plan::{Body, Ground, ObjectiveValue, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
@@ -19,28 +19,53 @@ const CLEARANCES: usize = 160;
 /// and angles in radians; clearances alone are in millimetres.
 pub(super) fn data(input: &RenderInput) -> Value {
     let plan = input.plan;
-    // The judge's rollout up to the end of playing.
     let end = findings::end(plan);
     let moments = history(plan, end);
-    let mut meshes = Meshes::default();
     let mut notes = Vec::new();
-    // The motion, by the family of the plan.
-    let body = match &plan.body {
-        Body::Tracks(tracks) => {
-            let base = ground_pose::base(&moments, &tracks.start.base);
-            robot::body(tracks, base, &mut meshes, &mut notes)
-        }
-        Body::Stages(stages) => lattice::body(stages, &plan.library),
-        Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),
-    };
+    let mut data = motion(input, &moments, end, &mut notes);
     let (contacts, in_part) = ground_pose::contacts(&moments);
     if in_part {
         notes.push(format!("of the contacts with the ground {CONTACTS_MAX} at most are marked"));
     }
-    let clearance = clearance(plan, end, &mut notes);
+    data["clearance"] = clearance(plan, end, &mut notes).into();
+    data["notes"] = notes.into();
+    data["stand"] = ground_pose::supports(&moments).into();
+    data["contacts"] = contacts.into();
+    data["loads"] = ground_pose::loads(&moments);
+    data
+}
+
+/// Returns the same of the whole motion of a plan alone, without what is judged of it.
+pub(super) fn nominal(input: &RenderInput) -> Value {
+    let plan = input.plan;
+    let end = plan.body.duration();
+    let mut notes = Vec::new();
+    let mut data = motion(input, &history(plan, end), end, &mut notes);
+    data["notes"] = notes.into();
+    for none in ["clearance", "stand", "contacts"] {
+        data[none] = json!([]);
+    }
+    data["loads"] = Value::Null;
+    data
+}
+
+/// Returns the data of a plan's motion up to `end` (s), by the judge's rollout, and of the texts around it. Adds to `notes` a
+/// sentence for each thing left out.
+fn motion(input: &RenderInput, moments: &[Moment], end: f64, notes: &mut Vec<String>) -> Value {
+    let plan = input.plan;
+    let mut meshes = Meshes::default();
+    // The motion, by the family of the plan.
+    let body = match &plan.body {
+        Body::Tracks(tracks) => {
+            let base = ground_pose::base(moments, &tracks.start.base);
+            robot::body(tracks, base, &mut meshes, notes)
+        }
+        Body::Stages(stages) => lattice::body(stages, &plan.library),
+        Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),
+    };
     json!({
         "title": input.title,
-        "summary": findings::summary(input),
+        "summary": findings::summary(input, input.plan.body.duration()),
         "duration": number(plan.body.duration()),
         "end": number(end),
         "floor": 0,
@@ -48,15 +73,10 @@ pub(super) fn data(input: &RenderInput) -> Value {
         "verdict": findings::verdict(plan),
         "causes": findings::causes(&plan.causes),
         "sources": sources(input.texts),
-        "notes": notes,
         "data": facts(plan),
         "texts": plan.provenance.sources,
         "command": input.command,
         "meshes": meshes.list,
-        "stand": ground_pose::supports(&moments),
-        "contacts": contacts,
-        "clearance": clearance,
-        "loads": ground_pose::loads(&moments),
         "body": body,
     })
 }

@@ -117,13 +117,12 @@ fn short_length(x: f64) -> f64 {
     libm::round(x * 1e5) / 1e5
 }
 
-/// Returns the summary line below the title of a page: the number of modules, cells or struts, the duration, and the
-/// distance travelled over the ground.
-pub(super) fn summary(input: &RenderInput) -> String {
+/// Returns the summary line below the title of a page: the number of modules, cells or struts, the duration (s) of what it
+/// plays, and the distance that the plan travels over the ground.
+pub(super) fn summary(input: &RenderInput, duration: f64) -> String {
     let plan = input.plan;
     let (count, what) = plan.body.units();
     let mut parts = vec![format!("{count} {what}{}", if count == 1 { "" } else { "s" })];
-    let duration = plan.body.duration();
     if duration > 0.0 {
         parts.push(quantity(libm::round(duration * 1e2) / 1e2, Dimension::TIME));
     }

@@ -31,10 +31,9 @@ pub(super) fn graph(input: &RenderInput, tracks: &Tracks) -> String {
         let on = |u: f64| [a[0] + (b[0] - a[0]) * u, a[1] + (b[1] - a[1]) * u];
         drawing.words(on(NEAR), 8.0, INK, port(robot, bond.a));
         drawing.words(on(1.0 - NEAR), 8.0, INK, port(robot, bond.b));
-        let connector =
-            &robot.library.connectors[robot.module_type(bond.a.module).ports[bond.a.port].connector];
         if bond.turn > 0 {
-            let degrees = 360.0 * f64::from(bond.turn) / f64::from(connector.turns.max(1));
+            let turns = robot.connector(bond.a).turns.max(1);
+            let degrees = 360.0 * f64::from(bond.turn) / f64::from(turns);
             drawing.words(on(0.5), 8.0, SOFT, &format!("{degrees}°"));
         }
     }

@@ -1,16 +1,18 @@
-//! Plans as pictures: a page that plays a plan, still pictures and drawings.
+//! Plans and simulations as pictures: a page that plays them, still pictures and drawings.
 //!
-//! The room receives a plan with its verdict and returns text or bytes; it writes no files. The data of a
-//! page is collected by `data` (the plan's own trajectories, thinned where there are too many) and inserted
-//! between the style and the scripts of `page/` by [`page`]. The page computes the poses itself, by the
+//! The room receives a plan with its verdict, or with a simulation of it, and returns text or bytes; it writes no files. The
+//! data of a page is collected by `data` (the plan's own trajectories, thinned where there are too many), with what was
+//! measured by `simulation`, and inserted between the style and the scripts of `page/` by [`page`]. The page computes the poses itself, by the
 //! same kinematics as the judge; only the base pose on the ground is sampled, from the judge's own rollout.
 
 mod input;
 mod page;
 
+mod columns;
 mod data;
 mod findings;
 mod number;
+mod simulation;
 mod tolerances;
 
 mod primitives;
@@ -43,6 +45,7 @@ mod program;
 pub mod plot;
 
 pub use input::RenderInput;
-pub use page::{page, page_name};
+pub use page::{page, page_name, simulation_page};
 pub use picture::{Side, StillOptions, png};
+pub use simulation::SimulationInput;
 pub use svg::svg;

@@ -5,6 +5,8 @@ use super::input::RenderInput;
 use super::markup::escaped;
 use super::picture::StillOptions;
 use super::picture::small_png;
+use super::simulation::{self, SimulationInput};
+use serde_json::Value;
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
@@ -27,6 +29,12 @@ const SCRIPTS: [&str; 14] = [
     include_str!("page/main.js"),
 ];
 
+/// The scripts that only pages of simulations have; they stand before the others.
+const SIMULATION_SCRIPTS: [&str; 2] = [include_str!("page/measured.js"), include_str!("page/forces.js")];
+
+/// The beginning of lines of [`SCRIPTS`] that are comments in pages of plans, and code in pages of simulations.
+const SIMULATION_LINE: &str = "//: ";
+
 /// The options of the still picture that is shown where scripts cannot run.
 const STILL: StillOptions =
     StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300 };
@@ -35,8 +43,22 @@ const STILL: StillOptions =
 /// markup: the data is JSON in which `<`, `>` and `&` are written as escapes, and the scripts put it on the page as
 /// text, never as markup.
 pub fn page(input: &RenderInput) -> String {
-    let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&SCRIPTS.concat()));
-    let plan = unmarked(&data::data(input).to_string());
+    whole(input, &data::data(input), &lean(&SCRIPTS.concat()))
+}
+
+/// Returns the page that plays a simulation of a plan as HTML, with the plan as a ghost beside it. Its texts
+/// can't become markup either, as those of [`page`].
+pub fn simulation_page(input: &RenderInput, shown: &SimulationInput) -> String {
+    let code = |line: &str| line.trim_start().strip_prefix(SIMULATION_LINE).unwrap_or(line).to_owned() + "\n";
+    let scripts = SIMULATION_SCRIPTS.concat() + &SCRIPTS.concat();
+    let scripts: String = scripts.lines().map(code).collect();
+    whole(input, &simulation::data(input, shown), &lean(&scripts))
+}
+
+/// Returns a page with this data and these scripts.
+fn whole(input: &RenderInput, data: &Value, scripts: &str) -> String {
+    let script = format!("(() => {{\n\"use strict\";\n{scripts}}})();\n");
+    let plan = unmarked(&data.to_string());
     let title = escaped(input.title);
     let still = base64(&small_png(input, &STILL));
     filled(&[

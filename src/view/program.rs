@@ -99,7 +99,10 @@ impl Drawer<'_> {
             }
             Node::Series(list) => row(list.iter().map(|n| self.piece(n, depth + 1)).collect()),
             Node::Parallel(list) => column(list.iter().map(|n| self.piece(n, depth + 1)).collect()),
-            Node::Repeat { body, times } => framed(format!("{times} times"), self.piece(body, depth + 1)),
+            Node::Repeat { body, times, until } => {
+                let most = if until.is_some() { "at most " } else { "" };
+                framed(format!("{most}{times} times"), self.piece(body, depth + 1))
+            }
             Node::Phase { body, shift, .. } => {
                 framed(format!("from {shift} of its cycle"), self.piece(body, depth + 1))
             }

@@ -3,7 +3,7 @@
 use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
 use crate::geometry::Pose;
-use crate::plan::{DockingKind, Segment, Track, Tracks, polynomial};
+use crate::plan::{DockingKind, LastingTrees, Segment, Track, Tracks, polynomial};
 use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
 use crate::robot::{Motion, Step};
 use serde_json::{Map, Value, json};
@@ -118,6 +118,42 @@ fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value
     let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
     let loose = !kinematics.tree.loose.is_empty();
     json!({ "time": number(time), "root": kinematics.link(robot.base, 0), "steps": steps, "loose": loose })
+}
+
+/// The trees of what hangs together during a whole simulation, with the transforms of their steps.
+pub(super) struct MeasuredTrees {
+    /// The trees as `{root, steps}`, the base module's first; steps are as in [`step_value`], each moved by its own joint
+    /// alone.
+    pub trees: Vec<Value>,
+    /// The transforms of the steps.
+    pub forms: Vec<Value>,
+}
+
+impl MeasuredTrees {
+    /// Returns the trees of a plan's robot; `apart`: the bonds, by their indices, that are in none although they hold all
+    /// the time.
+    pub(super) fn new(tracks: &Tracks, apart: &[usize]) -> MeasuredTrees {
+        let lasting = LastingTrees::new(tracks, &tracks.start.base, apart);
+        let mut forms = Forms::default();
+        let mut step_of = |step: &Step| {
+            let form = forms.index(step);
+            let Some(joint) = lasting.joint_of[step.link] else {
+                return json!([step.link, step.parent, form]);
+            };
+            match step.terms() {
+                [(same, factor)] if *same == joint && *factor != 1.0 => {
+                    json!([step.link, step.parent, form, [joint, number(*factor)]])
+                }
+                _ => json!([step.link, step.parent, form, joint]),
+            }
+        };
+        let mut tree = |tree: &Kinematics| {
+            let steps: Vec<Value> = tree.steps.iter().map(&mut step_of).collect();
+            json!({ "root": tree.link(tree.root, 0), "steps": steps })
+        };
+        let trees = lasting.trees.iter().map(&mut tree).collect();
+        MeasuredTrees { trees, forms: forms.list }
+    }
 }
 
 /// Returns a step as `[link, parent, form, joint]`; several joints, or one with a factor, as `[joint,

@@ -15,6 +15,13 @@ pub(super) struct Tolerances {
     pub picture_time: f64,
     /// The rounding step of lengths (m), angles (rad), directions and times (s) in a page: finer than any screen.
     pub rounding: f64,
+    /// The rounding step of what is measured in simulations: positions (m), joints (rad or m), quaternions (1) and times
+    /// (s).
+    pub measured: f64,
+    /// The rounding step of ways over the ground, m.
+    pub way: f64,
+    /// The least half of the size of a module by which arrows are scaled, m: that of points.
+    pub module: f64,
     /// The least size, m, by which a drawing is scaled: smaller ones are points.
     pub size: f64,
     /// The least radius, m, of the scene of a picture.
@@ -41,6 +48,9 @@ pub(super) const TOLERANCES: Tolerances = Tolerances {
     base: 1e-4,
     picture_time: 1e-3,
     rounding: 1e-7,
+    measured: 1e-5,
+    way: 1e-4,
+    module: 1e-3,
     size: 1e-9,
     radius: 1e-6,
     shadow: 0.004,

@@ -19,7 +19,7 @@ export async function toggles(page, wanted, fault) {
     await flip();
     if ((await picture(page)).sum !== before.sum) fault(`the switch for ${name} does not go back`);
   }
-  const key = { mass: "m", contacts: "k", goal: "g", start: "s", collides: "j" };
+  const key = { mass: "m", contacts: "k", goal: "g", start: "s", collides: "j", nominal: "n", forces: "k", paths: "r" };
   for (const name of wanted.filter(name => key[name])) {
     const on = () => page.locator(`[data-toggle="${name}"]`).isChecked();
     const before = await on();

@@ -14,6 +14,7 @@ use modl::plan::{
     Stages, TrussLimits, verify,
 };
 use modl::robot::{Cell, Kinematics, Library};
+use modl::simulate::{Settings, simulate};
 use modl::view::{RenderInput, page};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -167,6 +168,7 @@ const PROGRAMS: &[(&str, &str)] = &[
     ("octahedron", FOLD),
     ("slab", SQUEEZE),
     ("ring", RING),
+    ("slides", SLIDES),
 ];
 
 /// A flat pattern that folds up to an octahedron.
@@ -204,6 +206,14 @@ config Loop {
   )
 }
 emit(plan(Loop().open(), world: world(dynamics: statics)), \"ring.plan.json\")
+";
+
+/// A walker on slippery ground, with runs.
+const SLIDES: &str = "use std.smores.Walk4
+let w = Walk4()
+let walk = plan(Sc(w.stand(), w.walk(steps: 1)))
+emit(walk, \"slides.plan.json\")
+show(simulate(walk, friction: 0.3, runs: 2, friction_spread: 0.3), \"slides.html\")
 ";
 
 /// One page of each family is opened on a phone, too.
@@ -298,6 +308,33 @@ fn of_family(name: &'static str, plan: Plan, colours: &'static [&'static str]) -
     Looks { name, plan, joints: false, colours, toggles, curves: &[], data, failure }
 }
 
+/// The page of the simulation in [`SLIDES`]: links are where the kinematics have them for the measured joints.
+fn of_simulation(sandbox: &Sandbox) -> Value {
+    let mut looks = of_program(sandbox, "slides");
+    looks.colours = &["part", "effort", "type"];
+    looks.toggles = &["nominal", "forces", "paths", "goal", "edges", "shadow"];
+    looks.curves = &["joints", "efforts"];
+    looks.data = vec!["planner".into()];
+    let mut wanted = looks.wanted("out/slides.html", "Walk4", false);
+    let settings = Settings { friction: 0.3, ..Settings::default() };
+    let simulation = simulate(&looks.plan, &settings).expect("it can be simulated");
+    let tracks = looks.plan.body.tracks().expect("a robot's plan");
+    let kinematics = Kinematics::new(&tracks.robot, &tracks.start.bonds, tracks.robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let moments = simulation.motion.iter().step_by(simulation.motion.len() / 6);
+    let placed = moments.map(|moment| {
+        kinematics.link_poses(&moment.joints, &moment.base, &mut poses);
+        let bodies = poses.iter().enumerate().map(|(i, X)| {
+            let p = X.translation.vector;
+            json!([i, p.x, p.y, p.z])
+        });
+        std::iter::once(json!(moment.time)).chain(bodies).collect::<Value>()
+    });
+    wanted["poses"] = placed.collect();
+    wanted["ghost"] = json!(true);
+    wanted
+}
+
 #[test]
 fn pages_play_in_a_browser() {
     let Some((playwright, chromium)) = tools() else {
@@ -348,6 +385,7 @@ fn pages_play_in_a_browser() {
         let measured = std::env::var_os("MODL_PAGES").is_some();
         wanted.push(looks.wanted(&file, looks.name, measured));
     }
+    wanted.push(of_simulation(&sandbox));
     if let Some(kept) = std::env::var_os("MODL_PAGES") {
         keep(&sandbox, &wanted, Path::new(&kept));
     }

@@ -21,12 +21,14 @@ function curvesOf(plan, motion, seek) {
       const turns = motion.joints[j].turns;
       return { name: motion.jointName(j), points: times.map(t => [t, motion.jointAt(j, t) * (turns ? 180 / Math.PI : 1000)]), unit: turns ? "°" : " mm" };
     });
+    //: if (plan.simulation) return measuredJoints(plan, motion, { title: module === null ? "joints" : "joints of " + motion.modules[module].name, lines }, chosen);
     return { title: module === null ? "joints" : "joints of " + motion.modules[module].name, lines };
   }
 
   function build() {
     rows = [];
     if (motion.driven.length || module !== null) rows.push(jointRow());
+    //: rows.push(...effortRows(plan, motion, module === null ? motion.driven.slice(0, JOINTS_SHOWN) : motion.jointsOf(module)));
     const row = (title, name, points, unit, limit) => {
       if (points && points.length > 1) rows.push({ title, lines: [{ name, points, unit }], limit });
     };
@@ -59,6 +61,7 @@ function curvesOf(plan, motion, seek) {
     let low = Infinity;
     let high = -Infinity;
     for (const line of row.lines) for (const [, v] of line.points) (low = Math.min(low, v)), (high = Math.max(high, v));
+    //: for (const line of row.lines) for (const [, v] of line.commanded || []) (low = Math.min(low, v)), (high = Math.max(high, v));
     if (row.limit !== undefined) (low = Math.min(low, row.limit)), (high = Math.max(high, row.limit));
     if (high - low < 1e-9) (low -= 1), (high += 1);
     const [from, to] = [top + tall - 5, top + 17];
@@ -85,6 +88,7 @@ function curvesOf(plan, motion, seek) {
       g.beginPath();
       line.points.forEach(([time, v], i) => (i ? g.lineTo(x(time), y(v)) : g.moveTo(x(time), y(v))));
       g.stroke();
+      //: if (line.commanded) dashed(g, line.commanded, x, y);
     });
     g.strokeStyle = colour("--ink");
     g.lineWidth = 1;

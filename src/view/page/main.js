@@ -21,7 +21,9 @@ function main() {
   const stats = { calls: 0, frame: 0, frames: 0, first: null };
   const touch = () => (state.dirty = true);
 
+  //: Object.assign(options, { nominal: true, forces: true, paths: true });
   const toggles = [
+    //: ...simulationToggles(plan, motion),
     ["mass", plan.ground ? "Centre of mass and support" : "Centre of mass", "m", plan.stand.length > 0], ["contacts", "Contacts with the ground", "k", plan.contacts.some(c => c[1].length)], ["start", "Ghost of the start", "s", plan.duration > 0],
     ["goal", "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
     ["trail", "Way of the base", "w", (plan.body.base || []).length > 1], ["follow", "Follow the robot", "o", true],
@@ -46,6 +48,7 @@ function main() {
       options[name] = on === undefined ? !options[name] : on;
       document.querySelectorAll(`[data-toggle="${name}"]`).forEach(box => (box.checked = options[name]));
       if (name === "follow") camera.follow = options.follow;
+      //: showLegend(colouring);
       touch();
     },
   };
@@ -65,6 +68,8 @@ function main() {
   const framing = framingOf(plan, motion, X);
   camera.reach = 6 * framing.radius;
   const ghosts = [false, false];
+  //: ghosts.push(true);
+  //: const nominal = new Float32Array(POSE * motion.bodies);
 
   /** Whoever can't draw it shows a still picture, and everything else on the page. */
   function showStill(error) {
@@ -142,6 +147,7 @@ function main() {
       return el("span", {}, swatch, visible(name));
     }));
     box.hidden = legend.length < 2 && legend[0][0] !== "ramp";
+    //: showScale(plan, options, box);
   }
 
   const pace = paceOf();
@@ -175,6 +181,10 @@ function main() {
     const lineTheme = { ...state.theme, ink: state.lineInk };
     const lines = [];
     const marks = [];
+    //: if (options.trail) lines.push(...measuredTrail(plan, motion, plan.floor, lineTheme, options.nominal));
+    //: if (options.paths) lines.push(...runLines(plan, plan.floor, lineTheme));
+    //: if (options.forces) marks.push(...forceArrows(plan, motion, state.t, framing.radius, camera.eye, lineTheme));
+    //: if (!plan.simulation)
     if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));
     if (options.mass && stand) {
       if (plan.ground) lines.push(...supportLines(stand, plan.floor, lineTheme));
@@ -188,6 +198,8 @@ function main() {
       middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
       edges: options.edges && coarseness() < 2, smooth: coarseness() < 1, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
+    //: scene.ghosts.push(options.nominal);
+    //: if (renderer && options.nominal) renderer.ghosts[2] = placeNominal(plan, motion, state.t, nominal);
     if (renderer) {
       scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));
       stats.calls = renderer.render(scene, X);

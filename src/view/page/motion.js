@@ -13,6 +13,7 @@ const POSE = 16;
 
 function motionOf(plan) {
   const body = plan.body;
+  //: if (plan.simulation) return measuredMotion(plan, robotMotion(plan, body));
   if (body.form === "tracks") return robotMotion(plan, body);
   if (body.form === "stages") return latticeMotion(plan, body);
   if (body.form === "node_paths") return trussMotion(plan, body);
@@ -134,6 +135,8 @@ function robotMotion(plan, body) {
     jointsOf: module => joints.flatMap((_, j) => (belongs(j, module) ? [j] : [])),
     jointAt: (joint, t) => jointsAt(t)[joint],
     jointName: j => (joints[j].module < 0 ? joints[j].name : modules[joints[j].module].name + "." + joints[j].name),
+    //: walk,
+    //: write: X => { for (let i = 0; i < n; i++) X.set([...state.P.subarray(3 * i, 3 * i + 3), 0, ...state.Q.subarray(4 * i, 4 * i + 4), 1, 1, 1], POSE * i); },
     place(t, X) {
       poses(t);
       const { P, Q } = state;

@@ -111,6 +111,7 @@ function findingsPage(plan, player) {
   list("Events", [...verdict.events.map(([time, text]) => [time, text]), ...player.motion.events.map(e => [e.time, e.text])]
     .sort((a, b) => a[0] - b[0]).slice(0, 500).map(([time, text]) => row(time, text)));
   list("Notes", [...verdict.notes, ...plan.notes].map(note => el("p", {}, visible(note))));
+  //: if (plan.simulation) return measuredNumbers(plan, page);
   const checks = el("dl", {}, verdict.checks.flatMap(([name, status]) => [el("dt", {}, name), el("dd", {}, visible(status))]));
   if (verdict.checks.length) list("Checks", [el("div", { class: "data" }, checks)]);
   else page.append(el("p", {}, "Nobody has judged this."));

@@ -129,13 +129,16 @@ function rendererOf(canvas, plan, motion) {
   /** Depth first, then colour once: what lies behind a ghost's own surface stays hidden. */
   function drawGhost(scene, common, i) {
     choose(scene.solids, ghosts[i], scene, scene.camera.matrix);
+    //: if (i === 2) gl.enable(gl.POLYGON_OFFSET_FILL), gl.polygonOffset(2, 8);
     gl.colorMask(false, false, false, false);
     use("depth", { view: common.view });
     draw("faces");
     gl.colorMask(true, true, true, true);
     gl.depthFunc(gl.LEQUAL);
     use("solid", { ...common, opacity: 0.16, shadowed: 0 });
+    //: if (i === 2) programOf("solid").set("opacity", 0.34);
     draw("faces");
+    //: gl.disable(gl.POLYGON_OFFSET_FILL);
     use("edge", { view: common.view, opacity: 0.3, dark: common.dark, pixels: canvas.height });
     draw("lines");
     gl.depthFunc(gl.LESS);

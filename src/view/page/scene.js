@@ -38,6 +38,7 @@ function colouringsOf(plan, motion) {
     const loads = loadsOf(plan, motion);
     all.push({ name: "load", title: "Joint load", colour: (b, X, t) => loads(motion.moduleOf[b], t), legend: [["ramp", "joint load, none to its limit, were the ground's forces spread evenly"]] });
   }
+  //: all.push(...effortColours(motion));
   plain("type", "Type", ofType, types);
   return all;
 }
