@@ -1413,8 +1413,8 @@ extern fn elapsed() -> Signal<Time>
 /// The torque that a joint's motor supplies in the joint's positive direction, as the judge works it out.
 ///
 /// It holds the robot at rest at every instant. The ground's forces are spread evenly and without friction, or,
-/// where those would overload a joint, they are the best that friction allows. No robot senses it: it is for
-/// `series`, not for conditions.
+/// where those would overload a joint, they are the best that friction allows. That is what `series` gives; in
+/// conditions it is the torque of the motor as the robot measures it, which a plan does not know before it runs.
 ///
 /// Example:
 /// ```modl
@@ -1550,7 +1550,7 @@ extern fn Pc(behaviors: Behavior...) -> Behavior
 /// Does nothing; after `else` it lets the next action begin, which is also what happens without.
 let proceed = Sc()
 
-/// A behaviour several times in series.
+/// A behaviour several times in series: `times`, or until a condition holds after one of at most `max` times.
 ///
 /// Example:
 /// ```modl

@@ -94,16 +94,17 @@ pub(super) enum Command {
         #[arg(value_name = "PLANFILE", required = true)]
         files: Vec<PathBuf>,
     },
-    /// Play plan files by rigid bodies: what the robots really do
+    /// Play a program's plans, or plan files, by rigid bodies: what the robots really do
     #[command(
         after_help = "Servos follow the plan within their torque, links touch the ground and each other with \
         friction,\nbonds break at what they hold. What half the time step changes is said. The exit code is 1 if \
         a robot\nfalls, a bond breaks or ports do not dock.\n\n\
-        Example:\n  modl simulate out/walkbot.plan.json"
+        Example:\n  modl simulate walkbot.mod\n  modl simulate out/walkbot.plan.json\n\nOf a program, each plan that it \
+        emits is played, also one that can't be verified; no file is written."
     )]
     Simulate {
-        /// Plan files; `-` reads standard input
-        #[arg(value_name = "PLANFILE", required = true)]
+        /// A program, or plan files; `-` reads a plan file from standard input
+        #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
         /// The time step in milliseconds, 0.001 to 5
         #[arg(long, value_name = "MS")]

@@ -10,6 +10,7 @@ use super::{CallError, Ending, examples, show};
 
 use crate::check;
 use crate::interpret::{Limits, Mode, Options, Outcome, TestResult};
+use crate::plan::Plan;
 use crate::source::{Diagnostic, Files};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,6 +24,8 @@ pub(super) enum Task {
         /// True if the last page is opened in the browser.
         open: bool,
     },
+    /// Run the program, and collect the plans that it emits; no file is written.
+    Collect,
     /// Check the program only.
     Check,
     /// Run its tests whose names contain the filter, and the examples in its documentation; all of them for `None`.
@@ -76,7 +79,7 @@ fn run_all(
 ) -> Result<Ending, CallError> {
     let files = match task {
         Task::Check | Task::Test(_) => folders::programs(files)?,
-        Task::Run | Task::Show { .. } => {
+        Task::Run | Task::Show { .. } | Task::Collect => {
             files.iter().map(|file| Found { file: file.clone(), folder: None }).collect()
         }
     };
@@ -127,7 +130,31 @@ fn run_all(
     })
 }
 
-/// Checks one program, does the task with it, and prints or records its diagnostics, tests and files.
+/// Runs a program and returns the plans that it emits, good or not, each with its path; no file is written. Its
+/// diagnostics and what it prints are added to the report.
+///
+/// # Errors
+/// A message if the file can't be read, or lies outside of the project's root.
+pub(super) fn plans(
+    file: &Path,
+    report: &mut Report,
+    globals: &Globals,
+) -> Result<Vec<(String, Plan)>, CallError> {
+    let project = Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref())?;
+    listen_for_cancel();
+    let mut terminal = Terminal::new(globals);
+    let mut tally = Tally { report: std::mem::take(report), ..Tally::default() };
+    let plans = one(file, &project, &Task::Collect, &mut terminal, &mut tally, globals);
+    *report = tally.report;
+    report.printed = terminal.printed.take();
+    if report.printed.is_some() {
+        report.values = Some(std::mem::take(&mut terminal.values));
+    }
+    Ok(plans)
+}
+
+/// Checks one program, does the task with it, and prints or records its diagnostics, tests and files. Returns the plans
+/// that it emits, where they are collected.
 fn one(
     file: &Path,
     project: &Project,
@@ -135,7 +162,7 @@ fn one(
     terminal: &mut Terminal,
     tally: &mut Tally,
     globals: &Globals,
-) {
+) -> Vec<(String, Plan)> {
     let checked = check::check(project, &project.name);
     let mut diagnostics = checked.diagnostics.clone();
     let mut outcome = Outcome::default();
@@ -173,6 +200,7 @@ fn one(
             print_error("interrupted\n");
         }
     }
+    outcome.plans
 }
 
 /// Prints the result of a test.
@@ -203,7 +231,7 @@ fn show_written(written: Vec<String>, tally: &mut Tally, task: &Task, globals: &
 /// Returns the interpreter's mode for a task.
 fn mode(task: &Task) -> Mode {
     match task {
-        Task::Run | Task::Show { .. } => Mode::Run,
+        Task::Run | Task::Show { .. } | Task::Collect => Mode::Run,
         Task::Check => Mode::Check,
         Task::Test(_) => Mode::Test,
     }
@@ -215,11 +243,12 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let seed = if globals.seed == 0 { String::new() } else { format!(" --seed {}", globals.seed) };
     let name = if project.name == STDIN_NAME { "-" } else { &project.name };
     let pages = matches!(task, Task::Show { .. });
+    let collects = matches!(task, Task::Collect);
     let verb = if pages { "show" } else { "run" };
     let command = format!("modl {verb} {name}{seed}");
     let limits = limits(globals);
     let (seed, values, threads) = (globals.seed, globals.json, threads(globals));
-    Options { filter, seed, pages, command, picture: None, limits, values, threads }
+    Options { filter, seed, pages, collects, command, picture: None, limits, values, threads }
 }
 
 /// Returns the number of threads for planners: that of the command line, or one per processor.

@@ -1,21 +1,22 @@
-//! `modl simulate`: plays plan files by rigid bodies, from nothing but the files.
+//! `modl simulate`: plays plan files by rigid bodies, from nothing but the files, or the plans of a program.
 
 use super::arguments::Globals;
-use super::judge;
-use super::report::{self, JsonExtreme, JsonSimulation, Report};
-use super::terminal::{cancelled, listen_for_cancel, print};
+use super::judge::{self, PlanFileFault};
+use super::program;
+use super::report::{JsonExtreme, JsonSimulation, Report};
+use super::terminal::{cancelled, print};
 use super::{CallError, Ending};
-use crate::interrupt;
 use crate::plan::Plan;
-use crate::simulate::{Extreme, Refusal, Settings, Simulation, simulate};
+use crate::simulate::{Extreme, Refusal, Settings, Simulation, simulate_halving};
 use crate::source::{Diagnostic, Sources, code};
 use std::path::PathBuf;
 
-/// Runs the command `modl simulate`, which plays plan files with a time step and with half of it. All are read before
-/// the first is played.
+/// Runs the command `modl simulate`, which plays plan files, or the plans that a program emits, with a time step and with
+/// half of it. All files are read before the first plan is played.
 ///
 /// # Errors
-/// A message if a file can't be read or is too large, or a setting is out of range.
+/// A message if a file can't be read or is too large, a setting is out of range, or a program emits no plan or stands among
+/// other files.
 pub(super) fn run(
     files: &[PathBuf],
     step: Option<f64>,
@@ -31,44 +32,44 @@ pub(super) fn run(
     if !(Settings::STEP_MIN..=Settings::STEP_MAX).contains(&settings.step) {
         return Err(CallError(format!("`--step`: {}", Refusal::Step)));
     }
-    let texts = files.iter().map(|file| judge::read(file)).collect::<Result<Vec<_>, CallError>>()?;
-    listen_for_cancel();
     let mut report = Report::default();
     report.simulations = Some(Vec::new());
-    let mut ok = true;
-    for (file, bytes) in files.iter().zip(texts) {
-        let name = file.to_string_lossy().into_owned();
-        let fault = match judge::parsed(&name, bytes) {
-            Ok(plan) => match played(&plan, &settings) {
-                Ok((outcome, finer)) => {
-                    ok &= told(&name, &plan, &outcome, &finer, &mut report, globals);
-                    None
+    let played = |name: &str, plan: &Plan, report: &mut Report| -> Result<bool, PlanFileFault> {
+        let (outcome, halving) = simulate_halving(plan, &settings).map_err(|refusal| {
+            let message = format!("`{name}` can't be simulated: {refusal}");
+            Box::new((Sources::default(), Diagnostic::error(code::BAD_PLAN_FILE, message)))
+        })?;
+        Ok(told(name, plan, &outcome, halving, report, globals))
+    };
+    let is_program =
+        |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mod"));
+    match files {
+        [file] if is_program(file) => {
+            let plans = program::plans(file, &mut report, globals)?;
+            let mut ok = report.errors == 0;
+            if ok && plans.is_empty() && !cancelled() {
+                return Err(CallError(format!("`{}` emits no plan", file.display())));
+            }
+            for (name, plan) in plans {
+                ok &= judge::noted(played(&name, &plan, &mut report), &mut report, globals);
+                if cancelled() {
+                    break;
                 }
-                Err(refusal) => {
-                    let message = format!("`{name}` can't be simulated: {refusal}");
-                    Some((Sources::default(), Diagnostic::error(code::BAD_PLAN_FILE, message)))
-                }
-            },
-            Err(fault) => Some(*fault),
-        };
-        if let Some((sources, diagnostic)) = fault {
-            report.add(&sources, &[diagnostic], &report::style(globals, ""), globals);
-            ok = false;
+            }
+            report.finish(ok && !cancelled(), globals);
+            Ok(if cancelled() {
+                Ending::Cancelled
+            } else if ok {
+                Ending::Fine
+            } else {
+                Ending::Wrong
+            })
         }
-        if cancelled() {
-            report.finish(false, globals);
-            return Ok(Ending::Cancelled);
+        _ if files.iter().any(is_program) => {
+            Err(CallError("`modl simulate` plays one program, or plan files".to_owned()))
         }
+        _ => judge::each_plan(files, report, globals, played),
     }
-    report.finish(ok, globals);
-    Ok(if ok { Ending::Fine } else { Ending::Wrong })
-}
-
-/// Plays a plan with a time step, and with half of it.
-fn played(plan: &Plan, settings: &Settings) -> Result<(Simulation, Simulation), Refusal> {
-    let halved = Settings { step: settings.step / 2.0, ..*settings };
-    let (outcome, finer) = interrupt::join(|| simulate(plan, settings), || simulate(plan, &halved));
-    Ok((outcome?, finer?))
 }
 
 /// Prints a simulation; returns true if nothing failed.
@@ -76,13 +77,13 @@ fn told(
     name: &str,
     plan: &Plan,
     outcome: &Simulation,
-    finer: &Simulation,
+    halving: String,
     report: &mut Report,
     globals: &Globals,
 ) -> bool {
     let Some(tracks) = plan.body.tracks() else { return false };
     let failures = outcome.failures(&tracks.robot);
-    let notes = vec![outcome.halving(finer)];
+    let notes = vec![halving];
     if !globals.json {
         let mut lines = outcome.in_words(&tracks.robot);
         lines.extend(notes.iter().map(|note| format!("note: {note}")));

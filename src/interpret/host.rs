@@ -2,6 +2,7 @@
 
 use super::printed::PrintedValue;
 use crate::interrupt::CancelState;
+use crate::plan::Plan;
 use crate::source::Diagnostic;
 
 /// The reason that an output can't be written.
@@ -67,6 +68,9 @@ pub struct Options {
     /// True if a page is drawn of every plan that is emitted, and of the declared robots if the run wrote no `.html`.
     /// Default false.
     pub pages: bool,
+    /// True if the plans that are emitted are collected in [`Outcome::plans`], good or not: nothing judges them, and no file
+    /// is written. Default false.
+    pub collects: bool,
     /// The command that runs the program again, for the pages that the run draws; may be empty, as by default.
     pub command: String,
     /// The width and the height of still pictures, pixels; `None`, the default: their natural size.
@@ -131,6 +135,8 @@ pub struct Outcome {
     pub tests: Vec<TestResult>,
     /// The paths written, in the order of writing, as the host showed them.
     pub written: Vec<String>,
+    /// The plans that were emitted, each with its path, where [`Options::collects`].
+    pub plans: Vec<(String, Plan)>,
     /// True if the user ended the run.
     pub cancelled: bool,
 }

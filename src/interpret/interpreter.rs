@@ -12,6 +12,7 @@ use super::value::{Behavior, BehaviorCall, Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{Def, DefId, DefKind, Program};
 use crate::interrupt;
+use crate::plan::Plan;
 use crate::planners::tosnake::SearchCache;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
 use std::collections::{BTreeMap, HashSet};
@@ -72,6 +73,8 @@ pub struct Reported {
     known: HashSet<(Code, Option<Span>, Option<String>)>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
+    /// The plans that were emitted, each with its path, where they are collected.
+    pub plans: Vec<(String, Plan)>,
     /// The size of the values that were told besides their text, in bytes.
     pub values_bytes: usize,
     /// The results of the tests that were run, in order.

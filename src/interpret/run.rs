@@ -34,6 +34,7 @@ pub fn run(
             diagnostics: in_order(std::mem::take(&mut interpreter.reported.reports)),
             tests: std::mem::take(&mut interpreter.reported.tests),
             written: std::mem::take(&mut interpreter.reported.written),
+            plans: std::mem::take(&mut interpreter.reported.plans),
             cancelled: interpreter.shared.host.cancelled(),
         }
     });

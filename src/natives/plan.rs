@@ -233,11 +233,15 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 }
 
 /// Runs `emit`: writes the plan with its verdict, and a page of it if the run draws pages. Of a plan that fails
-/// only the page is written, and the failures are reported.
+/// only the page is written, and the failures are reported. A run that collects plans gets it as it is.
 fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, _) = output_path(call, "file")?;
     let settings = settings(interpreter, call)?;
     let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
+    if interpreter.shared.options.collects {
+        interpreter.reported.plans.push((path, planned.plan.clone()));
+        return Ok(Value::Nothing);
+    }
     let verdict = interpreter.judge(&planned, settings, None);
     interpreter.note_exemptions(&planned, &verdict);
     let page = match interpreter.shared.options.pages {
@@ -290,6 +294,9 @@ pub(super) fn write_output(
     path: &str,
     bytes: Vec<u8>,
 ) -> Eval<String> {
+    if interpreter.shared.options.collects {
+        return Ok(path.to_owned());
+    }
     match interpreter.shared.host.write(path, bytes) {
         Ok(shown) => {
             if !interpreter.reported.written.contains(&shown) {

@@ -34,6 +34,7 @@ const ANSWERS: &[Row] = &[
     row("test", &["a.mod"], &["report", "printed", "values", "tests"]),
     row("verify", &["p.plan.json"], &["report", "plans"]),
     row("simulate", &["p.plan.json"], &["report", "simulations"]),
+    row("simulate", &["q.mod"], &["report", "printed", "values", "simulations"]),
     row("show", &["a.mod"], &["report", "printed", "values", "written"]),
     row("show", &["p.plan.json"], &["report", "written"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
@@ -62,7 +63,11 @@ const PLANNED: &str = "use std.smores.Smores\nconfig R {\n  part m: Smores\n  be
 
 /// A project with a program and a plan file.
 fn project() -> Sandbox {
-    let sandbox = Sandbox::new(&[("a.mod", PROGRAM.as_bytes()), ("plans/b.mod", PLANNED.as_bytes())]);
+    let sandbox = Sandbox::new(&[
+        ("a.mod", PROGRAM.as_bytes()),
+        ("q.mod", PLANNED.as_bytes()),
+        ("plans/b.mod", PLANNED.as_bytes()),
+    ]);
     let made = sandbox.run(&["run", "plans/b.mod", "--out", "."]);
     assert_eq!(made.code, 0, "{}", made.err);
     std::fs::remove_dir_all(sandbox.path("plans")).expect("a folder of the test");

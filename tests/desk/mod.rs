@@ -10,6 +10,8 @@ pub mod interrupt;
 pub mod json;
 pub mod plots;
 pub mod repl;
+pub mod simulate;
+pub mod simulation_page;
 pub mod system;
 pub mod tables;
 pub mod transcripts;
