@@ -36,6 +36,13 @@ impl Aabb {
         points.into_iter().fold(none, |all, p| Aabb { low: all.low.inf(&p), high: all.high.sup(&p) })
     }
 
+    /// Returns the height of the lowest point of the box along the unit vector `up`, from the origin of its frame, m.
+    #[inline]
+    pub fn lowest(&self, up: &Vec3) -> f64 {
+        let (centre, half) = ((self.low + self.high) / 2.0, (self.high - self.low) / 2.0);
+        up.dot(&centre) - up.abs().dot(&half)
+    }
+
     /// Returns the gap to another box of the same frame along each axis, m; 0 along axes on which they overlap. The
     /// length of this vector is the distance of the boxes.
     #[inline]

@@ -3,6 +3,7 @@
 //! Wheels are exact circles: with a polygon a chassis would rest on its sides; and a wheel's own spin changes no
 //! feature at all, which makes rolling cheap and exact.
 
+use super::broad_phase::Aabb;
 use super::hull;
 use super::pose::{Mat3, Pose, Vec3};
 use super::shape::{Placed, Shape};
@@ -65,6 +66,15 @@ impl Feature {
         }
     }
 
+    /// Returns the height of [`point`](Self::point) `k` along the unit vector `up` (in the feature's frame), m, from the
+    /// origin of that frame.
+    pub fn height(&self, k: u8, up: &Vec3) -> f64 {
+        let Form::Circle(axis, radius) = self.form else { return self.lowest(up) };
+        let along = up.dot(&axis);
+        let (_, cosine) = EIGHTHS[usize::from(k % CIRCLE_POINTS)];
+        up.dot(&self.centre) - radius * cosine * libm::sqrt((1.0 - along * along).max(0.0))
+    }
+
     /// Returns point `k` of those that represent the feature, in its frame, m; 0 is the lowest along the unit vector
     /// `up` (in that frame), the others of a circle, 1 to 7, follow at eighths of a turn.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
@@ -77,6 +87,18 @@ impl Feature {
                 self.centre + (e * c + axis.cross(&e) * s) * radius
             }
         }
+    }
+
+    /// Returns the box along the axes of the feature's frame that just holds it, m.
+    pub fn bounds(&self) -> Aabb {
+        let half = match self.form {
+            Form::Vertex => Vec3::zeros(),
+            Form::Sphere(radius) => Vec3::repeat(radius),
+            Form::Circle(axis, radius) => {
+                axis.map(|along| radius * libm::sqrt((1.0 - along * along).max(0.0)))
+            }
+        };
+        Aabb { low: self.centre - half, high: self.centre + half }
     }
 
     /// Returns an upper bound on the distance of any point of the feature from the origin of its frame, m.

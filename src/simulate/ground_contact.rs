@@ -83,23 +83,26 @@ impl GroundContacts {
             first += body.features.len() * FEATURE_POINTS;
             let pose = &poses[index];
             let height = pose.translation.vector.z;
-            if height > body.reach {
+            let own_up = pose.rotation.inverse_transform_vector(&up);
+            if body.features.is_empty() || height + body.bounds.lowest(&own_up) >= 0.0 {
                 continue;
             }
-            let own_up = pose.rotation.inverse_transform_vector(&up);
             for (number, feature) in body.features.iter().enumerate() {
                 if height + feature.lowest(&own_up) >= 0.0 {
                     continue;
                 }
                 let rims =
                     number.checked_sub(1).and_then(|before| tread(&body.features[before], feature, &own_up));
-                let points = (0..feature.points()).map(|k| feature.point(k, &own_up)).chain(rims);
-                for (k, p) in points.enumerate() {
+                let below = |k: &u8| height + feature.height(*k, &own_up) < 0.0;
+                let points = (0..feature.points()).filter(below).map(|k| (k, feature.point(k, &own_up)));
+                let rims = rims.map(|rim| (CIRCLE_POINTS, rim));
+                let points = points.chain(rims);
+                for (k, p) in points {
                     let at = pose.transform_point(&p.into()).coords;
                     if at.z < 0.0 {
                         // The touching point of a round feature goes with its centre, not with the material.
                         let centre = pose.transform_point(&feature.centre.into()).coords - origin;
-                        let spring = own + number * FEATURE_POINTS + k;
+                        let spring = own + number * FEATURE_POINTS + usize::from(k);
                         let touch = Touch { body: index, spring, at, centre };
                         self.contacts.push(self.contact(touch, bodies, &body.surface, origin, now));
                     }

@@ -25,9 +25,11 @@ struct Shape {
 struct Pair {
     first: usize,
     second: usize,
-    /// The way that they may yet go against each other before they can meet, m: of a pair that is close.
-    free: f64,
-    /// The direction of their distance at the last look, in the frame of the first.
+    /// Their distance when it was last computed, or a lower bound on it, m; negative before, and where they touch.
+    gap: f64,
+    /// The pose of the second body in the frame of the first then.
+    X_AB: Pose,
+    /// The direction of their distance then, in the frame of the first.
     normal: Option<Vec3>,
     /// The spring across the contact.
     spring: Spring,
@@ -51,29 +53,28 @@ pub(super) struct LinkContact {
 #[derive(Clone, Debug, Default)]
 pub(super) struct LinkContacts {
     shapes: Vec<Shape>,
+    /// The radius about the origin of each body within which its shapes lie, m; 0 of a body without shapes.
+    reaches: Vec<f64>,
     /// The pairs of bodies that never push each other, the lesser index first.
     excluded: BTreeSet<(usize, usize)>,
     /// The pairs of bodies that bonds in no tree hold together now, likewise.
     bonded: BTreeSet<(usize, usize)>,
     pairs: Vec<Pair>,
-    /// The value of `moved` from which on each pair may be close; those that are close are looked at in every step.
-    wakes: Vec<f64>,
-    /// The way that any two shapes can have gone against each other since the start, m.
-    moved: f64,
-    /// The value of `moved` from which on a pair that is not listed can meet.
-    listed_until: f64,
+    /// The bodies of each pair, and the length of both their paths together up to which its shapes can't meet, m.
+    asleep: Vec<(u32, u32, f64)>,
+    /// The length of the path of each body since the start, m: no point of its shapes has gone farther.
+    gone: Vec<f64>,
+    /// The lengths of the paths when the pairs were listed, m; -∞ where they must be listed anew.
+    gone_listed: Vec<f64>,
     /// The contacts of this step.
     pub contacts: Vec<LinkContact>,
 }
 
 /// The distance within which pairs are listed, m.
-const NEAR: f64 = 0.02;
+const NEAR: f64 = 0.04;
 
 /// Threshold: the depth from which on links begin inside each other, and not at each other, m.
 const TOL_INSIDE: f64 = 1e-6;
-
-/// The distance within which a pair is close, m: its own motion is followed, instead of that of the whole robot.
-const CLOSE: f64 = 1e-3;
 
 impl LinkContacts {
     /// Compiles the shapes of all links; those that joints or bonds of trees join, that are declared as touching, or that
@@ -97,6 +98,13 @@ impl LinkContacts {
                     .chain(kind.touching.iter().copied())
                     .map(|(a, b)| pair(model.body(module, a), model.body(module, b))),
             );
+        }
+        all.reaches = vec![0.0; model.bodies.len()];
+        all.gone = vec![0.0; model.bodies.len()];
+        all.gone_listed = vec![f64::NEG_INFINITY; model.bodies.len()];
+        for shape in &all.shapes {
+            let reach = shape.part.centre.norm() + shape.part.radius;
+            all.reaches[shape.body] = all.reaches[shape.body].max(reach);
         }
         let bodies = |bond: &Bond| pair(model.port(robot, bond.a).0, model.port(robot, bond.b).0);
         let lasting = robot.bonds.iter().enumerate().filter(|(bond, _)| !model.constraints.contains(bond));
@@ -147,34 +155,37 @@ impl LinkContacts {
     pub(super) fn set_bonded(&mut self, pairs: impl Iterator<Item = (usize, usize)>) {
         self.bonded = pairs.map(|(a, b)| (a.min(b), a.max(b))).collect();
         // The next step lists the pairs anew.
-        self.listed_until = f64::NEG_INFINITY;
+        self.gone_listed.fill(f64::NEG_INFINITY);
     }
 
     /// Finds the links that meet in step `now`. `bodies`: the bodies with their velocities.
     pub(super) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
         self.contacts.clear();
-        let fastest = self.shapes.iter().map(|shape| speed(shape, bodies, at)).fold(0.0, f64::max);
-        self.moved += 2.0 * fastest * at.step;
-        if self.moved >= self.listed_until {
+        let mut farthest: f64 = 0.0;
+        for (body, reach) in self.reaches.iter().enumerate().filter(|(_, reach)| **reach > 0.0) {
+            let (twist, centre) = (bodies.velocity(body), at.poses[body].translation.vector - at.origin);
+            self.gone[body] += (twist.at(&centre).norm() + twist.angular.norm() * reach) * at.step;
+            farthest = farthest.max(self.gone[body] - self.gone_listed[body]);
+        }
+        if 2.0 * farthest >= NEAR {
             self.list(at);
         }
         for index in 0..self.pairs.len() {
-            if self.wakes[index] > self.moved {
+            let (first, second, until) = self.asleep[index];
+            let gone = self.gone[first as usize] + self.gone[second as usize];
+            if gone < until {
                 continue;
             }
             let pair = &self.pairs[index];
             let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
-            if pair.free > 0.0 {
-                let twist = bodies.velocity(b.body).plus(bodies.velocity(a.body), -1.0);
-                let centre = at.poses[b.body].transform_point(&b.part.centre.into()).coords - at.origin;
-                let motion = twist.at(&centre).norm() + twist.angular.norm() * b.part.radius;
-                let free = pair.free - motion * at.step;
-                if free > 0.0 {
-                    self.pairs[index].free = free;
+            let X_AB = at.poses[a.body].inv_mul(&at.poses[b.body]);
+            if pair.gap > 0.0 {
+                let left = pair.gap - displacement(&b.part, &pair.X_AB, &X_AB);
+                if left > 0.0 {
+                    self.asleep[index].2 = gone + left;
                     continue;
                 }
             }
-            let X_AB = at.poses[a.body].inv_mul(&at.poses[b.body]);
             let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
             let depth = -found.distance - a.touch.min(b.touch);
             if depth > 0.0 {
@@ -190,10 +201,8 @@ impl LinkContacts {
                 });
             }
             let pair = &mut self.pairs[index];
-            pair.normal = Some(found.normal);
-            // A pair that is not close sleeps until the robot's motion may have brought it close.
-            pair.free = if depth > -CLOSE { (-depth).max(0.0) } else { 0.0 };
-            self.wakes[index] = if depth > -CLOSE { 0.0 } else { self.moved - depth - CLOSE };
+            (pair.gap, pair.X_AB, pair.normal) = (-depth, X_AB, Some(found.normal));
+            self.asleep[index].2 = if depth < 0.0 { gone - depth } else { 0.0 };
         }
     }
 
@@ -205,12 +214,16 @@ impl LinkContacts {
         for (first, second) in near {
             let kept = known.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second));
             self.pairs.push(kept.map_or_else(
-                |_| Pair { first, second, free: 0.0, normal: None, spring: Spring::default() },
+                |_| {
+                    let (X_AB, spring) = (Pose::identity(), Spring::default());
+                    Pair { first, second, gap: -1.0, X_AB, normal: None, spring }
+                },
                 |index| known[index].clone(),
             ));
         }
-        self.wakes = vec![0.0; self.pairs.len()];
-        self.listed_until = self.moved + NEAR;
+        let body = |shape: usize| self.shapes[shape].body as u32;
+        self.asleep = self.pairs.iter().map(|pair| (body(pair.first), body(pair.second), 0.0)).collect();
+        self.gone_listed.clone_from(&self.gone);
     }
 
     /// Adds a row for the normal of each contact that pushes, and two across it where friction bears something.
@@ -267,9 +280,12 @@ impl LinkContact {
     }
 }
 
-/// Returns an upper bound on the speed of a shape's points, m/s.
-fn speed(shape: &Shape, bodies: &ArticulatedBodies, at: &Instant) -> f64 {
-    let twist = bodies.velocity(shape.body);
-    let centre = at.poses[shape.body].transform_point(&shape.part.centre.into()).coords - at.origin;
-    twist.at(&centre).norm() + twist.angular.norm() * shape.part.radius
+/// Returns an upper bound on the distance (m) by which a point of a part moves from one pose of its frame to another.
+fn displacement(part: &Part, before: &Pose, after: &Pose) -> f64 {
+    let shift = after.transform_point(&part.centre.into()) - before.transform_point(&part.centre.into());
+    // A turn by θ moves a point at the distance r by 2 r sin(θ / 2), which is at most 4 r sin(θ / 4); quaternions that
+    // are so far apart differ by 2 sin(θ / 4), and have either sign.
+    let (q, p) = (after.rotation.coords, before.rotation.coords);
+    let apart = (q - p).norm_squared().min((q + p).norm_squared());
+    shift.norm() + 2.0 * part.radius * apart.sqrt()
 }

@@ -1,6 +1,7 @@
 //! The robot of a plan as trees of rigid bodies with servos, for a simulation.
 
 use super::settings::{ServoGains, Settings};
+use crate::geometry::broad_phase::Aabb;
 use crate::geometry::ground_features::{self, Feature};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::{Ground, LastingTrees, Tracks, World};
@@ -23,8 +24,8 @@ pub(super) struct Body {
     pub joint: Option<Joint>,
     /// The surface, as contacts feel it.
     pub surface: Surface,
-    /// The radius about the origin of the link's frame that holds all its ground features, m.
-    pub reach: f64,
+    /// The box along the axes of the link's frame that holds all its ground features, m.
+    pub bounds: Aabb,
     /// The parts of its surface that can touch the ground, in the frame of the link.
     pub features: Vec<Feature>,
 }
@@ -231,7 +232,7 @@ impl Model {
                     rigid: heavier(&rigid.bodies()[link], settings.mass),
                     joint,
                     surface: Surface::new(declared, world.friction * settings.friction),
-                    reach: features.iter().map(Feature::reach).fold(0.0, f64::max),
+                    bounds: Aabb::around(features.iter().map(Feature::bounds).flat_map(|b| [b.low, b.high])),
                     features,
                 });
             }
