@@ -1194,7 +1194,19 @@ extern fn subdivided(mesh: Mesh, parts: Int) -> Mesh
 /// ```
 extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 
-/// Uneven ground for `locomote`: heights over the corners of squares with sides of `spacing`, in rows along
+/// Ground that rises evenly along a horizontal direction, through the origin: a terrain for `simulate` and `locomote`.
+///
+/// It reaches 500 m from the origin along x and y; a negative angle falls along `along`. At most 50 degrees.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// let uphill = simulate(Driver1().drive(t: 1s), terrain: slope(5deg))
+/// print(uphill.displacement.z > 5mm)
+/// ```
+extern fn slope(angle: Angle, along: Vec3<Number> = X) -> Terrain
+
+/// Uneven ground for `locomote` and `simulate`: heights over the corners of squares with sides of `spacing`, in rows along
 /// x, the first row at the least y.
 ///
 /// The middle of the grid is at `centre`, whose height is added to all. Each square is two flat triangles
@@ -1889,6 +1901,10 @@ extern fn verify(
 /// factor on the friction of all links besides that of the world; `stiffness` the stiffness of all servos that turn, with
 /// that of servos that slide at a lever of 0.1 m, instead of what the modules state.
 ///
+/// On a `terrain` the robot stands at the start as it does on level ground, but leaning with the plane that lies best through
+/// the ground under its feet. The points of links touch the terrain: a peak that is thinner than a link, so that it comes
+/// between them, is not felt. No verdict is about such ground.
+///
 /// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of
 /// motors, and the stiffness of servos drawn by `seed`: a spread of 0.2 is a factor that is uniform from 0.8 to 1.2, one
 /// for the whole robot.
@@ -1910,6 +1926,7 @@ extern fn simulate(
   mass_spread: Number = 0,
   torque_spread: Number = 0,
   stiffness_spread: Number = 0,
+  terrain: Terrain?,
 ) -> Simulation
 
 /// What happens when a plan is played.

@@ -64,6 +64,27 @@ impl HeightField {
         [0, 1].map(|k| if inside[k] { triangle.slope[k] / self.spacing } else { 0.0 })
     }
 
+    /// Returns the unit normal of the ground at a point (x, y) of the world, upwards; on a crease that of one of its sides.
+    pub fn normal(&self, x: f64, y: f64) -> Vec3 {
+        let [along_x, along_y] = self.slope(x, y);
+        Vec3::new(-along_x, -along_y, 1.0).normalize()
+    }
+
+    /// Returns the greatest height, m.
+    pub fn highest(&self) -> f64 {
+        self.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Returns the ground that rises evenly along a horizontal direction, through the origin of the world, by `rise` for
+    /// each metre (without unit), up to 500 m from it along each axis. `along`: a unit vector. Heights are sound up to a
+    /// rise of √2.
+    pub fn plane(along: [f64; 2], rise: f64) -> HeightField {
+        const HALF: f64 = 500.0;
+        let at = |x: f64, y: f64| rise * (along[0] * x + along[1] * y);
+        let heights = vec![at(-HALF, -HALF), at(HALF, -HALF), at(-HALF, HALF), at(HALF, HALF)];
+        HeightField { corner: [-HALF, -HALF], spacing: 2.0 * HALF, columns: 2, heights }
+    }
+
     /// Returns the greatest slope of all triangles, the height gained for a horizontal distance of 1; not negative,
     /// without unit.
     pub fn steepest(&self) -> f64 {

@@ -40,11 +40,16 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("subdivided", parameters![mesh: &Mesh, parts: usize], subdivided),
     Native::pure("on_sphere", parameters![mesh: &Mesh, radius: Positive], on_sphere),
     Native::pure("terrain", parameters![heights: &[Value], spacing: Positive, centre: Vec3], terrain),
+    Native::pure("slope", parameters![angle: f64, along: Vec3], slope),
     Native::pure("cloud", parameters![points: &[Value]], |_, call| {
         Ok(Value::Cloud(Rc::new(points(call, "points")?)))
     }),
 ];
 
+/// The steepest slope, rad: 50°, of which the heights stay within what geometry reaches.
+const SLOPE_MAX: f64 = 50.0 * std::f64::consts::PI / 180.0;
+/// Threshold: the horizontal part of a direction from which on it is not vertical, without unit.
+const TOL_VERTICAL: f64 = 1e-9;
 /// The greatest number of divisions of an octet truss: more give more nodes than a truss may have.
 const DIVISIONS_MAX: usize = 16;
 /// The greatest number of tetrahedra of a helix.
@@ -294,6 +299,21 @@ fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         Some(fault) => Err(call.refuse("heights", fault)),
         None => Ok(Value::Terrain(Rc::new(field))),
     }
+}
+
+/// Runs `slope`: a plane through the origin as a height field.
+fn slope(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let angle: f64 = call.get("angle")?;
+    if angle.abs() > SLOPE_MAX {
+        return Err(call.refuse("angle", "a slope rises by at most 50deg"));
+    }
+    let along = call.get::<Vec3>("along")?.xy();
+    let length = along.norm();
+    if !(length > TOL_VERTICAL && length.is_finite()) {
+        return Err(call.refuse("along", "a slope rises along a direction that is not vertical"));
+    }
+    let along = (along / length).into();
+    Ok(Value::Terrain(Rc::new(HeightField::plane(along, libm::tan(angle)))))
 }
 
 fn subdivided(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -1,6 +1,7 @@
 //! `simulate`: a plan played by rigid bodies, as it is called, and the record that it gives.
 
 use super::Native;
+use crate::geometry::HeightField;
 use crate::interpret::argument::{Positive, arguments};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -16,6 +17,7 @@ use crate::simulate::{
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, fixed, quantity};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// The built-in `simulate`: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[Native::on_run("simulate", SimulateArguments::PARAMETERS, simulate)];
@@ -43,6 +45,7 @@ arguments! {
         mass_spread: f64,
         torque_spread: f64,
         stiffness_spread: f64,
+        terrain: Option<&'c HeightField>,
     }
 }
 
@@ -74,7 +77,9 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let spread = Spread { friction, mass, effort, stiffness };
     let Some(planned) = interpreter.plan_of(read.what, call.at("what"))? else { return Ok(Value::Unknown) };
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
-    let settings = Settings { step: read.step.0, friction: read.friction, servo, ..Settings::default() };
+    let terrain = read.terrain.map(|field| Arc::new(field.clone()));
+    let (step, friction) = (read.step.0, read.friction);
+    let settings = Settings { step, friction, servo, terrain, ..Settings::default() };
     let refused = |refusal: Refusal| refused(&refusal, call);
     // Lattices and trusses are refused before anything judges them.
     if planned.plan.body.tracks().is_none() {
@@ -95,6 +100,9 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     } else if plan.nominal {
         notes.push("the plan holds no program, so that its conditions are as planned".to_string());
     }
+    if settings.terrain.is_some() {
+        notes.push("the plan is made for level ground, and no verdict is on this one".to_string());
+    }
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
@@ -103,6 +111,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Returns the fault of a refusal, at the argument that it is about.
 fn refused(refusal: &Refusal, call: &Call) -> Stop {
     match refusal {
+        Refusal::Terrain(_) => call.refuse("terrain", refusal.to_string()),
         Refusal::Step => call.refuse("step", refusal.to_string()),
         Refusal::NoInertia { .. } => Diagnostic::error(code::BAD_VALUE, refusal.to_string())
             .label(call.at("what"), "this can't be simulated")

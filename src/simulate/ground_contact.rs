@@ -1,11 +1,15 @@
 //! Contacts of links with the ground: where they touch it.
+//!
+//! On ground that is not level it is the points of links that meet the ground: a peak of it that is thinner than a link, so
+//! that it comes between them, is not felt.
 
 use super::contact::{Contact, Spring};
 use super::model::{Model, Surface};
-use crate::geometry::ground_features::{CIRCLE_POINTS, tread};
-use crate::geometry::{Mat3, Pose, Vec3};
+use crate::geometry::ground_features::{CIRCLE_POINTS, Feature, tread};
+use crate::geometry::{HeightField, Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::ArticulatedBodies;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
+use std::sync::Arc;
 
 /// A point of a link that touches the ground.
 #[derive(Clone, Copy, Debug)]
@@ -27,17 +31,19 @@ pub(super) struct GroundContact {
 /// The greatest number of points of a feature: those of a circle, and one between two rims.
 const FEATURE_POINTS: usize = CIRCLE_POINTS as usize + 1;
 
-/// A point of a body below the ground: its spring, its position in the world (m), and the centre of its feature from the
-/// point that spatial vectors are about (m).
+/// A point of a body below the ground: its spring, its position in the world (m), the centre of its feature there (m), and
+/// the ground's normal there and the depth along it, m.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     body: usize,
     spring: usize,
     at: Vec3,
     centre: Vec3,
+    normal: Vec3,
+    depth: f64,
 }
 
-/// The ground under a robot: level, at height 0.
+/// The ground under a robot: level, at height 0, or a height field.
 #[derive(Clone, Debug)]
 pub(super) struct GroundContacts {
     /// The springs of all points of all ground features, in the order of the bodies.
@@ -46,19 +52,22 @@ pub(super) struct GroundContacts {
     pub contacts: Vec<GroundContact>,
     /// The bodies that touched in the step before, ascending.
     touched: Vec<usize>,
+    /// The height field with its greatest height, m; `None`: the ground is level.
+    terrain: Option<(Arc<HeightField>, f64)>,
     /// The time step, s.
     step: f64,
 }
 
 impl GroundContacts {
-    /// Returns the ground under a robot that touches it nowhere; `step`: the time step, s.
-    pub(super) fn new(model: &Model, step: f64) -> GroundContacts {
+    /// Returns the ground under a robot that touches it nowhere, level if there is no height field; `step`: the time step, s.
+    pub(super) fn new(model: &Model, terrain: Option<&Arc<HeightField>>, step: f64) -> GroundContacts {
         let points = |features: &Vec<_>| features.len() * FEATURE_POINTS;
         let springs = model.bodies.iter().map(|body| points(&body.features)).sum();
         GroundContacts {
             springs: vec![Spring::default(); springs],
             contacts: Vec::new(),
             touched: Vec::new(),
+            terrain: terrain.map(|field| (field.clone(), field.highest())),
             step,
         }
     }
@@ -76,39 +85,29 @@ impl GroundContacts {
         self.touched.clear();
         self.touched.extend(self.contacts.iter().map(|contact| contact.body));
         self.contacts.clear();
-        let up = Vec3::z();
+        let terrain = self.terrain.take();
         let mut first = 0;
         for (index, body) in model.bodies.iter().enumerate() {
             let own = first;
             first += body.features.len() * FEATURE_POINTS;
             let pose = &poses[index];
+            let highest = terrain.as_ref().map_or(0.0, |(_, highest)| *highest);
+            let own_up = pose.rotation.inverse_transform_vector(&Vec3::z());
             let height = pose.translation.vector.z;
-            let own_up = pose.rotation.inverse_transform_vector(&up);
-            if body.features.is_empty() || height + body.bounds.lowest(&own_up) >= 0.0 {
+            if body.features.is_empty() || height + body.bounds.lowest(&own_up) >= highest {
                 continue;
             }
-            for (number, feature) in body.features.iter().enumerate() {
-                if height + feature.lowest(&own_up) >= 0.0 {
-                    continue;
-                }
-                let rims =
-                    number.checked_sub(1).and_then(|before| tread(&body.features[before], feature, &own_up));
-                let below = |k: &u8| height + feature.height(*k, &own_up) < 0.0;
-                let points = (0..feature.points()).filter(below).map(|k| (k, feature.point(k, &own_up)));
-                let rims = rims.map(|rim| (CIRCLE_POINTS, rim));
-                let points = points.chain(rims);
-                for (k, p) in points {
-                    let at = pose.transform_point(&p.into()).coords;
-                    if at.z < 0.0 {
-                        // The touching point of a round feature goes with its centre, not with the material.
-                        let centre = pose.transform_point(&feature.centre.into()).coords - origin;
-                        let spring = own + number * FEATURE_POINTS + usize::from(k);
-                        let touch = Touch { body: index, spring, at, centre };
-                        self.contacts.push(self.contact(touch, bodies, &body.surface, origin, now));
-                    }
-                }
+            let found = |(number, k), at, centre, normal, depth| {
+                let spring = own + number * FEATURE_POINTS + usize::from(k);
+                let touch = Touch { body: index, spring, at, centre, normal, depth };
+                self.contacts.push(self.contact(touch, bodies, &body.surface, origin, now));
+            };
+            match &terrain {
+                None => level(&body.features, pose, &own_up, found),
+                Some((field, _)) => uneven(&body.features, pose, field, found),
             }
         }
+        self.terrain = terrain;
     }
 
     /// Returns the contact of a point.
@@ -121,7 +120,8 @@ impl GroundContacts {
         now: u64,
     ) -> GroundContact {
         let twist = bodies.velocity(touch.body);
-        let turning = twist.angular.cross(&twist.at(&touch.centre)) * self.step;
+        // The touching point of a round feature goes with its centre, not with the material.
+        let turning = twist.angular.cross(&twist.at(&(touch.centre - origin))) * self.step;
         let point = touch.at - origin;
         GroundContact {
             body: touch.body,
@@ -130,8 +130,8 @@ impl GroundContacts {
             coasting: twist.at(&point) + turning,
             is_new: self.touched.binary_search(&touch.body).is_err(),
             contact: Contact::new(
-                Vec3::z(),
-                -touch.at.z,
+                touch.normal,
+                touch.depth,
                 surface,
                 (&self.springs[touch.spring], now),
                 self.step,
@@ -173,6 +173,61 @@ impl GroundContacts {
             self.springs[contact.spring] = contact.contact.kept(&velocity, self.step, now);
         }
     }
+}
+
+/// Finds the points of a body's features below level ground. Calls `found` with the number of the feature and that of the
+/// point in it, the point and the centre of its feature in the world (m), the ground's normal, and the depth, m. `up`: the
+/// vertical in the frame of the link.
+fn level(
+    features: &[Feature],
+    pose: &Pose,
+    up: &Vec3,
+    mut found: impl FnMut((usize, u8), Vec3, Vec3, Vec3, f64),
+) {
+    let height = pose.translation.vector.z;
+    for (number, feature) in features.iter().enumerate() {
+        if height + feature.lowest(up) >= 0.0 {
+            continue;
+        }
+        let below = |k: &u8| height + feature.height(*k, up) < 0.0;
+        let points = (0..feature.points()).filter(below).map(|k| (k, feature.point(k, up)));
+        for (k, p) in points.chain(between_rims(features, number, up)) {
+            let at = pose.transform_point(&p.into()).coords;
+            if at.z < 0.0 {
+                let centre = pose.transform_point(&feature.centre.into()).coords;
+                found((number, k), at, centre, Vec3::z(), -at.z);
+            }
+        }
+    }
+}
+
+/// Finds the points of a body's features below uneven ground, as [`level`] does on level one. Round features touch it
+/// where they are lowest along the ground's normal under their centre.
+fn uneven(
+    features: &[Feature],
+    pose: &Pose,
+    field: &HeightField,
+    mut found: impl FnMut((usize, u8), Vec3, Vec3, Vec3, f64),
+) {
+    for (number, feature) in features.iter().enumerate() {
+        let centre = pose.transform_point(&feature.centre.into()).coords;
+        let up = pose.rotation.inverse_transform_vector(&field.normal(centre.x, centre.y));
+        let points = (0..feature.points()).map(|k| (k, feature.point(k, &up)));
+        for (k, p) in points.chain(between_rims(features, number, &up)) {
+            let at = pose.transform_point(&p.into()).coords;
+            let above = field.above(at);
+            if above < 0.0 {
+                let normal = field.normal(at.x, at.y);
+                found((number, k), at, centre, normal, -above * normal.z);
+            }
+        }
+    }
+}
+
+/// Returns the point between a rim and the one before it, with its number in the feature, if both are of one cylinder.
+fn between_rims(features: &[Feature], number: usize, up: &Vec3) -> Option<(u8, Vec3)> {
+    let before = number.checked_sub(1)?;
+    tread(&features[before], &features[number], up).map(|p| (CIRCLE_POINTS, p))
 }
 
 impl GroundContact {

@@ -5,7 +5,7 @@
 //!
 //! In reading order: the robot as trees of bodies with servos (`model`), what the plan or its program commands (`commands`)
 //! and what sensors tell it (`sensing`), the time steps (`stepper`), the force of a contact (`contact`), contacts with the
-//! ground (`ground_contact`) and between links (`link_contact`), what couples bodies besides joints (`coupling`), what is
+//! ground (`ground_contact`), which need not be level (`terrain`), and between links (`link_contact`), what couples bodies besides joints (`coupling`), what is
 //! measured (`outcome`) and kept of the motion (`recording`), and many runs of one plan (`robustness`). The method is that
 //! of articulated bodies ([`crate::robot::articulated_bodies`]) with all springs and dampers at the end of the step.
 #![allow(non_snake_case)]
@@ -24,6 +24,7 @@ mod robustness;
 mod sensing;
 mod settings;
 mod stepper;
+mod terrain;
 mod words;
 
 use crate::behavior::unfaithful;
@@ -33,6 +34,7 @@ use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 use crate::robot::Assembly;
 use commands::Commands;
 use coupling::Couplings;
+use ground_contact::GroundContacts;
 use link_contact::LinkContacts;
 use model::Model;
 use outcome::Recorder;
@@ -43,6 +45,7 @@ pub use refusal::Refusal;
 pub use robustness::{Factors, Run, Spread, study};
 pub use settings::{ServoGains, Settings};
 use stepper::Stepper;
+pub use terrain::Terrain;
 
 /// Plays a plan: the robot stands for 0.3 s, moves as its servos follow the plan, and stands for 0.3 s again. The program of
 /// a plan that depends on sensors or timeouts is executed, with conditions on what is simulated.
@@ -58,6 +61,12 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
     }
     if let Some(setting) = settings.unsound() {
         return Err(Refusal::Setting(setting));
+    }
+    if let Some(field) = &settings.terrain {
+        let floor = plan.worlds.first().is_some_and(|first| first.world.has_floor());
+        let fault =
+            if floor { field.fault() } else { Some("the plan's world has no ground that could be uneven") };
+        fault.map_or(Ok(()), |fault| Err(Refusal::Terrain(fault)))?;
     }
     if plan.nominal
         && let Some(failure) = unfaithful(plan)
@@ -80,7 +89,7 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
 /// # Errors
 /// Those of [`simulate`] with the whole step.
 pub fn simulate_halving(plan: &Plan, settings: &Settings) -> Result<(Simulation, String), Refusal> {
-    let halved = Settings { step: settings.step / 2.0, ..*settings };
+    let halved = Settings { step: settings.step / 2.0, ..settings.clone() };
     let (outcome, finer) = interrupt::join(|| simulate(plan, settings), || simulate(plan, &halved));
     let outcome = outcome?;
     let words = match finer {
@@ -101,7 +110,11 @@ fn run(
     let robot = &tracks.robot;
     let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
     let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
-    let model = Model::new(tracks, &X_WB, &world, settings, apart);
+    let mut model = Model::new(tracks, &X_WB, &world, settings, apart);
+    let terrain = settings.terrain.as_ref().map(|field| Terrain::under(&model, field));
+    if let Some(terrain) = &terrain {
+        model.start.iter_mut().for_each(|pose| *pose = terrain.X_WP * *pose);
+    }
     let links = match settings.link_contacts {
         true => Some(LinkContacts::new(&model, robot).map_err(Refusal::Shape)?),
         false => None,
@@ -109,9 +122,10 @@ fn run(
     let couplings = Couplings::new(&model, robot, &tracks.start.bonds, links);
     let gravity = if world.ground == Ground::Off { 0.0 } else { world.gravity };
     let h = settings.step;
-    let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, world.has_floor(), h);
+    let ground = world.has_floor().then(|| GroundContacts::new(&model, settings.terrain.as_ref(), h));
+    let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, ground, h);
     let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
-    let mut recorder = Recorder::new(&model, apart, commands.longest(), h);
+    let mut recorder = Recorder::new(&model, (terrain, apart), commands.longest(), h);
     let steps = |time: f64| libm::ceil(time / h - 1e-9) as i64;
     let mut number = -steps(PARAMETERS.settle);
     while commands.end().is_none_or(|end| number < steps(end + PARAMETERS.rest)) {

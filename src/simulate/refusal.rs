@@ -19,6 +19,8 @@ pub enum Refusal {
     Step,
     /// The setting of this name is negative or not finite, or zero where it must be positive.
     Setting(&'static str),
+    /// The ground can't be that of the simulation, for this reason in words.
+    Terrain(&'static str),
     /// A joint or a base has no inertia to move, or values are no longer finite.
     NoInertia {
         /// The time from the start of the plan, s.
@@ -40,6 +42,7 @@ impl std::fmt::Display for Refusal {
                 Settings::STEP_MAX * 1e3
             ),
             Refusal::Setting(name) => write!(f, "the {name} must be a number, and not below zero"),
+            Refusal::Terrain(why) => f.write_str(why),
             Refusal::NoInertia { time } => {
                 write!(f, "at {time:.3}s something moves that has no mass, or moves beyond all bounds")
             }

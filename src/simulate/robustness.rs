@@ -111,7 +111,7 @@ pub fn study(
 
 /// Plays a plan with factors; keeps so many points of its way.
 fn run(plan: &Plan, settings: &Settings, factors: &Factors, points: usize) -> Result<Run, Refusal> {
-    let mut varied = *settings;
+    let mut varied = settings.clone();
     varied.friction *= factors.friction;
     varied.mass *= factors.mass;
     varied.servo.effort *= factors.effort;

@@ -1,5 +1,8 @@
 //! The settings of a simulation.
 
+use crate::geometry::HeightField;
+use std::sync::Arc;
+
 /// The servos where they are not those of the modules.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ServoGains {
@@ -24,7 +27,7 @@ impl Default for ServoGains {
 }
 
 /// The settings of a simulation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The time step, s.
     pub step: f64,
@@ -36,6 +39,8 @@ pub struct Settings {
     pub servo: ServoGains,
     /// True if links push each other apart where they meet; false if they pass through each other.
     pub link_contacts: bool,
+    /// The ground in place of level one, where the world has a floor; a [sound](HeightField::fault) height field.
+    pub terrain: Option<Arc<HeightField>>,
 }
 
 impl Settings {
@@ -73,6 +78,7 @@ impl Default for Settings {
             mass: 1.0,
             servo: ServoGains::default(),
             link_contacts: true,
+            terrain: None,
         }
     }
 }

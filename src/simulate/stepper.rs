@@ -62,14 +62,14 @@ pub(super) struct Stepper<'a> {
 pub(super) struct NoInertia;
 
 impl<'a> Stepper<'a> {
-    /// Returns a robot at rest with its joints at `joints` (rad or m, by their ids). `gravity`: m/s², downwards; `step`:
-    /// the time step, s.
+    /// Returns a robot at rest with its joints at `joints` (rad or m, by their ids). `gravity`: m/s², downwards; `ground`:
+    /// that under it, if there is one; `step`: the time step, s.
     pub(super) fn new(
         model: &'a Model,
         couplings: Couplings,
         joints: &[f64],
         gravity: f64,
-        floor: bool,
+        ground: Option<GroundContacts>,
         step: f64,
     ) -> Stepper<'a> {
         let attachments: Vec<Attachment> = model.bodies.iter().map(|body| body.attachment).collect();
@@ -79,7 +79,7 @@ impl<'a> Stepper<'a> {
             step,
             gravity: Vec3::new(0.0, 0.0, -gravity),
             bodies: ArticulatedBodies::new(&attachments),
-            ground: floor.then(|| GroundContacts::new(model, step)),
+            ground,
             couplings,
             poses: model.start.clone(),
             bases: model.start.clone(),

@@ -4,6 +4,7 @@ use super::input::RenderInput;
 use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
+use crate::geometry::Pose;
 use crate::plan::verify::articulated::{CONTACTS_MAX, Moment, clearances, history};
 use crate::plan::{Body, Ground, ObjectiveValue, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
@@ -35,12 +36,16 @@ pub(super) fn data(input: &RenderInput) -> Value {
     data
 }
 
-/// Returns the same of the whole motion of a plan alone, without what is judged of it.
-pub(super) fn nominal(input: &RenderInput) -> Value {
+/// Returns the same of the whole motion of a plan alone, without what is judged of it. `X_WP`: the pose of the plan's world
+/// in that of the page.
+#[allow(non_snake_case)]
+pub(super) fn nominal(input: &RenderInput, X_WP: &Pose) -> Value {
     let plan = input.plan;
     let end = plan.body.duration();
     let mut notes = Vec::new();
-    let mut data = motion(input, &history(plan, end), end, &mut notes);
+    let mut moments = history(plan, end);
+    moments.iter_mut().for_each(|moment| moment.base = X_WP * moment.base);
+    let mut data = motion(input, &moments, end, &mut notes);
     data["notes"] = notes.into();
     for none in ["clearance", "stand", "contacts"] {
         data[none] = json!([]);

@@ -7,10 +7,12 @@ use super::number::{list, number, place, vector};
 use super::robot::MeasuredTrees;
 use super::tolerances::TOLERANCES;
 use super::{data, findings};
-use crate::geometry::{Pose, Vec3, ground_features};
+use crate::geometry::{HeightField, Pose, Vec3, ground_features};
 use crate::plan::Tracks;
 use crate::robot::{Assembly, JointId, JointOwner};
-use crate::simulate::{BondEvent, BondEventKind, ContactForce, Drive, Extreme, Moment, Run, Simulation};
+use crate::simulate::{
+    BondEvent, BondEventKind, ContactForce, Drive, Extreme, Moment, Run, Simulation, Terrain,
+};
 use crate::units::{Dimension, fixed, quantity};
 use serde_json::{Value, json};
 
@@ -25,6 +27,9 @@ const PATHS_MAX: usize = 20_000;
 
 /// The most runs whose paths are in one page.
 const RUNS_MAX: usize = 2000;
+
+/// The squares along each axis in which terrain is drawn.
+const TERRAIN_CELLS: usize = 40;
 
 /// The length of the arrow of the robot's whole weight, as a part of about how large the robot is: of several feet, each has
 /// a part of it.
@@ -47,7 +52,8 @@ pub struct SimulationInput<'a> {
 pub(super) fn data(input: &RenderInput, shown: &SimulationInput) -> Value {
     let Some(tracks) = input.plan.body.tracks() else { return data::data(input) };
     let outcome = shown.outcome;
-    let mut page = data::nominal(input);
+    let placed = outcome.terrain.as_ref().map_or(Pose::identity(), |terrain| terrain.X_WP);
+    let mut page = data::nominal(input, &placed);
     let mut notes: Vec<String> = Vec::new();
     let mut measured =
         measured(tracks, shown, input.plan.worlds.first().map_or(0.0, |w| w.world.gravity), &mut notes);
@@ -61,6 +67,10 @@ pub(super) fn data(input: &RenderInput, shown: &SimulationInput) -> Value {
     page["verdict"] = told(tracks, shown);
     if let Some(list) = page["notes"].as_array_mut() {
         list.extend(notes.into_iter().map(Value::from));
+    }
+    if let Some(terrain) = &outcome.terrain {
+        page["ground"] = json!(false);
+        measured["terrain"] = terrain_lines(&terrain.field, outcome, size(&tracks.robot));
     }
     page["simulation"] = measured;
     page
@@ -179,7 +189,7 @@ fn measured(tracks: &Tracks, shown: &SimulationInput, gravity: f64, notes: &mut 
         "contacts": moments.iter().map(|moment| contacts(&moment.contacts, newton)).collect::<Vec<_>>(),
         "newtons": newtons(robot, &outcome.motion, gravity),
         "fell": outcome.fall.and_then(|time| base_at(outcome, time)).map(|at| list([at.x, at.y].map(place))),
-        "runs": runs(shown.runs, notes),
+        "runs": runs(shown.runs, outcome.terrain.as_ref(), notes),
     })
 }
 
@@ -284,8 +294,30 @@ fn size(robot: &Assembly) -> f64 {
     2.0 * one * libm::cbrt(robot.modules.len() as f64)
 }
 
-/// Returns `[column of x, column of y, [x, y] where it falls or null]` of each run. Adds a note if some are left out.
-fn runs(runs: &[Run], notes: &mut Vec<String>) -> Vec<Value> {
+/// Returns lines along x and y on the terrain around the way of a robot, each as a flat list of x, y, z in metres; `size`:
+/// that of the robot, m.
+fn terrain_lines(field: &HeightField, outcome: &Simulation, size: f64) -> Value {
+    let way = || outcome.motion.iter().map(|moment| moment.base.translation.vector);
+    let [across, along] = [0, 1].map(|axis| {
+        let (low, high) = way().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+            (low.min(at[axis]), high.max(at[axis]))
+        });
+        let (low, high) = (low - size, high + size);
+        move |i: usize| low + (high - low) * i as f64 / TERRAIN_CELLS as f64
+    });
+    let point = |i: usize, j: usize| {
+        let (x, y) = (across(i), along(j));
+        [x, y, field.height(x, y)].map(place)
+    };
+    let line = |k: usize, is_across: bool| {
+        list((0..=TERRAIN_CELLS).flat_map(|i| if is_across { point(i, k) } else { point(k, i) }))
+    };
+    (0..=TERRAIN_CELLS).flat_map(|k| [line(k, true), line(k, false)]).collect()
+}
+
+/// Returns `[number of places, column of x, column of y, [x, y] where it falls or null, column of heights or null]` of each
+/// run; heights are those of the terrain. Adds a note if some are left out.
+fn runs(runs: &[Run], terrain: Option<&Terrain>, notes: &mut Vec<String>) -> Vec<Value> {
     let count = runs.len().min(RUNS_MAX);
     if count < runs.len() {
         notes.push(format!("of the paths of {} runs the first {count} are drawn", runs.len()));
@@ -296,7 +328,10 @@ fn runs(runs: &[Run], notes: &mut Vec<String>) -> Vec<Value> {
         let last = run.path.len().saturating_sub(1);
         let kept = || run.path.iter().enumerate().filter(move |(i, _)| i % stride == 0 || *i == last);
         let along = |axis: usize| column(TOLERANCES.way, kept().map(move |(_, at)| at[axis]));
-        json!([kept().count(), along(0), along(1), run.fell_at.map(|at| list(at.map(place)))])
+        let height = |at: &[f64; 2]| terrain.map(|terrain| terrain.field.height(at[0], at[1]));
+        let heights = terrain.map(|_| column(TOLERANCES.way, kept().filter_map(|(_, at)| height(at))));
+        let fell = run.fell_at.map(|at| list(at.into_iter().chain(height(&at)).map(place)));
+        json!([kept().count(), along(0), along(1), fell, heights])
     };
     runs[..count].iter().map(path).collect()
 }

@@ -228,3 +228,32 @@ fn a_simulation_is_a_page_and_no_picture() {
     assert!(said.iter().any(|message| message.contains("simulation's page ends in `.html`")), "{said:?}");
     assert!(desk.written.is_empty());
 }
+
+#[test]
+fn on_a_slope_the_page_draws_the_slope_and_leans_the_plan_with_it() {
+    let program = "module Block { link body = box(100mm, 60mm, 40mm, mass: 1kg, friction: 0.3) }
+config One { part b: Block  behavior rest = wait(1s) }
+let b = One().rest()
+";
+    let measured = Measured::of(&shown(program, "", ", terrain: slope(25deg)"));
+    let rise = libm::tan(25_f64.to_radians());
+    assert_eq!(measured.data["ground"], false);
+    let lines = measured.data["simulation"]["terrain"].as_array().expect("lines");
+    let numbers = lines.iter().flat_map(|line| line.as_array().expect("numbers"));
+    let numbers: Vec<f64> = numbers.map(|x| x.as_f64().expect("a number")).collect();
+    for point in numbers.chunks(3) {
+        assert!((point[2] - rise * point[0]).abs() < 2e-4, "{point:?}");
+    }
+    // It slides down, 20 mm above the slope, and the plan stays where it stood, turned against the slope's rise.
+    let (x, z) = (measured.base(0, 0), measured.base(0, 2));
+    for (x, z) in x.iter().zip(&z) {
+        assert!((z - rise * x - 0.02 / libm::cos(25_f64.to_radians())).abs() < 3e-4, "{x} {z}");
+    }
+    assert!(x[x.len() - 1] < x[0] - 0.5);
+    let base = measured.data["body"]["base"].as_array().expect("keys");
+    let half = -libm::sin(12.5_f64.to_radians());
+    for key in base {
+        let turn = key[5].as_f64().expect("a number");
+        assert!((turn - half).abs() < 1e-6, "{key}");
+    }
+}

@@ -65,7 +65,7 @@ class Tracks:
         return position, velocity
 
 
-def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False, step=None):
+def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False, step=None, slope=0.0):
     """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan."""
     model = mujoco.MjModel.from_xml_string(text)
     if step is not None:
@@ -85,6 +85,9 @@ def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=Fa
     if ground_only:
         ground = model.geom_bodyid == 0
         model.geom_contype[:], model.geom_conaffinity[:] = ground, ~ground
+    # Level ground that leans with all that stands on it: x goes up, and so gravity draws back.
+    gravity = -model.opt.gravity[2]
+    model.opt.gravity[:] = -gravity * math.sin(slope), 0.0, -gravity * math.cos(slope)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)

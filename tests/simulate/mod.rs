@@ -9,3 +9,4 @@ mod fixtures;
 mod mujoco;
 mod robustness;
 mod sensing;
+mod terrain;

@@ -76,20 +76,20 @@ fn extreme_settings_give_numbers_or_are_refused() {
     let undamped = ServoGains { damping: Some(0.0), ..ServoGains::default() };
     let plain = Settings::default();
     let settings = [
-        Settings { step: Settings::STEP_MAX, ..plain },
-        Settings { step: Settings::STEP_MAX, servo: strong, ..plain },
-        Settings { servo: stiff, ..plain },
-        Settings { servo: strong, ..plain },
-        Settings { servo: soft, ..plain },
-        Settings { servo: weak, ..plain },
-        Settings { servo: undamped, ..plain },
-        Settings { mass: 1e-3, ..plain },
-        Settings { mass: 1e-3, servo: strong, step: Settings::STEP_MAX, ..plain },
-        Settings { mass: 10.0, ..plain },
-        Settings { friction: 0.0, ..plain },
-        Settings { friction: 10.0, ..plain },
-        Settings { friction: 10.0, step: Settings::STEP_MAX, servo: strong, ..plain },
-        Settings { link_contacts: false, ..plain },
+        Settings { step: Settings::STEP_MAX, ..plain.clone() },
+        Settings { step: Settings::STEP_MAX, servo: strong, ..plain.clone() },
+        Settings { servo: stiff, ..plain.clone() },
+        Settings { servo: strong, ..plain.clone() },
+        Settings { servo: soft, ..plain.clone() },
+        Settings { servo: weak, ..plain.clone() },
+        Settings { servo: undamped, ..plain.clone() },
+        Settings { mass: 1e-3, ..plain.clone() },
+        Settings { mass: 1e-3, servo: strong, step: Settings::STEP_MAX, ..plain.clone() },
+        Settings { mass: 10.0, ..plain.clone() },
+        Settings { friction: 0.0, ..plain.clone() },
+        Settings { friction: 10.0, ..plain.clone() },
+        Settings { friction: 10.0, step: Settings::STEP_MAX, servo: strong, ..plain.clone() },
+        Settings { link_contacts: false, ..plain.clone() },
     ];
     let mut wrong = vec![];
     for (number, plan) in plans().iter().enumerate() {

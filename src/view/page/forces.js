@@ -55,11 +55,18 @@ function arrow(p, d, size, eye, theme) {
   ];
 }
 
-/** A way over the ground through places [x, y]. */
+/** A way through places [x, y] at a height, or [x, y, z]. */
 function wayLines(places, height, width, colour) {
   const lines = [];
-  for (let i = 1; i < places.length; i++) lines.push({ a: [...places[i - 1], height], b: [...places[i], height], width, colour });
+  const at = ([x, y, z]) => [x, y, z ?? height];
+  for (let i = 1; i < places.length; i++) lines.push({ a: at(places[i - 1]), b: at(places[i]), width, colour });
   return lines;
+}
+
+/** Ground that is not level, as lines on it. */
+function terrainLines(plan, theme) {
+  const places = numbers => Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3));
+  return (plan.simulation.terrain || []).flatMap(numbers => wayLines(places(numbers), 0, 1, [...theme.ink, 0.22]));
 }
 
 /** The way of the base as it was measured, and as planned. */
@@ -68,14 +75,15 @@ function measuredTrail(plan, motion, floor, theme, nominal) {
   const kept = list => list.filter((_, i) => i % stride === 0 || i + 1 === list.length);
   const lines = wayLines(kept(motion.way), floor + 0.0012, 2, [...theme.ink, 0.5]);
   const keys = plan.body.base || [];
-  if (nominal) lines.push(...wayLines(keys.map(key => [key[1], key[2]]), floor + 0.0006, 2, [...rgb(PLAN_TINT), 0.4]));
+  const level = plan.simulation.terrain ? 3 : 2;
+  if (nominal) lines.push(...wayLines(keys.map(key => key.slice(1, 1 + level)), floor + 0.0006, 2, [...rgb(PLAN_TINT), 0.4]));
   if (plan.simulation.fell && plan.ground) lines.push(...crossLines(plan.simulation.fell, floor, 0.03, 3, theme));
   return lines;
 }
 
 /** A cross where something fell, its arms of so many metres. */
-function crossLines([x, y], floor, arm, width, theme) {
-  const at = (dx, dy) => [x + dx * arm, y + dy * arm, floor + 0.0009];
+function crossLines([x, y, floor], level, arm, width, theme) {
+  const at = (dx, dy) => [x + dx * arm, y + dy * arm, (floor ?? level) + 0.0009];
   const colour = [...theme.bad, 1];
   return [{ a: at(-1, -1), b: at(1, 1), width, colour }, { a: at(-1, 1), b: at(1, -1), width, colour }];
 }
@@ -84,10 +92,10 @@ function crossLines([x, y], floor, arm, width, theme) {
 const runWays = new Map();
 function runLines(plan, floor, theme) {
   if (runWays.has(theme.dark)) return runWays.get(theme.dark);
-  const lines = plan.simulation.runs.flatMap(([count, x, y, fell]) => {
-    const [xs, ys] = [columnOf(x, count), columnOf(y, count)];
+  const lines = plan.simulation.runs.flatMap(([count, x, y, fell, z]) => {
+    const [xs, ys, zs] = [x, y, z].map(column => column && columnOf(column, count));
     const colour = fell ? [...theme.bad, 0.75] : [...theme.good, 0.55];
-    const way = wayLines(Array.from(xs, (_, i) => [xs[i], ys[i]]), floor + 0.0004, 1, colour);
+    const way = wayLines(Array.from(xs, (_, i) => (zs ? [xs[i], ys[i], zs[i]] : [xs[i], ys[i]])), floor + 0.0004, 1, colour);
     return fell ? [...way, ...crossLines(fell, floor, 0.012, 1.5, theme)] : way;
   });
   runWays.set(theme.dark, lines);

@@ -36,8 +36,8 @@ function measuredMotion(plan, nominal) {
   return {
     ...nominal,
     nominal,
-    /** Where the base is on the ground at each moment, as [x, y]. */
-    way: Array.from(times, (_, i) => [trees[0].base[0][i], trees[0].base[1][i]]),
+    /** Where the base is on the ground at each moment, as [x, y]; where that is not level, its own place. */
+    way: Array.from(times, (_, i) => trees[0].base.slice(0, measured.terrain ? 3 : 2).map(column => column[i])),
     times,
     momentAt: t => at(t)[0],
     jointAt,
