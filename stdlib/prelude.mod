@@ -1903,7 +1903,8 @@ extern fn verify(
 ///
 /// On a `terrain` the robot stands at the start as it does on level ground, but leaning with the plane that lies best through
 /// the ground under its feet. The points of links touch the terrain: a peak that is thinner than a link, so that it comes
-/// between them, is not felt. No verdict is about such ground.
+/// between them, is not felt. `obstacles` are shapes in the world that stand fast, `placed` where they are; their friction is
+/// 0.5, or that of a rougher link on them. No verdict is about such ground, or knows of obstacles.
 ///
 /// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of
 /// motors, and the stiffness of servos drawn by `seed`: a spread of 0.2 is a factor that is uniform from 0.8 to 1.2, one
@@ -1927,6 +1928,7 @@ extern fn simulate(
   torque_spread: Number = 0,
   stiffness_spread: Number = 0,
   terrain: Terrain?,
+  obstacles: List<Shape> = [],
 ) -> Simulation
 
 /// What happens when a plan is played.

@@ -225,3 +225,15 @@ fn fixed(_: &mut Interpreter, _: &Call) -> Eval<Value> {
     let spec = JointSpec::fixed();
     Ok(Value::JointKind(Rc::new(spec)))
 }
+
+/// Returns the shapes of each obstacle in the argument `around`, placed in the world's frame (m).
+///
+/// # Errors
+/// A fault where one of them is no shape.
+pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
+    let shape = |value: &Value| match value {
+        Value::Shape(shape) => Ok(shape.parts.clone()),
+        _ => Err(call.refuse("obstacles", "shapes are wanted")),
+    };
+    around.iter().map(shape).collect()
+}

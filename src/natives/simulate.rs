@@ -1,6 +1,7 @@
 //! `simulate`: a plan played by rigid bodies, as it is called, and the record that it gives.
 
 use super::Native;
+use super::shape::obstacles;
 use crate::geometry::HeightField;
 use crate::interpret::argument::{Positive, arguments};
 use crate::interpret::interpreter::Interpreter;
@@ -46,6 +47,7 @@ arguments! {
         torque_spread: f64,
         stiffness_spread: f64,
         terrain: Option<&'c HeightField>,
+        obstacles: &'c [Value],
     }
 }
 
@@ -79,7 +81,8 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let terrain = read.terrain.map(|field| Arc::new(field.clone()));
     let (step, friction) = (read.step.0, read.friction);
-    let settings = Settings { step, friction, servo, terrain, ..Settings::default() };
+    let obstacles = obstacles(call, read.obstacles)?;
+    let settings = Settings { step, friction, servo, terrain, obstacles, ..Settings::default() };
     let refused = |refusal: Refusal| refused(&refusal, call);
     // Lattices and trusses are refused before anything judges them.
     if planned.plan.body.tracks().is_none() {
@@ -103,6 +106,9 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if settings.terrain.is_some() {
         notes.push("the plan is made for level ground, and no verdict is on this one".to_string());
     }
+    if !settings.obstacles.is_empty() {
+        notes.push("the plan knows no obstacles, and no verdict is about them".to_string());
+    }
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
@@ -111,6 +117,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Returns the fault of a refusal, at the argument that it is about.
 fn refused(refusal: &Refusal, call: &Call) -> Stop {
     match refusal {
+        Refusal::Obstacle(..) => call.refuse("obstacles", refusal.to_string()),
         Refusal::Terrain(_) => call.refuse("terrain", refusal.to_string()),
         Refusal::Step => call.refuse("step", refusal.to_string()),
         Refusal::NoInertia { .. } => Diagnostic::error(code::BAD_VALUE, refusal.to_string())

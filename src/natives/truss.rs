@@ -1,7 +1,8 @@
 //! `morph` and `locomote`: the planners of trusses, as they are called, and what they give back.
 
 use super::Native;
-use super::truss_limits::{LimitArguments, limits, obstacles};
+use super::shape::obstacles;
+use super::truss_limits::{LimitArguments, limits};
 use crate::geometry::{HeightField, Vec3};
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::design::{Design, DesignKind, Instance, TrussDesign};

@@ -1,6 +1,5 @@
 //! The limits that a call of `morph` or `locomote` sets beside those of the struts, and the obstacles it names.
 
-use crate::geometry::Placed;
 use crate::interpret::argument::arguments;
 use crate::interpret::design::TrussDesign;
 use crate::interpret::native::Call;
@@ -39,18 +38,6 @@ pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArgument
         locked: struts(call, "failed", arguments.failed, truss)?,
         loops,
     })
-}
-
-/// Returns the shapes of each obstacle in the argument `around`, placed in the world's frame (m).
-///
-/// # Errors
-/// A fault where one of them is no shape.
-pub(super) fn obstacles(call: &Call, around: &[Value]) -> Eval<Vec<Vec<Placed>>> {
-    let shape = |value: &Value| match value {
-        Value::Shape(shape) => Ok(shape.parts.clone()),
-        _ => Err(call.refuse("obstacles", "shapes are wanted")),
-    };
-    around.iter().map(shape).collect()
 }
 
 /// Returns the indices of struts by their names, `a -- b` or `b -- a`.

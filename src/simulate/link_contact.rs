@@ -3,9 +3,10 @@
 use super::contact::{Contact, Spring};
 use super::coupling::{Instant, Row, RowKind};
 use super::model::Model;
+use super::refusal::Refusal;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::distance::signed_distance_within;
-use crate::geometry::{Part, Pose, Solid, Unsound, Vec3, contact_point};
+use crate::geometry::{Part, Placed, Pose, Solid, Unsound, Vec3, contact_point};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::spatial::SpatialVector;
 use crate::robot::{Assembly, Bond};
@@ -53,6 +54,8 @@ pub(super) struct LinkContact {
 #[derive(Clone, Debug, Default)]
 pub(super) struct LinkContacts {
     shapes: Vec<Shape>,
+    /// The number of shapes that stand fast, which come before those of links.
+    standing: usize,
     /// The radius about the origin of each body within which its shapes lie, m; 0 of a body without shapes.
     reaches: Vec<f64>,
     /// The pairs of bodies that never push each other, the lesser index first.
@@ -78,18 +81,32 @@ const TOL_INSIDE: f64 = 1e-6;
 
 impl LinkContacts {
     /// Compiles the shapes of all links; those that joints or bonds of trees join, that are declared as touching, or that
-    /// begin inside each other, never push each other.
+    /// begin inside each other, never push each other. `obstacles`: solids placed in the world, on the body that stands fast.
     ///
     /// # Errors
-    /// [`Unsound`] for the first shape that is not sound.
-    pub(super) fn new(model: &Model, robot: &Assembly) -> Result<LinkContacts, Unsound> {
+    /// A [`Refusal`] for the first shape that is not sound, and for an obstacle in which a link begins.
+    pub(super) fn new(
+        model: &Model,
+        robot: &Assembly,
+        obstacles: &[Vec<Placed>],
+    ) -> Result<LinkContacts, Refusal> {
         let mut all = LinkContacts::default();
+        // The shapes of the obstacles come first, so that they are the first ones of pairs.
+        let mut obstacle_of = Vec::new();
+        for (body, (number, shapes)) in model.fixture.into_iter().cycle().zip((1..).zip(obstacles)) {
+            let refused = |fault: Unsound| Refusal::Obstacle(number, format!("is not sound: {fault}"));
+            for part in Solid::new(shapes).map_err(refused)?.parts {
+                obstacle_of.push(number);
+                all.shapes.push(Shape { body, part, touch: 0.0 });
+            }
+        }
+        all.standing = all.shapes.len();
         let pair = |a: usize, b: usize| (a.min(b), a.max(b));
         for module in 0..robot.modules.len() {
             let kind = robot.module_type(module);
             for (own, link) in kind.links.iter().enumerate() {
                 let body = model.body(module, own);
-                let parts = Solid::new(&link.collides)?.parts;
+                let parts = Solid::new(&link.collides).map_err(Refusal::Shape)?.parts;
                 all.shapes.extend(parts.into_iter().map(|part| Shape { body, part, touch: kind.touch }));
             }
             let joined = kind.joints.iter().map(|joint| (joint.parent, joint.child));
@@ -122,6 +139,12 @@ impl LinkContacts {
             let bodies = pair(first.body, second.body);
             let X_AB = model.start[first.body].inv_mul(&model.start[second.body]);
             let distance = signed_distance_within(&first.part, &second.part, &X_AB, None, NEAR).distance;
+            if let Some(number) = obstacle_of.get(a)
+                && distance < -TOL_INSIDE
+            {
+                let why = "stands where the robot is as the plan begins".to_owned();
+                return Err(Refusal::Obstacle(*number, why));
+            }
             if whole[first.body] == whole[second.body]
                 || distance < -first.touch.min(second.touch) - TOL_INSIDE
             {
@@ -139,9 +162,16 @@ impl LinkContacts {
             Aabb { low: centre - half, high: centre + half }
         };
         let boxes: Vec<Aabb> = self.shapes.iter().map(around).collect();
-        let size = self.shapes.iter().map(|shape| 2.0 * shape.part.radius).fold(NEAR, f64::max);
-        let mut found = Vec::new();
-        near_boxes(&boxes, NEAR, size, |a, b| {
+        let (standing, moving) = boxes.split_at(self.standing);
+        let links = &self.shapes[self.standing..];
+        let size = links.iter().map(|shape| 2.0 * shape.part.radius).fold(NEAR, f64::max);
+        // Obstacles may be so large that all would be near them.
+        let mut found: Vec<(usize, usize)> = (0..standing.len())
+            .flat_map(|a| (self.standing..boxes.len()).map(move |b| (a, b)))
+            .filter(|&(a, b)| boxes[a].gap(&boxes[b]).norm() < NEAR)
+            .collect();
+        near_boxes(moving, NEAR, size, |a, b| {
+            let (a, b) = (a + self.standing, b + self.standing);
             let bodies = (self.shapes[a].body, self.shapes[b].body);
             let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
             if bodies.0 != bodies.1 && !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {

@@ -115,8 +115,11 @@ fn run(
     if let Some(terrain) = &terrain {
         model.start.iter_mut().for_each(|pose| *pose = terrain.X_WP * *pose);
     }
+    if !settings.obstacles.is_empty() {
+        model.stand_fast(world.friction * settings.friction);
+    }
     let links = match settings.link_contacts {
-        true => Some(LinkContacts::new(&model, robot).map_err(Refusal::Shape)?),
+        true => Some(LinkContacts::new(&model, robot, &settings.obstacles)?),
         false => None,
     };
     let couplings = Couplings::new(&model, robot, &tracks.start.bonds, links);
@@ -125,7 +128,7 @@ fn run(
     let ground = world.has_floor().then(|| GroundContacts::new(&model, settings.terrain.as_ref(), h));
     let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, ground, h);
     let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
-    let mut recorder = Recorder::new(&model, (terrain, apart), commands.longest(), h);
+    let mut recorder = Recorder::new(&model, apart, commands.longest(), h);
     let steps = |time: f64| libm::ceil(time / h - 1e-9) as i64;
     let mut number = -steps(PARAMETERS.settle);
     while commands.end().is_none_or(|end| number < steps(end + PARAMETERS.rest)) {
@@ -177,7 +180,8 @@ fn run(
         }
         recorder.see(&stepper, &commands, time + h);
     }
-    Ok(Ok(recorder.end(&stepper, commands.end().unwrap_or(tracks.duration))))
+    let outcome = recorder.end(&stepper, commands.end().unwrap_or(tracks.duration));
+    Ok(Ok(Simulation { terrain, obstacles: settings.obstacles.clone(), ..outcome }))
 }
 
 /// Returns true if two ports that are so far from a perfect mate (m, rad) dock; where the connector of a bond states no

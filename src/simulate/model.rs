@@ -3,7 +3,7 @@
 use super::settings::{ServoGains, Settings};
 use crate::geometry::broad_phase::Aabb;
 use crate::geometry::ground_features::{self, Feature};
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::{Mat3, Pose, Vec3};
 use crate::plan::{Ground, LastingTrees, Tracks, World};
 use crate::robot::articulated_bodies::Attachment;
 use crate::robot::dynamics::{Dynamics, RigidBody};
@@ -152,8 +152,10 @@ pub(super) struct Model {
     pub bodies: Vec<Body>,
     /// The index in `bodies` of each link, by its number.
     body_of: Vec<usize>,
-    /// The index of the module of each body.
+    /// The index of the module of each body; `usize::MAX` of what stands fast.
     pub module_of: Vec<usize>,
+    /// The index of the body that stands fast and carries obstacles, the last; `None` without obstacles.
+    pub fixture: Option<usize>,
     /// The kinematics of the whole robot, which numbers links and joints.
     kinematics: Kinematics,
     /// The index in `bodies` of the body that each joint moves, by the number of its id; `None` for those that move none.
@@ -198,6 +200,7 @@ impl Model {
             coupled: Vec::new(),
             constraints: lasting.constraints,
             module_of: Vec::with_capacity(links.len()),
+            fixture: None,
             kinematics: lasting.start,
             carrying: Vec::new(),
             start: Vec::with_capacity(links.len()),
@@ -250,12 +253,32 @@ impl Model {
         model
     }
 
+    /// Adds a body that stands fast, to carry obstacles with this factor on friction. It comes after those of the robot, and is
+    /// of no module.
+    pub(super) fn stand_fast(&mut self, friction: f64) {
+        let friction = Link::FRICTION_DEFAULT * friction;
+        let surface =
+            Surface { friction, static_friction: friction, stiffness: robot::Surface::STIFFNESS_DEFAULT };
+        self.fixture = Some(self.bodies.len());
+        self.module_of.push(usize::MAX);
+        self.start.push(Pose::identity());
+        self.bodies.push(Body {
+            attachment: Attachment::Held,
+            step: None,
+            rigid: RigidBody { mass: 0.0, com: Vec3::zeros(), inertia: Mat3::zeros() },
+            joint: None,
+            surface,
+            bounds: Aabb::around([]),
+            features: Vec::new(),
+        });
+    }
+
     /// Returns the body of a link, given by the index of its module and its own in the module.
     pub(super) fn body(&self, module: usize, link: usize) -> usize {
         self.body_of[self.kinematics.link(module, link)]
     }
 
-    /// Returns the number of the link that each body is, among those of all modules in order.
+    /// Returns the number of the link that each body is, among those of all modules in order; 0 for what stands fast.
     pub(super) fn links(&self) -> Vec<usize> {
         let mut links = vec![0; self.bodies.len()];
         self.body_of.iter().enumerate().for_each(|(link, body)| links[*body] = link);

@@ -8,7 +8,7 @@ use super::stepper::Stepper;
 use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::{Placed, Pose, Vec3};
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
 const WINDOW: f64 = 0.05;
@@ -62,6 +62,8 @@ pub struct Simulation {
     pub step: f64,
     /// The ground where it was not level, with the robot put on it.
     pub terrain: Option<Terrain>,
+    /// The obstacles, each of shapes placed in the world.
+    pub obstacles: Vec<Vec<Placed>>,
     /// The duration of the plan, s, or of its program as it was executed.
     pub duration: f64,
     /// The displacement of the base from the start of the plan to 0.3 s after its end, m.
@@ -128,17 +130,13 @@ fn keep(known: &mut Option<Extreme>, value: f64, of: usize, time: f64) {
 impl<'a> Recorder<'a> {
     /// Returns the measurement of a robot that has not moved. `apart`: the bonds that are not in its trees although they
     /// hold all the time; `longest`: the longest that the motion may take, s; `step`: the time step, s.
-    pub(super) fn new(
-        model: &'a Model,
-        (terrain, apart): (Option<Terrain>, &[usize]),
-        longest: f64,
-        step: f64,
-    ) -> Recorder<'a> {
+    pub(super) fn new(model: &'a Model, apart: &[usize], longest: f64, step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
         let window = (libm::round(WINDOW / step) as usize).max(1);
         let out = Simulation {
             step,
-            terrain,
+            terrain: None,
+            obstacles: Vec::new(),
             duration: 0.0,
             travel: Vec3::zeros(),
             heading: 0.0,

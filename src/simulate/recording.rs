@@ -41,7 +41,7 @@ pub struct Moment {
 pub struct ContactForce {
     /// The number of the link that it acts on, among those of all modules in order.
     pub link: usize,
-    /// The number of the link that exerts it; `None`: the ground.
+    /// The number of the link that exerts it; `None`: the ground, or an obstacle.
     pub other: Option<usize>,
     /// The point in the world, m.
     pub point: Vec3,
@@ -79,7 +79,8 @@ impl Recording {
     /// Returns the empty recording of a robot over a duration, s.
     pub(super) fn new(model: &Model, duration: f64) -> Recording {
         let link_of = model.links();
-        let roots = (1..model.bodies.len()).filter(|&body| model.bodies[body].step.is_none()).collect();
+        let root = |body: &usize| model.bodies[*body].step.is_none() && model.fixture != Some(*body);
+        let roots = (1..model.bodies.len()).filter(root).collect();
         let drives = drives(model);
         let apart = time_apart(duration, model.moved_by.len() + drives.len());
         Recording { apart, next: 0.0, link_of, roots, drives, motion: Vec::new() }
@@ -132,7 +133,7 @@ impl Recording {
         let links = stepper.couplings.links.iter().flat_map(|links| &links.contacts);
         let of_links = links.map(|contact| ContactForce {
             link: self.link_of[contact.second],
-            other: Some(self.link_of[contact.first]),
+            other: (stepper.model.fixture != Some(contact.first)).then(|| self.link_of[contact.first]),
             point: stepper.origin + contact.point,
             force: contact.contact.force,
         });

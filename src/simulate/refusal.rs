@@ -21,6 +21,8 @@ pub enum Refusal {
     Setting(&'static str),
     /// The ground can't be that of the simulation, for this reason in words.
     Terrain(&'static str),
+    /// The obstacle of this number, from 1, can't be there, for this reason in words.
+    Obstacle(usize, String),
     /// A joint or a base has no inertia to move, or values are no longer finite.
     NoInertia {
         /// The time from the start of the plan, s.
@@ -42,6 +44,7 @@ impl std::fmt::Display for Refusal {
                 Settings::STEP_MAX * 1e3
             ),
             Refusal::Setting(name) => write!(f, "the {name} must be a number, and not below zero"),
+            Refusal::Obstacle(number, why) => write!(f, "obstacle {number} {why}"),
             Refusal::Terrain(why) => f.write_str(why),
             Refusal::NoInertia { time } => {
                 write!(f, "at {time:.3}s something moves that has no mass, or moves beyond all bounds")

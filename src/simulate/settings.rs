@@ -1,6 +1,6 @@
 //! The settings of a simulation.
 
-use crate::geometry::HeightField;
+use crate::geometry::{HeightField, Placed};
 use std::sync::Arc;
 
 /// The servos where they are not those of the modules.
@@ -37,10 +37,13 @@ pub struct Settings {
     pub mass: f64,
     /// The servos.
     pub servo: ServoGains,
-    /// True if links push each other apart where they meet; false if they pass through each other.
+    /// True if links push each other apart where they meet; false if they pass through each other, and through obstacles.
     pub link_contacts: bool,
     /// The ground in place of level one, where the world has a floor; a [sound](HeightField::fault) height field.
     pub terrain: Option<Arc<HeightField>>,
+    /// Solids in the world that stand fast, each of shapes placed in the world. Their friction is
+    /// [`Link::FRICTION_DEFAULT`](crate::robot::Link::FRICTION_DEFAULT), or that of a rougher link on them.
+    pub obstacles: Vec<Vec<Placed>>,
 }
 
 impl Settings {
@@ -79,6 +82,7 @@ impl Default for Settings {
             servo: ServoGains::default(),
             link_contacts: true,
             terrain: None,
+            obstacles: Vec::new(),
         }
     }
 }

@@ -3,11 +3,12 @@
 
 use super::columns::{column, unit_of};
 use super::input::RenderInput;
+use super::mesh::Mesh;
 use super::number::{list, number, place, vector};
 use super::robot::MeasuredTrees;
 use super::tolerances::TOLERANCES;
 use super::{data, findings};
-use crate::geometry::{HeightField, Pose, Vec3, ground_features};
+use crate::geometry::{HeightField, Placed, Pose, Vec3, ground_features};
 use crate::plan::Tracks;
 use crate::robot::{Assembly, JointId, JointOwner};
 use crate::simulate::{
@@ -72,6 +73,7 @@ pub(super) fn data(input: &RenderInput, shown: &SimulationInput) -> Value {
         page["ground"] = json!(false);
         measured["terrain"] = terrain_lines(&terrain.field, outcome, size(&tracks.robot));
     }
+    measured["obstacles"] = outcome.obstacles.iter().flat_map(|shapes| outlines(shapes)).collect();
     page["simulation"] = measured;
     page
 }
@@ -292,6 +294,12 @@ fn size(robot: &Assembly) -> f64 {
     };
     let one = (0..robot.modules.len()).map(reach).fold(TOLERANCES.module, f64::max);
     2.0 * one * libm::cbrt(robot.modules.len() as f64)
+}
+
+/// Returns the sharp edges of an obstacle, each as a flat list of x, y, z of its ends in metres.
+fn outlines(shapes: &[Placed]) -> Vec<Value> {
+    let edge = |ends: &[Vec3; 2]| list(ends.iter().flat_map(|p| [p.x, p.y, p.z].map(place)));
+    Mesh::of(shapes).edges.iter().map(edge).collect()
 }
 
 /// Returns lines along x and y on the terrain around the way of a robot, each as a flat list of x, y, z in metres; `size`:

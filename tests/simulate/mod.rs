@@ -7,6 +7,7 @@ mod contacts;
 mod facts;
 mod fixtures;
 mod mujoco;
+mod obstacles;
 mod robustness;
 mod sensing;
 mod terrain;

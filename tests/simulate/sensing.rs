@@ -1,6 +1,7 @@
 //! Programs that are executed with sensors: an arm whose measurements have closed forms.
 
 use super::fixtures::{GRAVITY, HELD, LEVEL, close, plan, play, step};
+use modl::geometry::{Placed, Shape, Vec3, pose::shifted};
 use modl::plan::{Body, Ground, World};
 use modl::simulate::{Refusal, Settings, Simulation, simulate};
 
@@ -78,6 +79,18 @@ fn an_arm_stops_where_it_touches_the_ground() {
     // The lower far edge of the cube is 220 mm along and 10 mm below: 220 sin + 10 cos = 25.
     let expected = libm::asin(25.0 / libm::hypot(220.0, 10.0)) - libm::atan(10.0 / 220.0);
     close(end(&played(20.0, lowers, FIXED)), -expected.to_degrees(), 0.1);
+}
+
+#[test]
+fn an_arm_stops_where_it_touches_an_obstacle() {
+    let lowers = "Sc(move(x.a.lift, to: -20deg, in: 4s, until: touching(x.t), timeout: 5s), x.stop())";
+    let program = format!("{ARM}let x = Reach(20deg)\nlet b = {lowers}\n");
+    let size = Vec3::new(0.1, 0.1, 0.02);
+    let step = Placed { pose: shifted(Vec3::new(0.2, 0.0, 0.01)), shape: Shape::Box { size } };
+    let settings = Settings { obstacles: vec![vec![step]], ..Settings::default() };
+    // The lower near edge of the cube is 200 mm along and 10 mm below, the step 5 mm below the joint: 200 sin - 10 cos = -5.
+    let expected = libm::atan(10.0 / 200.0) - libm::asin(5.0 / libm::hypot(200.0, 10.0));
+    close(end(&play(&plan(&program, FIXED), &settings)), expected.to_degrees(), 0.1);
 }
 
 #[test]

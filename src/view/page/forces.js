@@ -63,10 +63,11 @@ function wayLines(places, height, width, colour) {
   return lines;
 }
 
-/** Ground that is not level, as lines on it. */
-function terrainLines(plan, theme) {
+/** Ground that is not level, as lines on it, and the edges of obstacles. */
+function surroundingLines({ simulation }, theme) {
   const places = numbers => Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3));
-  return (plan.simulation.terrain || []).flatMap(numbers => wayLines(places(numbers), 0, 1, [...theme.ink, 0.22]));
+  const drawn = (lines, width, opacity) => lines.flatMap(numbers => wayLines(places(numbers), 0, width, [...theme.ink, opacity]));
+  return [...drawn(simulation.terrain || [], 1, 0.22), ...drawn(simulation.obstacles, 2, 0.6)];
 }
 
 /** The way of the base as it was measured, and as planned. */

@@ -183,7 +183,7 @@ function main() {
     const marks = [];
     //: if (options.trail) lines.push(...measuredTrail(plan, motion, plan.floor, lineTheme, options.nominal));
     //: if (options.paths) lines.push(...runLines(plan, plan.floor, lineTheme));
-    //: lines.push(...terrainLines(plan, lineTheme));
+    //: lines.push(...surroundingLines(plan, lineTheme));
     //: if (options.forces) marks.push(...forceArrows(plan, motion, state.t, framing.radius, camera.eye, lineTheme));
     //: if (!plan.simulation)
     if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));

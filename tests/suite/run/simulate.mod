@@ -198,3 +198,14 @@ print(slope(5deg, along: Z))
 //                       ^ E0506 not vertical
 print(simulate(plan(o.rest(), world: world(ground: held)), terrain: slope(5deg)).travel)
 //                                                                  ^^^^^^^^^^^ E0506 no ground that could be uneven
+
+--- obstacles
+use std.smores.Driver1
+let d = Driver1()
+let wall = placed(box(20mm, 300mm, 100mm), at: [150mm, 0mm, 50mm])
+let free = simulate(d.drive(t: 2s))
+let stopped = simulate(d.drive(t: 2s), obstacles: [wall])
+print(free.travel > 150mm, stopped.travel < 120mm, stopped.notes[1])
+//> true true the plan knows no obstacles, and no verdict is about them
+print(simulate(d.drive(t: 2s), obstacles: [placed(box(1m, 1m, 1m), at: [3m, 0m, 0m]), box(1m, 1m, 1m)]).travel)
+//                                        ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0506 obstacle 2 stands where the robot is
