@@ -122,7 +122,7 @@ fn ours(plan: &Plan, step: f64) -> f64 {
 /// Prints the time that many simulations with other friction take on two threads.
 fn many(plan: &Plan) {
     let settings = Settings { step: 1e-3, ..Settings::default() };
-    let spread = Spread { friction: 0.3, mass: 0.1, effort: 0.1, stiffness: 0.2 };
+    let spread = Spread { friction: 0.3, mass: 0.1, effort: 0.1, stiffness: 0.2, zero: 0.0 };
     let begin = Instant::now();
     let runs = study(plan, &settings, &spread, MANY, 1).expect("the plan is sound");
     let (time, duration) = (begin.elapsed().as_secs_f64(), runs[0].outcome.duration);

@@ -1908,7 +1908,7 @@ extern fn verify(
 ///
 /// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of
 /// motors, and the stiffness of servos drawn by `seed`: a spread of 0.2 is a factor that is uniform from 0.8 to 1.2, one
-/// for the whole robot.
+/// for the whole robot. `joint_spread` is the most by which the zero of each joint that turns is off, drawn for each joint.
 ///
 /// Example:
 /// ```modl
@@ -1927,6 +1927,7 @@ extern fn simulate(
   mass_spread: Number = 0,
   torque_spread: Number = 0,
   stiffness_spread: Number = 0,
+  joint_spread: Angle = 0deg,
   terrain: Terrain?,
   obstacles: List<Shape> = [],
 ) -> Simulation
@@ -1957,6 +1958,8 @@ extern type Simulation {
   saturated: Time
   /// The greatest load of a bond, in parts of what it holds.
   bond_load: Number
+  /// The farthest that a link slid over the ground in all while it pressed on it.
+  slip: Length
   /// The greatest speed at which a link came down on the ground.
   impact: Speed
   /// The mechanical work that the motors did; what drives them gives nothing back.

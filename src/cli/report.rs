@@ -125,6 +125,7 @@ pub(super) struct JsonSimulation {
     /// The greatest load of a bond, in parts of what it holds.
     pub bond_load: Option<JsonExtreme>,
     /// The greatest speed at which a link comes down on the ground, m/s.
+    pub slip: f64,
     pub impact: f64,
     /// The mechanical work of the motors, J.
     pub energy: f64,

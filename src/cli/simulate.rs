@@ -113,6 +113,7 @@ fn told(
             at: tracks.robot.bond_name(e.of),
             time: e.time,
         }),
+        slip: outcome.slip,
         impact: outcome.impact,
         energy: outcome.work,
         failures,

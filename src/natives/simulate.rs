@@ -46,6 +46,7 @@ arguments! {
         mass_spread: f64,
         torque_spread: f64,
         stiffness_spread: f64,
+        joint_spread: f64,
         terrain: Option<&'c HeightField>,
         obstacles: &'c [Value],
     }
@@ -76,7 +77,10 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         }
     }
     let [friction, mass, effort, stiffness] = spreads.map(|(_, spread)| spread);
-    let spread = Spread { friction, mass, effort, stiffness };
+    if !(0.0..=std::f64::consts::PI).contains(&read.joint_spread) {
+        return Err(call.refuse("joint_spread", "joints are off by at least 0deg and at most 180deg"));
+    }
+    let spread = Spread { friction, mass, effort, stiffness, zero: read.joint_spread };
     let Some(planned) = interpreter.plan_of(read.what, call.at("what"))? else { return Ok(Value::Unknown) };
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let terrain = read.terrain.map(|field| Arc::new(field.clone()));
@@ -170,8 +174,11 @@ fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
         ("stiffness", spread.stiffness, first.factors.stiffness),
     ];
     let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
-    let named: Vec<String> =
+    let mut named: Vec<String> =
         varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
+    if spread.zero > 0.0 {
+        named.push(format!("joints off by up to {}", quantity(spread.zero, Dimension::ANGLE)));
+    }
     Some(format!("{} of {} runs fall, first at {}", falling().count(), runs.len(), named.join(", ")))
 }
 
@@ -214,6 +221,7 @@ const SIMULATION: &[Field<Simulated>] = &[
     ("torque", |s| Value::number(Simulated::worst(s.outcome.effort))),
     ("saturated", |s| Value::time(Simulated::worst(s.outcome.saturated))),
     ("bond_load", |s| Value::number(Simulated::worst(s.outcome.bond_load))),
+    ("slip", |s| Value::length(s.outcome.slip)),
     ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
     ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
     ("path", |s| {

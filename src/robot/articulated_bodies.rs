@@ -30,6 +30,8 @@ struct Body {
     /// The twist of the body for a unit velocity of its joint; zero without one.
     axis: SpatialVector,
     velocity: SpatialVector,
+    /// The twist of which velocity products are.
+    course: SpatialVector,
     /// The velocity-product acceleration.
     product: SpatialVector,
     /// The inertia and the bias force of the body itself, with what was added.
@@ -71,6 +73,7 @@ impl ArticulatedBodies {
                 attachment: *attachment,
                 axis: SpatialVector::default(),
                 velocity: SpatialVector::default(),
+                course: SpatialVector::default(),
                 product: SpatialVector::default(),
                 own_inertia: SpatialInertia::default(),
                 own_bias: SpatialVector::default(),
@@ -92,9 +95,12 @@ impl ArticulatedBodies {
     }
 
     /// Sets the motion of a base: its twist (rad/s, m/s), which it keeps if `held` is true, whatever force that takes.
-    pub fn set_base(&mut self, body: usize, twist: SpatialVector, held: bool) {
+    /// `course`: the twist of which velocity products are taken; that of the middle of a step makes steps of the second
+    /// order.
+    pub fn set_base(&mut self, body: usize, twist: SpatialVector, course: SpatialVector, held: bool) {
         self.bodies[body].attachment = if held { Attachment::Held } else { Attachment::Floating };
         self.bodies[body].velocity = twist;
+        self.bodies[body].course = course;
         self.bodies[body].product = SpatialVector::default();
     }
 
@@ -105,18 +111,19 @@ impl ArticulatedBodies {
     }
 
     /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
-    /// velocity of its joint, and `rate` that velocity, rad/s or m/s.
+    /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `course` the one of which velocity products are taken.
     #[inline]
-    pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64) {
+    pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, course: f64) {
         let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = self.bodies[body].attachment else {
             return;
         };
-        let own = SpatialVector { angular: axis.angular * rate, linear: axis.linear * rate };
-        let carried = self.bodies[parent].velocity;
+        let Body { velocity, course: carried, .. } = self.bodies[parent];
         let body = &mut self.bodies[body];
         body.axis = axis;
-        body.velocity = carried.plus(&own, 1.0);
-        body.product = body.velocity.cross(&own);
+        body.velocity = velocity.plus(&axis, rate);
+        let own = SpatialVector { angular: axis.angular * course, linear: axis.linear * course };
+        body.course = carried.plus(&own, 1.0);
+        body.product = body.course.cross(&own);
     }
 
     /// Sets the rigid inertia of a body, whose motion must have been set, and the outer wrench on it (N·m, N). The bias
@@ -124,7 +131,7 @@ impl ArticulatedBodies {
     #[inline]
     pub fn set_inertia(&mut self, body: usize, inertia: SpatialInertia, wrench: &SpatialVector) {
         let body = &mut self.bodies[body];
-        body.own_bias = body.velocity.cross_force(&inertia.times(&body.velocity)).plus(wrench, -1.0);
+        body.own_bias = body.course.cross_force(&inertia.times(&body.course)).plus(wrench, -1.0);
         body.own_inertia = inertia;
     }
 
@@ -396,13 +403,14 @@ impl ForwardDynamics {
             (SpatialInertia::from(composite), wrench)
         };
         let base = SpatialVector { angular: state.base.angular, linear: state.base.linear };
-        bodies.set_base(0, base, state.held);
+        bodies.set_base(0, base, base, state.held);
         let (inertia, wrench) = rigid(root);
         bodies.set_inertia(0, inertia, &wrench);
         for (index, step) in self.kinematics.steps.iter().enumerate() {
             let axis = step.joint_axis(state.poses);
             let axis = axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, &origin));
-            bodies.set_joint(1 + index, axis, step.position(state.velocities));
+            let rate = step.position(state.velocities);
+            bodies.set_joint(1 + index, axis, rate, rate);
             let (inertia, wrench) = rigid(step.link);
             bodies.set_inertia(1 + index, inertia, &wrench);
             if let [(joint, factor)] = step.terms() {

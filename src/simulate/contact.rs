@@ -90,6 +90,12 @@ impl Contact {
         (self.normal * pressing + tried * self.share - self.force).norm()
     }
 
+    /// Returns the speed at which it slides, m/s, for the velocity (m/s) at the end of the step; 0 while it sticks or does not
+    /// push.
+    pub(super) fn slip(&self, velocity: &Vec3) -> f64 {
+        if self.pushes && self.share < 1.0 { across(&self.normal, velocity).norm() } else { 0.0 }
+    }
+
     /// Returns the spring as the step after that of number `now` finds it, for the velocity (m/s) at the end of this one;
     /// `step`: the time step, s.
     pub(super) fn kept(&self, velocity: &Vec3, step: f64, now: u64) -> Spring {

@@ -54,6 +54,8 @@ pub(super) struct GroundContacts {
     touched: Vec<usize>,
     /// The height field with its greatest height, m; `None`: the ground is level.
     terrain: Option<(Arc<HeightField>, f64)>,
+    /// The way that each body has slid over the ground since the start, m: of its points that slide, the fastest counts.
+    pub slid: Vec<f64>,
     /// The time step, s.
     step: f64,
 }
@@ -67,6 +69,7 @@ impl GroundContacts {
             springs: vec![Spring::default(); springs],
             contacts: Vec::new(),
             touched: Vec::new(),
+            slid: vec![0.0; model.bodies.len()],
             terrain: terrain.map(|field| (field.clone(), field.highest())),
             step,
         }
@@ -168,9 +171,15 @@ impl GroundContacts {
 
     /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
     pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, now: u64) {
-        for contact in &self.contacts {
-            let velocity = contact.velocity(bodies, self.step);
-            self.springs[contact.spring] = contact.contact.kept(&velocity, self.step, now);
+        // The contacts of a body follow each other.
+        for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
+            let mut fastest: f64 = 0.0;
+            for contact in of_body {
+                let velocity = contact.velocity(bodies, self.step);
+                self.springs[contact.spring] = contact.contact.kept(&velocity, self.step, now);
+                fastest = fastest.max(contact.contact.slip(&velocity));
+            }
+            self.slid[of_body[0].body] += fastest * self.step;
         }
     }
 }

@@ -4,6 +4,7 @@ use super::settings::{ServoGains, Settings};
 use crate::geometry::broad_phase::Aabb;
 use crate::geometry::ground_features::{self, Feature};
 use crate::geometry::{Mat3, Pose, Vec3};
+use crate::optimize::random::SplitMix64;
 use crate::plan::{Ground, LastingTrees, Tracks, World};
 use crate::robot::articulated_bodies::Attachment;
 use crate::robot::dynamics::{Dynamics, RigidBody};
@@ -54,6 +55,8 @@ pub(super) struct Joint {
 pub(super) struct DrivenServo {
     /// Stiffness, N·m/rad or N/m.
     pub stiffness: f64,
+    /// The coordinate at which it is where zero is commanded, rad or m.
+    pub zero: f64,
     /// Damping, N·m·s/rad or N·s/m.
     pub damping: f64,
     /// The effort that it is held to, N·m or N; infinite where none is stated, or motors have no limits.
@@ -380,8 +383,15 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         || robot.servo_stiffness(owner),
         |turning| if robot.slides(owner) { turning / (SERVO_LEVER * SERVO_LEVER) } else { turning },
     ) * gains.factor;
+    let (most, seed) = gains.zero_error;
+    let off = || {
+        let mut numbers = SplitMix64(seed);
+        numbers.skip(id);
+        most * numbers.next_signed()
+    };
     let servo = driven.then_some(DrivenServo {
         stiffness,
+        zero: if most > 0.0 && !robot.slides(owner) { off() } else { 0.0 },
         damping: match gains.damping {
             Some(damping) => damping * stiffness,
             // Gains other than those of the modules have a damping to match.

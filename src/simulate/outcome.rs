@@ -84,6 +84,8 @@ pub struct Simulation {
     pub effort: Option<Extreme>,
     /// The longest time that a motor is at its limit in all, s.
     pub saturated: Option<Extreme>,
+    /// The farthest that a link slid over the ground in all while it pressed on it, m.
+    pub slip: f64,
     /// The greatest speed at which a part that did not touch the ground comes down on it, m/s.
     pub impact: f64,
     /// The mechanical work that the motors do, J: what drives them gives nothing back.
@@ -116,6 +118,8 @@ pub(super) struct Recorder<'a> {
     /// The same of the motors that drive several joints.
     saturated_coupled: Vec<Vec<f64>>,
     start: Pose,
+    /// The way that each body had slid by the start of the plan, m.
+    slid: Vec<f64>,
     height: f64,
     recording: Recording,
     out: Simulation,
@@ -147,6 +151,7 @@ impl<'a> Recorder<'a> {
             lag_length: None,
             effort: None,
             saturated: None,
+            slip: 0.0,
             impact: 0.0,
             work: 0.0,
             bond_load: None,
@@ -165,6 +170,7 @@ impl<'a> Recorder<'a> {
             saturated: vec![0.0; count],
             saturated_coupled: model.coupled.iter().map(|coupled| vec![0.0; coupled.motors.len()]).collect(),
             start: model.start[0],
+            slid: Vec::new(),
             height: 0.0,
             recording: Recording::new(model, longest + PARAMETERS.rest),
             out,
@@ -201,6 +207,7 @@ impl<'a> Recorder<'a> {
         self.height = height;
         if time <= 0.5 * self.step {
             self.start = *stepper.base(0);
+            self.slid = stepper.slid().to_vec();
             self.recording.restart();
             self.record(stepper, commands, 0.0);
             return;
@@ -274,6 +281,8 @@ impl<'a> Recorder<'a> {
         self.out.travel = end.translation.vector - self.start.translation.vector;
         let turn = (end.rotation * self.start.rotation.inverse()).to_rotation_matrix();
         self.out.heading = libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)]);
+        let slid = stepper.slid().iter().zip(&self.slid).map(|(now, before)| now - before);
+        self.out.slip = slid.fold(0.0, f64::max);
         self.out.drives = self.recording.drives;
         self.out.motion = self.recording.motion;
         self.out

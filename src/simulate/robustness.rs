@@ -17,6 +17,8 @@ pub struct Spread {
     pub effort: f64,
     /// The spread of the stiffness of servos, one factor for all.
     pub stiffness: f64,
+    /// The most by which the zeros of joints that turn are off, rad, drawn for each joint.
+    pub zero: f64,
 }
 
 /// Factors on what is stated, without unit.
@@ -30,6 +32,8 @@ pub struct Factors {
     pub effort: f64,
     /// The factor on the stiffness of servos.
     pub stiffness: f64,
+    /// The most by which the zeros of joints are off, rad, and the seed by which each is drawn.
+    pub zero_error: (f64, u64),
 }
 
 /// One of many simulations, with the factors that it was made with.
@@ -67,6 +71,8 @@ impl Spread {
             mass: factor(self.mass),
             effort: factor(self.effort),
             stiffness: factor(self.stiffness),
+            // The joints of each run have numbers of their own.
+            zero_error: (self.zero, seed.rotate_left(32) ^ (index as u64 + 1)),
         }
     }
 
@@ -116,6 +122,7 @@ fn run(plan: &Plan, settings: &Settings, factors: &Factors, points: usize) -> Re
     varied.mass *= factors.mass;
     varied.servo.effort *= factors.effort;
     varied.servo.factor *= factors.stiffness;
+    varied.servo.zero_error = factors.zero_error;
     let mut outcome = simulate(plan, &varied)?;
     let motion = std::mem::take(&mut outcome.motion);
     outcome.drives = Vec::new();

@@ -16,13 +16,22 @@ pub struct ServoGains {
     pub factor: f64,
     /// The factor on the greatest efforts, without unit.
     pub effort: f64,
+    /// The most by which the zeros of joints that turn are off, rad, and the seed by which each is drawn.
+    pub zero_error: (f64, u64),
     /// True if motors have no limits of effort, so that the effort that is needed shows.
     pub unlimited: bool,
 }
 
 impl Default for ServoGains {
     fn default() -> ServoGains {
-        ServoGains { stiffness: None, damping: None, factor: 1.0, effort: 1.0, unlimited: false }
+        ServoGains {
+            stiffness: None,
+            damping: None,
+            factor: 1.0,
+            effort: 1.0,
+            zero_error: (0.0, 0),
+            unlimited: false,
+        }
     }
 }
 
@@ -58,7 +67,7 @@ impl Settings {
     /// Returns the name of a setting that is negative or not finite, or zero where it must be positive; `None` if all are
     /// sound. The time step is not among them.
     pub(super) fn unsound(&self) -> Option<&'static str> {
-        let ServoGains { stiffness, damping, factor, effort, .. } = self.servo;
+        let ServoGains { stiffness, damping, factor, effort, zero_error, .. } = self.servo;
         let sound = |x: f64| x.is_finite() && x >= 0.0;
         let positive = |x: f64| x.is_finite() && x > 0.0;
         let all = [
@@ -68,6 +77,7 @@ impl Settings {
             ("damping", damping.is_none_or(sound)),
             ("factor on the stiffness", positive(factor)),
             ("factor on the efforts", sound(effort)),
+            ("error of zeros", sound(zero_error.0)),
         ];
         all.into_iter().find(|(_, sound)| !sound).map(|(name, _)| name)
     }

@@ -1,4 +1,6 @@
 //! The time steps of a simulation: semi-implicit Euler, with servos, stops and contacts at the end of the step.
+//! Velocities are half a step behind positions: velocity products are taken half a step later, so that free motion is of
+//! the second order.
 //!
 //! The velocities after a step of length h solve `(M + h D + h² K) (v⁺ - v) = h (τ - b + Jᵀ f)`, with all springs K and
 //! dampers D of servos, stops and contacts on the left: they are inertias of joints and links to the articulated-body
@@ -46,6 +48,10 @@ pub(super) struct Stepper<'a> {
     /// The coordinates of the joints, by body, rad or m, and their rates.
     pub coordinates: Vec<f64>,
     pub rates: Vec<f64>,
+    /// The twists and rates of half a step later, if they go on to change as in the step before: those of the middle of the
+    /// step in which velocities are half a step behind.
+    courses: Vec<Twist>,
+    course_rates: Vec<f64>,
     /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
     pub efforts: Vec<f64>,
     servos: Vec<ServoState>,
@@ -86,6 +92,8 @@ impl<'a> Stepper<'a> {
             twists: vec![Twist::default(); count],
             coordinates: model.coordinates(joints),
             rates: vec![0.0; count],
+            courses: vec![Twist::default(); count],
+            course_rates: vec![0.0; count],
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
             touched: Vec::new(),
@@ -152,14 +160,17 @@ impl<'a> Stepper<'a> {
                     let axis = step.axis_between(&self.poses[parent], &self.poses[at]);
                     let axis =
                         axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
-                    self.bodies.set_joint(at, axis, self.rates[at]);
+                    self.bodies.set_joint(at, axis, self.rates[at], self.course_rates[at]);
                 }
                 _ => {
                     self.poses[at] = self.bases[at];
-                    let Twist { linear, angular } = self.twists[at];
                     let from = origin - self.poses[at].translation.vector;
-                    let twist = SpatialVector { angular, linear: linear + angular.cross(&from) };
-                    self.bodies.set_base(at, twist, body.attachment == Attachment::Held);
+                    let about = |Twist { linear, angular }: Twist| SpatialVector {
+                        angular,
+                        linear: linear + angular.cross(&from),
+                    };
+                    let held = body.attachment == Attachment::Held;
+                    self.bodies.set_base(at, about(self.twists[at]), about(self.courses[at]), held);
                 }
             }
             let composite = body.rigid.composite(&self.poses[at], origin);
@@ -245,7 +256,9 @@ impl<'a> Stepper<'a> {
         for (at, body) in self.model.bodies.iter().enumerate() {
             match body.attachment {
                 Attachment::Joint(_) => {
-                    self.rates[at] += h * self.bodies.joint_acceleration(at);
+                    let change = h * self.bodies.joint_acceleration(at);
+                    self.rates[at] += change;
+                    self.course_rates[at] = self.rates[at] + change / 2.0;
                     self.coordinates[at] += h * self.rates[at];
                     sum += self.coordinates[at];
                 }
@@ -254,9 +267,13 @@ impl<'a> Stepper<'a> {
                     let twist = &mut self.twists[at];
                     let acceleration = self.bodies.acceleration(at);
                     let from = base.translation.vector - origin;
-                    let linear = acceleration.at(&from) + twist.angular.cross(&twist.linear);
-                    twist.linear += linear * h;
-                    twist.angular += acceleration.angular * h;
+                    let course = &mut self.courses[at];
+                    let linear = (acceleration.at(&from) + course.angular.cross(&course.linear)) * h;
+                    let angular = acceleration.angular * h;
+                    twist.linear += linear;
+                    twist.angular += angular;
+                    course.linear = twist.linear + linear / 2.0;
+                    course.angular = twist.angular + angular / 2.0;
                     base.translation.vector += twist.linear * h;
                     let turn = turned(twist.angular, twist.angular.norm() * h).rotation;
                     base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
@@ -326,6 +343,11 @@ impl<'a> Stepper<'a> {
         self.model.centre(&self.poses).z
     }
 
+    /// Returns the way that each body has slid over the ground since the start, m; nothing without ground.
+    pub(super) fn slid(&self) -> &[f64] {
+        self.ground.as_ref().map_or(&[], |ground| &ground.slid)
+    }
+
     /// Returns the greatest speed at which a point came down on the ground in the step taken last that had not touched it
     /// before, m/s.
     pub(super) fn impact(&self) -> f64 {
@@ -350,5 +372,5 @@ fn command(commands: &[(f64, f64)], joint: usize, factor: f64) -> (f64, f64) {
 
 /// Returns the effort of a servo at the end of a step that begins at the coordinate `q` and has the rate `v`.
 fn spring(servo: &DrivenServo, step: f64, q: f64, v: f64, (wanted, rate): (f64, f64)) -> f64 {
-    servo.stiffness * (wanted - q - step * v) + servo.damping * (rate - v)
+    servo.stiffness * (wanted + servo.zero - q - step * v) + servo.damping * (rate - v)
 }

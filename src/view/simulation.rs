@@ -115,6 +115,7 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
         ["travels".to_owned(), length(outcome.travel.xy().norm())],
         ["turns".to_owned(), angle(outcome.heading)],
         ["leans at most".to_owned(), angle(outcome.lean_max)],
+        ["slips at most".to_owned(), length(outcome.slip)],
         ["comes down at".to_owned(), quantity(libm::round(outcome.impact * 1e3) / 1e3, Dimension::SPEED)],
         ["motors' work".to_owned(), format!("{}J", fixed(outcome.work, 2))],
         ["time step".to_owned(), quantity(outcome.step, Dimension::TIME)],

@@ -3,6 +3,7 @@
 use super::fixtures::{
     DOUBLE_PENDULUM, FRAME, GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play, rate, step,
 };
+use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{Body, CauseId, DockingEvent, DockingKind, Plan, World};
 use modl::robot::Kinematics;
@@ -152,11 +153,11 @@ fn two_floating_rods_keep_their_momentum_as_they_fold() {
             (simulation.travel - travel).norm() / travel.norm(),
         )
     });
-    // A second after the fold it has drifted by what the steps miss of the momentum.
+    // A second after the fold it has drifted by what the steps miss of the momentum, which is of the second order.
     let [coarse, fine] = errors;
-    assert!(fine.0 < 5e-4 && fine.1 < 1.5e-3, "{errors:?}");
-    assert!((1.7..2.3).contains(&(coarse.0 / fine.0)), "{errors:?}");
-    assert!((1.7..2.3).contains(&(coarse.1 / fine.1)), "{errors:?}");
+    assert!(fine.0 < 5e-6 && fine.1 < 1e-5, "{errors:?}");
+    assert!((3.6..4.4).contains(&(coarse.0 / fine.0)), "{errors:?}");
+    assert!((3.6..4.4).contains(&(coarse.1 / fine.1)), "{errors:?}");
 }
 
 /// A box with three different moments of inertia, and a rotor on a hub that lets go of it.
@@ -202,8 +203,8 @@ fn a_body_that_spins_freely_keeps_its_angular_momentum_and_energy() {
         ((now - momentum).norm() / momentum.norm(), (left - energy).abs() / energy)
     };
     let drifts = [5e-4, 2.5e-4].map(drift);
-    assert!(drifts[1].0 < 5e-3 && drifts[1].1 < 5e-3, "{drifts:?}");
-    assert!((1.6..2.5).contains(&(drifts[0].0 / drifts[1].0)), "{drifts:?}");
+    assert!(drifts[0].0 < 1e-5 && drifts[0].1 < 1e-7, "{drifts:?}");
+    assert!((3.6..4.4).contains(&(drifts[0].0 / drifts[1].0)), "{drifts:?}");
 }
 
 /// Returns time (s), kinetic and potential energy (J) of a robot whose base is held, at moments of a simulation.
@@ -229,7 +230,7 @@ fn energies(plan: &Plan, simulation: &Simulation) -> Vec<(f64, f64, f64)> {
 }
 
 #[test]
-fn a_double_pendulum_keeps_its_energy_the_better_the_shorter_the_step() {
+fn a_double_pendulum_keeps_its_energy_with_long_steps_too() {
     let program = format!("{DOUBLE_PENDULUM}let x = DoublePendulum(60deg, -40deg)\nlet b = x.rest(5s)\n");
     let plan = plan(&program, HELD);
     let drift = |h: f64| {
@@ -239,11 +240,9 @@ fn a_double_pendulum_keeps_its_energy_the_better_the_shorter_the_step() {
         let (low, high) = totals.iter().fold((f64::MAX, f64::MIN), |(l, h), e| (l.min(*e), h.max(*e)));
         (high - low) / kinetic
     };
-    let drifts = [1e-3, 5e-4, 2.5e-4].map(drift);
-    assert!(drifts[1] < 0.01, "{drifts:?}");
-    for pair in drifts.windows(2) {
-        assert!((1.6..2.4).contains(&(pair[0] / pair[1])), "the method is of first order: {drifts:?}");
-    }
+    // Energy is measured by differences over 20 ms, which alone miss 0.09 %.
+    let drifts = [5e-3, 1e-3, 5e-4].map(drift);
+    assert!(drifts.iter().all(|drift| *drift < 1e-3), "{drifts:?}");
 }
 
 #[test]
@@ -461,5 +460,63 @@ fn a_robot_at_rest_stays_where_it_is() {
     if std::env::var_os("MODL_WHOLE").is_some() {
         let half_day = creep(&play(&plan(&program("12h"), LEVEL), &step(5e-3)));
         assert!(half_day < 5e-4, "{half_day} m in half a day");
+    }
+}
+
+/// An arm that turns faster and faster, and at its end two rods with a free hinge, on a bond that holds 15 N.
+const FLAIL: &str = "connector Hook { mates Hook, turns 4, holds 15N }
+module Hub {
+  link post = box(50mm, 50mm, 50mm, mass: 1kg)
+  link arm = box(200mm, 20mm, 20mm, mass: 500g) at [100mm, 0mm, 0mm]
+  touching post arm
+  joint turn : post -> arm = revolute(axis: Z, stiffness: 500N*m/rad)
+  port end : Hook on arm at [100mm, 0mm, 0mm] facing +X up +Z
+}
+module Rods {
+  link near = box(200mm, 20mm, 20mm, mass: 300g)
+  link far = box(200mm, 20mm, 20mm, mass: 300g) at [200mm, 0mm, 0mm]
+  touching near far
+  joint hinge : near -> far = revolute(axis: Z, passive: true) at [100mm, 0mm, 0mm]
+  port back : Hook on near at [-100mm, 0mm, 0mm] facing -X up +Z
+}
+config Flail { part h: Hub part r: Rods
+  connect h.end -- r.back
+  base h
+  behavior throws = Sc(move(h.turn, by: 540deg, in: 1500ms), wait(3s))
+}
+let b = Flail().throws()
+";
+
+#[test]
+fn rods_that_are_thrown_keep_their_energy_and_momentum() {
+    let plan = plan(FLAIL, World { gravity: 0.0, ..HELD });
+    let simulation = play(&plan, &Settings::default());
+    let [broken] = simulation.bonds[..] else { panic!("the bond breaks: {:?}", simulation.bonds) };
+    // The directions and centres of both rods at a moment: the second hangs at the end of the first.
+    let rods = |i: usize| {
+        let moment = &simulation.motion[i];
+        let near = moment.roots[0];
+        let end = near * shifted(Vec3::new(0.1, 0.0, 0.0)) * turned(Vec3::z(), moment.joints[1]);
+        let far = end * shifted(Vec3::new(0.1, 0.0, 0.0));
+        [near, far].map(|rod| (rod.rotation * Vec3::x(), rod.translation.vector))
+    };
+    let (mass, inertia) = (0.3, 0.3 * (0.2 * 0.2 + 0.02 * 0.02) / 12.0);
+    let energy_and_momentum = |i: usize| {
+        let of = |rod: usize| {
+            let velocity = Vec3::from([0, 1, 2].map(|axis| rate(FRAME, i, |i| rods(i)[rod].1[axis])));
+            let turning = Vec3::from([0, 1, 2].map(|axis| rate(FRAME, i, |i| rods(i)[rod].0[axis])));
+            let energy = mass * velocity.norm_squared() / 2.0 + inertia * turning.norm_squared() / 2.0;
+            (energy, velocity * mass)
+        };
+        let ((first, p), (second, q)) = (of(0), of(1));
+        (first + second, p + q)
+    };
+    let flies = simulation.motion.partition_point(|moment| moment.time < broken.time + 0.1);
+    let (first, momentum) = energy_and_momentum(flies);
+    for i in flies..simulation.motion.len() - 4 {
+        let (energy, now) = energy_and_momentum(i);
+        // Energy is measured by differences over 20 ms, in which the rods turn by up to a third of a radian.
+        close(energy / first, 1.0, 0.015);
+        close((now - momentum).norm() / momentum.norm(), 0.0, 2e-4);
     }
 }

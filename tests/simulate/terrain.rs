@@ -56,12 +56,15 @@ fn a_block_slides_down_a_slope_as_friction_lets_it_and_stays_on_a_gentle_one() {
             // The contacts take up to 3 ms until they bear the block.
             close(way_down(&simulation, time), way, 3e-3 * acceleration * (STANDS + time));
         }
+        // It slides on for 0.3 s after the plan has ended.
+        close(simulation.slip, simulation.travel.norm(), 1e-3);
         let [x, y] = along;
         let across = simulation.travel.x * y - simulation.travel.y * x;
         close(across, 0.0, 1e-6);
         // The friction of 0.3 holds up to 16.7 degrees.
         let gentle = on_slope(&plan, along, 16_f64.to_radians());
         assert!(gentle.travel.norm() < 1e-6, "{:?}", gentle.travel);
+        close(gentle.slip, 0.0, 1e-9);
         assert!(gentle.fall.is_none() && gentle.lean_max < 1e-3);
     }
 }

@@ -184,14 +184,16 @@ let o = One()
 // Friction of 0.3 holds it up to 16.7 degrees.
 let stays = simulate(o.rest(), terrain: slope(15deg, along: [0, 2, 0]))
 let slides = simulate(o.rest(), terrain: slope(-20deg))
-print("{stays.travel:.3}", slides.displacement.x > 100mm, slides.displacement.z < -36mm)
-//> 0.000mm true true
+print("{stays.travel:.3}", slides.displacement.x > 100mm, slides.displacement.z < -36mm, slides.slip > 110mm)
+//> 0.000mm true true true
 print(stays.notes[1])
 //> the plan is made for level ground, and no verdict is on this one
 // In a trough whose sides rise by 45 degrees it does not slide out.
 let trough = terrain([[if x == 1 { 0m } else { 100mm } for x in 0..3] for y in 0..2], spacing: 100mm)
 print(simulate(o.rest(), terrain: trough).travel < 20mm)
 //> true
+print(simulate(o.rest(), joint_spread: 200deg).travel)
+//                                     ^^^^^^ E0506 at most 180deg
 print(slope(60deg))
 //          ^^^^^ E0506 at most 50deg
 print(slope(5deg, along: Z))
