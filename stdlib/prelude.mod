@@ -1936,7 +1936,7 @@ extern fn simulate(
 extern type Simulation {
   /// How long the motion took: as planned, or as the program went that was executed.
   duration: Time
-  /// How far the base is from where it stood, along the ground, 0.3 s after the end.
+  /// How far the base is from where it stood, seen from above, 0.3 s after the end.
   travel: Length
   /// From where the base stood to where it is then.
   displacement: Vec3<Length>
@@ -1944,7 +1944,7 @@ extern type Simulation {
   heading: Angle
   /// How far the base leans from how it stood, at the end.
   lean: Angle
-  /// Whether the centre of mass sank faster than 0.5 m/s.
+  /// Whether the centre of mass sank faster than 0.5 m/s, as it may on a way down a steep slope, too.
   fell: Bool
   /// When it first did.
   fell_at: Time?
@@ -1968,7 +1968,7 @@ extern type Simulation {
   path: List<Vec3<Length>>
   /// In how many of the further runs it fell.
   falls: Int
-  /// How far the base got along the ground in each of the further runs.
+  /// How far the base got, seen from above, in each of the further runs.
   travels: List<Length>
   /// Falls, bonds that broke, ports that did not dock, and why a program was stopped, in words, in order of time.
   failures: List<Text>

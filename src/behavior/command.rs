@@ -7,7 +7,7 @@ use super::limits::{Issue, IssueKind, Part};
 use super::motion::Motion;
 use super::refusal::{Reason, Refusal};
 use super::run::Run;
-use crate::plan::time::tick_after;
+use crate::plan::time::{TICK, tick_after};
 use crate::plan::{Action, CauseId, Command, DockingEvent, DockingKind, Profile, Target};
 use crate::robot::{Bond, JointId, PortRef};
 use std::sync::Arc;
@@ -54,7 +54,8 @@ impl Run<'_> {
             }
             Command::Dock { a, b } => {
                 self.dock(*a, *b, cause)?;
-                Ok((Some(self.now), None))
+                // A robot that executes knows only after it whether the ports have met.
+                Ok((Some(if self.executes { self.now + TICK } else { self.now }), None))
             }
             Command::Undock { port } => {
                 self.undock(*port, cause)?;

@@ -113,6 +113,8 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if !settings.obstacles.is_empty() {
         notes.push("the plan knows no obstacles, and no verdict is about them".to_string());
     }
+    // The verdict is not about a program that senses.
+    let verdict = verdict.filter(|_| !plan.nominal);
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
@@ -174,12 +176,12 @@ fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
         ("stiffness", spread.stiffness, first.factors.stiffness),
     ];
     let varied = parts.iter().filter(|(_, spread, _)| *spread > 0.0);
-    let mut named: Vec<String> =
+    let named: Vec<String> =
         varied.map(|(name, _, factor)| format!("{name} x {}", fixed(*factor, 2))).collect();
-    if spread.zero > 0.0 {
-        named.push(format!("joints off by up to {}", quantity(spread.zero, Dimension::ANGLE)));
-    }
-    Some(format!("{} of {} runs fall, first at {}", falling().count(), runs.len(), named.join(", ")))
+    let falls = format!("{} of {} runs fall", falling().count(), runs.len());
+    // Errors of zeros are many numbers in a run, none of which is its size.
+    let first = if named.is_empty() { String::new() } else { format!(", first at {}", named.join(", ")) };
+    Some(format!("{falls}{first}"))
 }
 
 /// The value of the language's type `Simulation`.

@@ -30,8 +30,8 @@ struct Body {
     /// The twist of the body for a unit velocity of its joint; zero without one.
     axis: SpatialVector,
     velocity: SpatialVector,
-    /// The twist of which velocity products are.
-    course: SpatialVector,
+    /// The twist of which velocity products are taken: that of the middle of a step, or the same.
+    mid_velocity: SpatialVector,
     /// The velocity-product acceleration.
     product: SpatialVector,
     /// The inertia and the bias force of the body itself, with what was added.
@@ -73,7 +73,7 @@ impl ArticulatedBodies {
                 attachment: *attachment,
                 axis: SpatialVector::default(),
                 velocity: SpatialVector::default(),
-                course: SpatialVector::default(),
+                mid_velocity: SpatialVector::default(),
                 product: SpatialVector::default(),
                 own_inertia: SpatialInertia::default(),
                 own_bias: SpatialVector::default(),
@@ -95,12 +95,12 @@ impl ArticulatedBodies {
     }
 
     /// Sets the motion of a base: its twist (rad/s, m/s), which it keeps if `held` is true, whatever force that takes.
-    /// `course`: the twist of which velocity products are taken; that of the middle of a step makes steps of the second
+    /// `mid_twist`: the twist of which velocity products are taken; that of the middle of a step makes steps of the second
     /// order.
-    pub fn set_base(&mut self, body: usize, twist: SpatialVector, course: SpatialVector, held: bool) {
+    pub fn set_base(&mut self, body: usize, twist: SpatialVector, mid_twist: SpatialVector, held: bool) {
         self.bodies[body].attachment = if held { Attachment::Held } else { Attachment::Floating };
         self.bodies[body].velocity = twist;
-        self.bodies[body].course = course;
+        self.bodies[body].mid_velocity = mid_twist;
         self.bodies[body].product = SpatialVector::default();
     }
 
@@ -111,19 +111,19 @@ impl ArticulatedBodies {
     }
 
     /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
-    /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `course` the one of which velocity products are taken.
+    /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `mid_rate` the one of which velocity products are taken.
     #[inline]
-    pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, course: f64) {
+    pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, mid_rate: f64) {
         let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = self.bodies[body].attachment else {
             return;
         };
-        let Body { velocity, course: carried, .. } = self.bodies[parent];
+        let Body { velocity, mid_velocity: carried, .. } = self.bodies[parent];
         let body = &mut self.bodies[body];
         body.axis = axis;
         body.velocity = velocity.plus(&axis, rate);
-        let own = SpatialVector { angular: axis.angular * course, linear: axis.linear * course };
-        body.course = carried.plus(&own, 1.0);
-        body.product = body.course.cross(&own);
+        let own = SpatialVector { angular: axis.angular * mid_rate, linear: axis.linear * mid_rate };
+        body.mid_velocity = carried.plus(&own, 1.0);
+        body.product = body.mid_velocity.cross(&own);
     }
 
     /// Sets the rigid inertia of a body, whose motion must have been set, and the outer wrench on it (N·m, N). The bias
@@ -131,7 +131,7 @@ impl ArticulatedBodies {
     #[inline]
     pub fn set_inertia(&mut self, body: usize, inertia: SpatialInertia, wrench: &SpatialVector) {
         let body = &mut self.bodies[body];
-        body.own_bias = body.course.cross_force(&inertia.times(&body.course)).plus(wrench, -1.0);
+        body.own_bias = body.mid_velocity.cross_force(&inertia.times(&body.mid_velocity)).plus(wrench, -1.0);
         body.own_inertia = inertia;
     }
 

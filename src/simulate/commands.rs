@@ -100,14 +100,6 @@ impl<'a> Commands<'a> {
         }
     }
 
-    /// Returns the longest that the motion may take, s.
-    pub(super) fn longest(&self) -> f64 {
-        match &self.source {
-            Source::Planned(planned) => planned.tracks.duration,
-            Source::Executed { deadline, .. } => *deadline,
-        }
-    }
-
     /// Returns the time at which all is done, s; `None` while that is not known.
     pub(super) fn end(&self) -> Option<f64> {
         match &self.source {

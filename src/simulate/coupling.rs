@@ -135,6 +135,12 @@ impl Couplings {
         Some((distance, angle))
     }
 
+    /// Returns true if a bond in no tree holds two modules, given by their indices, together now.
+    pub(super) fn docks(&self, model: &Model, a: usize, b: usize) -> bool {
+        let of = |bond: &LooseBond| [0, 1].map(|end| model.module_of[bond.ends[end].0]);
+        self.bonds.iter().any(|bond| bond.holds && (of(bond) == [a, b] || of(bond) == [b, a]))
+    }
+
     /// Tells the contacts between links which bodies bonds hold together.
     fn update_bonded(&mut self) {
         if let Some(links) = &mut self.links {

@@ -65,13 +65,16 @@ pub(super) struct LinkContacts {
     pairs: Vec<Pair>,
     /// The bodies of each pair, and the length of both their paths together up to which its shapes can't meet, m.
     asleep: Vec<(u32, u32, f64)>,
-    /// The length of the path of each body since the start, m: no point of its shapes has gone farther.
+    /// The length of the path of each body since the start, m, with [`TURNING`]: no point of its shapes has gone farther.
     gone: Vec<f64>,
     /// The lengths of the paths when the pairs were listed, m; -∞ where they must be listed anew.
     gone_listed: Vec<f64>,
     /// The contacts of this step.
     pub contacts: Vec<LinkContact>,
 }
+
+/// The factor on the length of paths for what turns in a step, so that speeds change on the way.
+const TURNING: f64 = 1.1;
 
 /// The distance within which pairs are listed, m.
 const NEAR: f64 = 0.04;
@@ -194,7 +197,8 @@ impl LinkContacts {
         let mut farthest: f64 = 0.0;
         for (body, reach) in self.reaches.iter().enumerate().filter(|(_, reach)| **reach > 0.0) {
             let (twist, centre) = (bodies.velocity(body), at.poses[body].translation.vector - at.origin);
-            self.gone[body] += (twist.at(&centre).norm() + twist.angular.norm() * reach) * at.step;
+            let speed = twist.at(&centre).norm() + twist.angular.norm() * reach;
+            self.gone[body] += TURNING * speed * at.step;
             farthest = farthest.max(self.gone[body] - self.gone_listed[body]);
         }
         if 2.0 * farthest >= NEAR {

@@ -128,7 +128,7 @@ fn run(
     let ground = world.has_floor().then(|| GroundContacts::new(&model, settings.terrain.as_ref(), h));
     let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, ground, h);
     let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
-    let mut recorder = Recorder::new(&model, apart, commands.longest(), h);
+    let mut recorder = Recorder::new(&model, apart, h);
     let steps = |time: f64| libm::ceil(time / h - 1e-9) as i64;
     let mut number = -steps(PARAMETERS.settle);
     while commands.end().is_none_or(|end| number < steps(end + PARAMETERS.rest)) {

@@ -11,6 +11,7 @@ use crate::robot::dynamics::{Dynamics, RigidBody};
 use crate::robot::{
     self, Assembly, Bond, JointKind, JointOwner, Kinematics, Link, PortRef, Servo, Step, motor_efforts,
 };
+use std::collections::BTreeSet;
 
 /// A link with what carries it.
 #[derive(Clone, Debug)]
@@ -68,12 +69,20 @@ pub(super) struct DrivenServo {
 }
 
 impl DrivenServo {
-    /// Returns an effort (N·m or N) as far as the motor can supply it at a rate (rad/s or m/s): the effort that drives a
-    /// motion is the less the faster that is.
-    pub(super) fn limited(&self, effort: f64, rate: f64) -> f64 {
-        let driving = (rate * effort.signum()).max(0.0);
-        let most = self.effort * (1.0 - driving / self.no_load_speed).max(0.0);
-        effort.clamp(-most, most)
+    /// Returns what the motor supplies in place of an effort (N·m or N) that is more than it can at a rate (rad/s or m/s): an
+    /// effort at rest, and how much less it is for each unit of the rate; `None` where it can. The effort that drives a motion
+    /// is the less the faster that is, down to nothing at the speed without load.
+    pub(super) fn limit_at(&self, effort: f64, rate: f64) -> Option<(f64, f64)> {
+        let (most, sign) = (self.effort, effort.signum());
+        let driving = rate * sign;
+        let limit = if driving <= 0.0 || self.no_load_speed.is_infinite() {
+            (sign * most, 0.0)
+        } else if driving < self.no_load_speed {
+            (sign * most, most / self.no_load_speed)
+        } else {
+            (0.0, 0.0)
+        };
+        (effort.abs() > (limit.0 - limit.1 * rate).abs()).then_some(limit)
     }
 }
 
@@ -94,7 +103,7 @@ impl Surface {
         let facts = &link.surface;
         Surface {
             friction: link.friction * factor,
-            static_friction: facts.static_friction.unwrap_or(link.friction) * factor,
+            static_friction: facts.static_friction.map_or(link.friction, |f| f.max(link.friction)) * factor,
             stiffness: facts.stiffness.unwrap_or(robot::Surface::STIFFNESS_DEFAULT),
         }
     }
@@ -169,6 +178,8 @@ pub(super) struct Model {
     pub coupled: Vec<Coupled>,
     /// The bonds that hold at some time and are in no tree.
     pub constraints: Vec<usize>,
+    /// The pairs of modules that bonds of the trees hold together, the lesser index first.
+    pub bonded: BTreeSet<(usize, usize)>,
     /// The bonds of the trees that state what they hold.
     pub carrying: Vec<CarryingBond>,
     /// The pose of each body at the start, by its index in `bodies`.
@@ -205,6 +216,7 @@ impl Model {
             module_of: Vec::with_capacity(links.len()),
             fixture: None,
             kinematics: lasting.start,
+            bonded: BTreeSet::new(),
             carrying: Vec::new(),
             start: Vec::with_capacity(links.len()),
             mass: 0.0,
@@ -244,8 +256,12 @@ impl Model {
             }
         }
         for &(module, bond) in lasting.trees.iter().flat_map(|tree| &tree.tree.order) {
-            let Some(bond) = bond.filter(|bond| robot.bond_strength(*bond) != (None, None)) else { continue };
+            let Some(bond) = bond else { continue };
             let Bond { a, b, .. } = robot.bonds[bond];
+            model.bonded.insert((a.module.min(b.module), a.module.max(b.module)));
+            if robot.bond_strength(bond) == (None, None) {
+                continue;
+            }
             let carried = model.port(robot, if b.module == module { b } else { a }).0;
             model.carrying.push(CarryingBond { bond, carried, port: model.port(robot, a) });
         }
@@ -398,7 +414,11 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
             None if gains.stiffness.is_some() => Servo::DAMPING_DEFAULT * stiffness,
             None => stated.damping_with(stiffness / gains.factor) * gains.factor,
         },
-        no_load_speed: stated.no_load_speed.filter(|_| !gains.unlimited).unwrap_or(f64::INFINITY),
+        // Without a limit at rest there is none that falls with the speed.
+        no_load_speed: stated
+            .no_load_speed
+            .filter(|_| !gains.unlimited && limits.effort.is_some())
+            .unwrap_or(f64::INFINITY),
         effort: if gains.unlimited {
             f64::INFINITY
         } else {

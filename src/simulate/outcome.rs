@@ -2,7 +2,6 @@
 
 use super::commands::Commands;
 use super::model::Model;
-use super::parameters::PARAMETERS;
 use super::recording::{Drive, Moment, Recording};
 use super::stepper::Stepper;
 use super::terrain::Terrain;
@@ -133,8 +132,8 @@ fn keep(known: &mut Option<Extreme>, value: f64, of: usize, time: f64) {
 
 impl<'a> Recorder<'a> {
     /// Returns the measurement of a robot that has not moved. `apart`: the bonds that are not in its trees although they
-    /// hold all the time; `longest`: the longest that the motion may take, s; `step`: the time step, s.
-    pub(super) fn new(model: &'a Model, apart: &[usize], longest: f64, step: f64) -> Recorder<'a> {
+    /// hold all the time; `step`: the time step, s.
+    pub(super) fn new(model: &'a Model, apart: &[usize], step: f64) -> Recorder<'a> {
         let count = model.bodies.len();
         let window = (libm::round(WINDOW / step) as usize).max(1);
         let out = Simulation {
@@ -172,7 +171,7 @@ impl<'a> Recorder<'a> {
             start: model.start[0],
             slid: Vec::new(),
             height: 0.0,
-            recording: Recording::new(model, longest + PARAMETERS.rest),
+            recording: Recording::new(model),
             out,
         }
     }

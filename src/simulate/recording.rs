@@ -65,6 +65,8 @@ pub struct Drive {
 pub(super) struct Recording {
     /// The time between two moments, s.
     apart: f64,
+    /// The most moments that are kept.
+    most: usize,
     /// The time from which on the next moment is kept, s.
     next: f64,
     /// The numbers of the links that bodies are.
@@ -76,14 +78,15 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// Returns the empty recording of a robot over a duration, s.
-    pub(super) fn new(model: &Model, duration: f64) -> Recording {
+    /// Returns the empty recording of a robot.
+    pub(super) fn new(model: &Model) -> Recording {
         let link_of = model.links();
         let root = |body: &usize| model.bodies[*body].step.is_none() && model.fixture != Some(*body);
         let roots = (1..model.bodies.len()).filter(root).collect();
         let drives = drives(model);
-        let apart = time_apart(duration, model.moved_by.len() + drives.len());
-        Recording { apart, next: 0.0, link_of, roots, drives, motion: Vec::new() }
+        let numbers = model.moved_by.len() + drives.len();
+        let most = (NUMBERS_MAX / numbers.max(1)).clamp(MOMENTS_KEPT, MOMENTS_MAX);
+        Recording { apart: FRAME, most, next: 0.0, link_of, roots, drives, motion: Vec::new() }
     }
 
     /// Begins at time 0, with nothing kept.
@@ -100,6 +103,20 @@ impl Recording {
     /// Keeps the moment at which a step ends, `time` (s). `efforts`: the efforts of the bodies' joints along their
     /// coordinates, N·m or N.
     pub(super) fn see(&mut self, stepper: &Stepper, commands: &Commands, efforts: &[f64], time: f64) {
+        if self.motion.len() >= self.most {
+            // Every second moment goes, and the next ones are twice as far apart.
+            let mut number = 0;
+            self.motion.retain(|_| {
+                number += 1;
+                number % 2 == 1
+            });
+            self.apart *= 2.0;
+            let last = self.motion.last().map_or(0.0, |moment| moment.time);
+            if time < last + 0.75 * self.apart {
+                self.next = last + self.apart;
+                return;
+            }
+        }
         self.next = time + self.apart;
         let model = stepper.model;
         let mut joints: Vec<f64> = commands.joints.iter().map(|(position, _)| *position).collect();
@@ -139,17 +156,6 @@ impl Recording {
         });
         of_ground.chain(of_links).filter(|contact| contact.force.norm() > 0.0).collect()
     }
-}
-
-/// Returns the time between two moments of a motion of this duration, s, of which each holds so many numbers: the least
-/// one, doubled as long as there would be too many.
-fn time_apart(duration: f64, numbers: usize) -> f64 {
-    let most = (NUMBERS_MAX / numbers.max(1)).clamp(MOMENTS_KEPT, MOMENTS_MAX);
-    let mut apart = FRAME;
-    while duration / apart > (most - 1) as f64 {
-        apart *= 2.0;
-    }
-    apart
 }
 
 /// Returns the servos of a robot in the order of their bodies, and then the motors that drive several joints and have

@@ -6,7 +6,8 @@ use crate::geometry::pose::lean;
 use crate::plan::Signal;
 use crate::robot::{Assembly, JointId, PortRef};
 
-/// The sensors of a robot that is simulated, after the step taken last.
+/// The sensors of a robot that is simulated: joints as they are after the step taken last, places and touch as they were at
+/// its start.
 pub(super) struct Measured<'s, 'a> {
     /// The robot in motion.
     pub stepper: &'s Stepper<'a>,
@@ -30,7 +31,9 @@ impl Measured<'_, '_> {
 impl Sensors for Measured<'_, '_> {
     fn value(&self, signal: Signal) -> f64 {
         match signal {
-            Signal::Angle(joint) => self.joint(joint)[0],
+            Signal::Angle(joint) => {
+                self.stepper.sensed(joint.0 as usize).unwrap_or_else(|| self.joint(joint)[0])
+            }
             Signal::Speed(joint) => self.joint(joint)[1],
             Signal::Effort(joint) => self.joint(joint)[2],
             Signal::Elapsed => unreachable!("the time of an action is not asked for"),

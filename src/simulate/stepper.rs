@@ -22,8 +22,9 @@ use crate::robot::{Assembly, PortRef};
 /// The state of a servo in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct ServoState {
-    /// The effort of a motor at its limit, N·m or N; `None`: the servo is a spring with a damper.
-    limited: Option<f64>,
+    /// The effort of a motor at its limit while the joint rests, N·m or N, and how much less it is for each unit of its rate;
+    /// `None`: the servo is a spring with a damper.
+    limited: Option<(f64, f64)>,
     /// The end of its range that the joint is at.
     stop: Option<f64>,
 }
@@ -50,8 +51,8 @@ pub(super) struct Stepper<'a> {
     pub rates: Vec<f64>,
     /// The twists and rates of half a step later, if they go on to change as in the step before: those of the middle of the
     /// step in which velocities are half a step behind.
-    courses: Vec<Twist>,
-    course_rates: Vec<f64>,
+    mid_twists: Vec<Twist>,
+    mid_rates: Vec<f64>,
     /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
     pub efforts: Vec<f64>,
     servos: Vec<ServoState>,
@@ -92,8 +93,8 @@ impl<'a> Stepper<'a> {
             twists: vec![Twist::default(); count],
             coordinates: model.coordinates(joints),
             rates: vec![0.0; count],
-            courses: vec![Twist::default(); count],
-            course_rates: vec![0.0; count],
+            mid_twists: vec![Twist::default(); count],
+            mid_rates: vec![0.0; count],
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
             touched: Vec::new(),
@@ -160,7 +161,7 @@ impl<'a> Stepper<'a> {
                     let axis = step.axis_between(&self.poses[parent], &self.poses[at]);
                     let axis =
                         axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
-                    self.bodies.set_joint(at, axis, self.rates[at], self.course_rates[at]);
+                    self.bodies.set_joint(at, axis, self.rates[at], self.mid_rates[at]);
                 }
                 _ => {
                     self.poses[at] = self.bases[at];
@@ -170,7 +171,7 @@ impl<'a> Stepper<'a> {
                         linear: linear + angular.cross(&from),
                     };
                     let held = body.attachment == Attachment::Held;
-                    self.bodies.set_base(at, about(self.twists[at]), about(self.courses[at]), held);
+                    self.bodies.set_base(at, about(self.twists[at]), about(self.mid_twists[at]), held);
                 }
             }
             let composite = body.rigid.composite(&self.poses[at], origin);
@@ -187,7 +188,10 @@ impl<'a> Stepper<'a> {
             let (q, v) = (self.coordinates[at], self.rates[at]);
             let (mut effort, mut armature) = (-joint.damping * v, joint.armature + h * joint.damping);
             match (joint.servo, self.servos[at].limited) {
-                (Some(_), Some(limited)) => effort += limited,
+                (Some(_), Some((limited, falling))) => {
+                    effort += limited - falling * v;
+                    armature += h * falling;
+                }
                 (Some(servo), None) => {
                     let command = command(commands, joint.id, joint.factor);
                     effort += spring(&servo, h, q, v, command);
@@ -217,8 +221,8 @@ impl<'a> Stepper<'a> {
             let mut now = ServoState::default();
             if let Some(servo) = &joint.servo {
                 let effort = spring(servo, h, q, v, command(commands, joint.id, joint.factor));
-                self.efforts[at] = servo.limited(effort, v);
-                now.limited = (self.efforts[at] != effort).then_some(self.efforts[at]);
+                now.limited = servo.limit_at(effort, v);
+                self.efforts[at] = now.limited.map_or(effort, |(limited, falling)| limited - falling * v);
             }
             if let Some((low, high)) = joint.range {
                 let next = q + h * v;
@@ -241,7 +245,7 @@ impl<'a> Stepper<'a> {
                 };
                 let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
                 self.efforts[*body] = effort;
-                let now = ServoState { limited: Some(effort), ..self.servos[*body] };
+                let now = ServoState { limited: Some((effort, 0.0)), ..self.servos[*body] };
                 settled &= now == self.servos[*body];
                 self.servos[*body] = now;
             }
@@ -258,7 +262,7 @@ impl<'a> Stepper<'a> {
                 Attachment::Joint(_) => {
                     let change = h * self.bodies.joint_acceleration(at);
                     self.rates[at] += change;
-                    self.course_rates[at] = self.rates[at] + change / 2.0;
+                    self.mid_rates[at] = self.rates[at] + change / 2.0;
                     self.coordinates[at] += h * self.rates[at];
                     sum += self.coordinates[at];
                 }
@@ -267,13 +271,13 @@ impl<'a> Stepper<'a> {
                     let twist = &mut self.twists[at];
                     let acceleration = self.bodies.acceleration(at);
                     let from = base.translation.vector - origin;
-                    let course = &mut self.courses[at];
-                    let linear = (acceleration.at(&from) + course.angular.cross(&course.linear)) * h;
+                    let mid_twist = &mut self.mid_twists[at];
+                    let linear = (acceleration.at(&from) + mid_twist.angular.cross(&mid_twist.linear)) * h;
                     let angular = acceleration.angular * h;
                     twist.linear += linear;
                     twist.angular += angular;
-                    course.linear = twist.linear + linear / 2.0;
-                    course.angular = twist.angular + angular / 2.0;
+                    mid_twist.linear = twist.linear + linear / 2.0;
+                    mid_twist.angular = twist.angular + angular / 2.0;
                     base.translation.vector += twist.linear * h;
                     let turn = turned(twist.angular, twist.angular.norm() * h).rotation;
                     base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
@@ -317,6 +321,14 @@ impl<'a> Stepper<'a> {
         Some([self.coordinates[body], self.rates[body], self.efforts[body]].map(|value| value * factor))
     }
 
+    /// Returns the position (rad or m) of a joint as its sensor has it, by the number of its id: off by its error of zero.
+    pub(super) fn sensed(&self, joint: usize) -> Option<f64> {
+        let body = self.model.moved_by[joint]?;
+        let moves = self.model.bodies[body].joint.as_ref()?;
+        let zero = moves.servo.as_ref().map_or(0.0, |servo| servo.zero);
+        Some((self.coordinates[body] - zero) * moves.factor)
+    }
+
     /// Returns the world pose of a port at the start of the step taken last.
     pub(super) fn port_pose(&self, robot: &Assembly, port: PortRef) -> Pose {
         let (body, X_BP) = self.model.port(robot, port);
@@ -332,10 +344,15 @@ impl<'a> Stepper<'a> {
     /// Returns true if one of some modules, given by their indices, touched the ground or another module in the step taken
     /// last. Modules that are docked to each other do not touch.
     pub(super) fn touches(&self, modules: &[usize]) -> bool {
-        let among = |body: usize| modules.contains(&self.model.module_of[body]);
+        let module = |body: usize| self.model.module_of[body];
+        let among = |body: usize| modules.contains(&module(body));
+        let docked = |a: usize, b: usize| {
+            let (a, b) = (module(a), module(b));
+            self.model.bonded.contains(&(a.min(b), a.max(b))) || self.couplings.docks(self.model, a, b)
+        };
         let ground = self.ground.iter().flat_map(|ground| ground.touching());
         let links = self.couplings.links.iter().flat_map(LinkContacts::touching);
-        ground.into_iter().any(among) || links.into_iter().any(|(a, b)| among(a) != among(b))
+        ground.into_iter().any(among) || links.into_iter().any(|(a, b)| among(a) != among(b) && !docked(a, b))
     }
 
     /// Returns the height of the centre of mass at the start of the step taken last, m.

@@ -28,16 +28,20 @@ impl Terrain {
     pub(super) fn under(model: &Model, field: &Arc<HeightField>) -> Terrain {
         let feet: Vec<Vec3> =
             points(model, &Pose::identity(), &Vec3::z()).filter(|p| p.z <= STANDING).collect();
-        let middle = feet.iter().sum::<Vec3>() / feet.len().max(1) as f64;
+        let level = points(model, &Pose::identity(), &Vec3::z()).map(|p| p.z).fold(f64::INFINITY, f64::min);
+        let middle = match feet.is_empty() {
+            true => model.start[0].translation.vector,
+            false => feet.iter().sum::<Vec3>() / feet.len() as f64,
+        };
         let height = field.height(middle.x, middle.y);
         let slope = fitted(field, &feet, &middle).unwrap_or_else(|| field.slope(middle.x, middle.y));
         let normal = Vec3::new(-slope[0], -slope[1], 1.0).normalize();
         let turn = UnitQuaternion::rotation_between(&Vec3::z(), &normal).unwrap_or_default();
         let shift = Vec3::new(middle.x, middle.y, height) - turn * Vec3::new(middle.x, middle.y, 0.0);
         let leaning = Pose::from_parts(shift.into(), turn);
-        // Nothing of it is in the ground, and something touches it.
+        // Its lowest point is as high above the ground as it is above level ground.
         let above = points(model, &leaning, &normal).map(|p| field.above(p)).fold(f64::INFINITY, f64::min);
-        let lift = if above.is_finite() { -above } else { 0.0 };
+        let lift = if above.is_finite() { level - above } else { 0.0 };
         let X_WP = Pose::from_parts((shift + Vec3::z() * lift).into(), turn);
         Terrain { field: field.clone(), X_WP }
     }

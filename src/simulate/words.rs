@@ -3,6 +3,7 @@
 use super::outcome::{BondEventKind, Extreme, Simulation};
 use crate::robot::{Assembly, JointId};
 use crate::units::{Dimension, fixed, quantity};
+use std::f64::consts::{PI, TAU};
 
 /// The resolution of lengths in words, m, and of times, s.
 const LENGTH: f64 = 1e-5;
@@ -75,10 +76,12 @@ impl Simulation {
             (Some(_), None) => ", and it does not fall",
             _ => "",
         };
+        // Headings are from -π to π.
+        let turn = (self.heading - finer.heading + PI).rem_euclid(TAU) - PI;
         format!(
             "at half the step it ends {} and {} from there{falls}",
             length((self.travel - finer.travel).norm()),
-            degrees((self.heading - finer.heading).abs())
+            degrees(turn.abs())
         )
     }
 }

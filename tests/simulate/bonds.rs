@@ -125,6 +125,21 @@ fn ports_dock_within_what_their_connectors_capture() {
     }
 }
 
+#[test]
+fn a_program_knows_at_once_that_ports_missed_each_other() {
+    let asks = "dock(c.hook, l.eye), move(c.slide, by: 0mm, in: 1s, until: docked(c.hook), timeout: 2s) else abort(\"missed\"))";
+    let program = CRANE
+        .replace("STIFFNESS", &format!("{}N/m", 0.5 * GRAVITY / 4e-3))
+        .replace("dock(c.hook, l.eye), wait(1s))", asks);
+    let mut plan = plan(&program, HELD);
+    assert!(plan.nominal);
+    for (capture, docks) in [(4.2e-3, true), (3.8e-3, false)] {
+        set_capture(&mut plan, Capture { distance: capture, angle: 0.05 });
+        let simulation = play(&plan, &Settings::default());
+        assert_eq!(simulation.stop.is_none(), docks, "{:?}", simulation.stop);
+    }
+}
+
 fn set_capture(plan: &mut Plan, capture: Capture) {
     let mut library = (*plan.library).clone();
     library.connectors.iter_mut().for_each(|connector| connector.capture = Some(capture));

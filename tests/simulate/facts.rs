@@ -105,3 +105,40 @@ let b = Held().moves()
     let model = mjcf::write(&plan(program, HELD)).expect("it has a joint");
     assert!(model.contains("kv=\"2.5\""), "{model}");
 }
+
+#[test]
+fn a_speed_without_load_means_nothing_for_a_motor_without_limits() {
+    let arm = "module Wheel {
+  link post = box(40mm, 40mm, 40mm, mass: 1kg)
+  link disc = box(100mm, 100mm, 10mm, mass: 100g) at [0mm, 0mm, 50mm]
+  joint turn : post -> disc = revolute(axis: Z, no_load_speed: 1rad/s)
+}
+config One { part w: Wheel
+  base w
+  behavior turns = move(w.turn, by: 180deg, in: 1s)
+}
+let b = One().turns()
+";
+    let simulation = play(&plan(arm, HELD), &Settings::default());
+    close(simulation.motion.last().expect("it moves").joints[0], std::f64::consts::PI, 1e-3);
+}
+
+#[test]
+fn a_strong_motor_on_a_light_link_keeps_to_its_line() {
+    // 2.6 N·m on 1e-4 kg·m²: in one step it could go far beyond its speed without load, were its torque not that at the
+    // end of the step.
+    let finger = "module Finger {
+  link post = box(40mm, 40mm, 40mm, mass: 1kg)
+  link tip = box(20mm, 20mm, 20mm, mass: 100g, inertia: [0.0001kg*m^2, 0.0001kg*m^2, 0.0001kg*m^2]) at [0mm, 0mm, 50mm]
+  joint turn : post -> tip = revolute(axis: Z, max_torque: 2.6N*m, no_load_speed: 5rad/s)
+}
+config One { part f: Finger
+  base f
+  behavior turns = spin(f.turn, 20rad/s, for: 1s)
+}
+let b = One().turns()
+";
+    let simulation = play(&plan(finger, HELD), &Settings::default());
+    let turned = |time: f64| at(&simulation, time).joints[0];
+    close(turned(0.8) - turned(0.4), 5.0 * 0.4, 0.01);
+}
