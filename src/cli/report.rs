@@ -124,8 +124,9 @@ pub(super) struct JsonSimulation {
     pub saturated: Option<JsonExtreme>,
     /// The greatest load of a bond, in parts of what it holds.
     pub bond_load: Option<JsonExtreme>,
-    /// The greatest speed at which a link comes down on the ground, m/s.
+    /// The farthest that a link slides over the ground in all while it presses on it, m.
     pub slip: f64,
+    /// The greatest speed at which a link comes down on the ground, m/s.
     pub impact: f64,
     /// The mechanical work of the motors, J.
     pub energy: f64,

@@ -85,7 +85,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let servo = ServoGains { stiffness: read.stiffness.map(|Positive(x)| x), ..ServoGains::default() };
     let terrain = read.terrain.map(|field| Arc::new(field.clone()));
     let (step, friction) = (read.step.0, read.friction);
-    let obstacles = obstacles(call, read.obstacles)?;
+    let obstacles = obstacles(call, read.obstacles)?.into();
     let settings = Settings { step, friction, servo, terrain, obstacles, ..Settings::default() };
     let refused = |refusal: Refusal| refused(&refusal, call);
     // Lattices and trusses are refused before anything judges them.
@@ -97,7 +97,8 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (outcome, halving) = simulate_halving(plan, &settings).map_err(refused)?;
     let runs = study(plan, &settings, &spread, read.runs, read.seed as u64).map_err(refused)?;
     let plain = settings == Settings { step: settings.step, ..Settings::default() };
-    let verdict = plain.then(|| interpreter.judge(&planned, plan.settings, None));
+    // The verdict is not about a program that senses.
+    let verdict = (plain && !plan.nominal).then(|| interpreter.judge(&planned, plan.settings, None));
     let mut notes = vec![halving];
     if plan.nominal && plan.program.is_some() {
         notes.push(
@@ -113,8 +114,6 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if !settings.obstacles.is_empty() {
         notes.push("the plan knows no obstacles, and no verdict is about them".to_string());
     }
-    // The verdict is not about a program that senses.
-    let verdict = verdict.filter(|_| !plan.nominal);
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))

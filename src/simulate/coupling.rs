@@ -97,7 +97,7 @@ impl Couplings {
         for (id, owner) in robot.joints().enumerate() {
             if let crate::robot::JointOwner::Bond(bond) = owner {
                 let stiffness = robot.servo_stiffness(owner);
-                hinges[bond] = Some((id, (stiffness, crate::robot::Servo::DAMPING_DEFAULT * stiffness)));
+                hinges[bond] = Some((id, (stiffness, robot.servo(owner).damping_with(stiffness))));
             }
         }
         let bond = |&bond: &usize| LooseBond {

@@ -96,11 +96,13 @@ impl LinkContacts {
         let mut all = LinkContacts::default();
         // The shapes of the obstacles come first, so that they are the first ones of pairs.
         let mut obstacle_of = Vec::new();
-        for (body, (number, shapes)) in model.fixture.into_iter().cycle().zip((1..).zip(obstacles)) {
-            let refused = |fault: Unsound| Refusal::Obstacle(number, format!("is not sound: {fault}"));
-            for part in Solid::new(shapes).map_err(refused)?.parts {
-                obstacle_of.push(number);
-                all.shapes.push(Shape { body, part, touch: 0.0 });
+        if let Some(body) = model.fixture {
+            for (number, shapes) in (1..).zip(obstacles) {
+                let refused = |fault: Unsound| Refusal::Obstacle(number, format!("is not sound: {fault}"));
+                for part in Solid::new(shapes).map_err(refused)?.parts {
+                    obstacle_of.push(number);
+                    all.shapes.push(Shape { body, part, touch: 0.0 });
+                }
             }
         }
         all.standing = all.shapes.len();

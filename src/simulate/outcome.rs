@@ -8,6 +8,7 @@ use super::terrain::Terrain;
 use crate::behavior::Reason;
 use crate::geometry::pose::lean;
 use crate::geometry::{Placed, Pose, Vec3};
+use std::sync::Arc;
 
 /// The time over which efforts are means, s: shorter peaks are those of gears and bearings.
 const WINDOW: f64 = 0.05;
@@ -62,7 +63,7 @@ pub struct Simulation {
     /// The ground where it was not level, with the robot put on it.
     pub terrain: Option<Terrain>,
     /// The obstacles, each of shapes placed in the world.
-    pub obstacles: Vec<Vec<Placed>>,
+    pub obstacles: Arc<[Vec<Placed>]>,
     /// The duration of the plan, s, or of its program as it was executed.
     pub duration: f64,
     /// The displacement of the base from the start of the plan to 0.3 s after its end, m.
@@ -139,7 +140,7 @@ impl<'a> Recorder<'a> {
         let out = Simulation {
             step,
             terrain: None,
-            obstacles: Vec::new(),
+            obstacles: Arc::default(),
             duration: 0.0,
             travel: Vec3::zeros(),
             heading: 0.0,

@@ -103,21 +103,6 @@ impl Recording {
     /// Keeps the moment at which a step ends, `time` (s). `efforts`: the efforts of the bodies' joints along their
     /// coordinates, N·m or N.
     pub(super) fn see(&mut self, stepper: &Stepper, commands: &Commands, efforts: &[f64], time: f64) {
-        if self.motion.len() >= self.most {
-            // Every second moment goes, and the next ones are twice as far apart.
-            let mut number = 0;
-            self.motion.retain(|_| {
-                number += 1;
-                number % 2 == 1
-            });
-            self.apart *= 2.0;
-            let last = self.motion.last().map_or(0.0, |moment| moment.time);
-            if time < last + 0.75 * self.apart {
-                self.next = last + self.apart;
-                return;
-            }
-        }
-        self.next = time + self.apart;
         let model = stepper.model;
         let mut joints: Vec<f64> = commands.joints.iter().map(|(position, _)| *position).collect();
         for (body, coordinate) in model.bodies.iter().zip(&stepper.coordinates) {
@@ -134,6 +119,16 @@ impl Recording {
             efforts: efforts_of_drives(model, efforts),
             contacts: self.contacts(stepper),
         });
+        if self.motion.len() > self.most {
+            // Every second moment goes, and the next ones are twice as far apart.
+            let mut stays = false;
+            self.motion.retain(|_| {
+                stays = !stays;
+                stays
+            });
+            self.apart *= 2.0;
+        }
+        self.next = self.motion.last().map_or(0.0, |moment| moment.time) + self.apart;
     }
 
     /// Returns the forces of the contacts of the step taken last.

@@ -21,7 +21,7 @@ impl Measured<'_, '_> {
     /// Returns the position (rad or m), rate and effort (N·m or N) of a joint.
     fn joint(&self, joint: JointId) -> [f64; 3] {
         let number = joint.0 as usize;
-        self.stepper.joint(number).unwrap_or_else(|| {
+        self.stepper.sensed(number).unwrap_or_else(|| {
             let (position, rate) = self.commands[number];
             [position, rate, 0.0]
         })
@@ -31,9 +31,7 @@ impl Measured<'_, '_> {
 impl Sensors for Measured<'_, '_> {
     fn value(&self, signal: Signal) -> f64 {
         match signal {
-            Signal::Angle(joint) => {
-                self.stepper.sensed(joint.0 as usize).unwrap_or_else(|| self.joint(joint)[0])
-            }
+            Signal::Angle(joint) => self.joint(joint)[0],
             Signal::Speed(joint) => self.joint(joint)[1],
             Signal::Effort(joint) => self.joint(joint)[2],
             Signal::Elapsed => unreachable!("the time of an action is not asked for"),

@@ -52,7 +52,7 @@ pub struct Settings {
     pub terrain: Option<Arc<HeightField>>,
     /// Solids in the world that stand fast, each of shapes placed in the world. Their friction is
     /// [`Link::FRICTION_DEFAULT`](crate::robot::Link::FRICTION_DEFAULT), or that of a rougher link on them.
-    pub obstacles: Vec<Vec<Placed>>,
+    pub obstacles: Arc<[Vec<Placed>]>,
 }
 
 impl Settings {
@@ -92,7 +92,7 @@ impl Default for Settings {
             servo: ServoGains::default(),
             link_contacts: true,
             terrain: None,
-            obstacles: Vec::new(),
+            obstacles: Arc::default(),
         }
     }
 }

@@ -313,20 +313,13 @@ impl<'a> Stepper<'a> {
         loads
     }
 
-    /// Returns the position (rad or m), the rate and the effort (N·m or N) of a joint, by the number of its id, now; `None`
-    /// for one that moves no body of a tree.
-    pub(super) fn joint(&self, joint: usize) -> Option<[f64; 3]> {
-        let body = self.model.moved_by[joint]?;
-        let factor = self.model.bodies[body].joint.as_ref()?.factor;
-        Some([self.coordinates[body], self.rates[body], self.efforts[body]].map(|value| value * factor))
-    }
-
-    /// Returns the position (rad or m) of a joint as its sensor has it, by the number of its id: off by its error of zero.
-    pub(super) fn sensed(&self, joint: usize) -> Option<f64> {
+    /// Returns the position (rad or m), the rate and the effort (N·m or N) of a joint as its sensors have them now, by the
+    /// number of its id: the position is off by the error of its zero. `None` for a joint that moves no body of a tree.
+    pub(super) fn sensed(&self, joint: usize) -> Option<[f64; 3]> {
         let body = self.model.moved_by[joint]?;
         let moves = self.model.bodies[body].joint.as_ref()?;
-        let zero = moves.servo.as_ref().map_or(0.0, |servo| servo.zero);
-        Some((self.coordinates[body] - zero) * moves.factor)
+        let position = self.coordinates[body] - moves.servo.as_ref().map_or(0.0, |servo| servo.zero);
+        Some([position, self.rates[body], self.efforts[body]].map(|value| value * moves.factor))
     }
 
     /// Returns the world pose of a port at the start of the step taken last.

@@ -26,9 +26,9 @@ pub struct Terrain {
 impl Terrain {
     /// Returns the ground with a robot put on it, which stands on level ground at height 0 as the plan begins.
     pub(super) fn under(model: &Model, field: &Arc<HeightField>) -> Terrain {
-        let feet: Vec<Vec3> =
-            points(model, &Pose::identity(), &Vec3::z()).filter(|p| p.z <= STANDING).collect();
-        let level = points(model, &Pose::identity(), &Vec3::z()).map(|p| p.z).fold(f64::INFINITY, f64::min);
+        let planned: Vec<Vec3> = points(model, &Pose::identity(), &Vec3::z()).collect();
+        let level = planned.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+        let feet: Vec<Vec3> = planned.into_iter().filter(|p| p.z <= STANDING).collect();
         let middle = match feet.is_empty() {
             true => model.start[0].translation.vector,
             false => feet.iter().sum::<Vec3>() / feet.len() as f64,

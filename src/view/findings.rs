@@ -113,7 +113,7 @@ fn worst(verdict: &Verdict) -> Vec<Value> {
 }
 
 /// Rounds a length in metres to a hundredth of a millimetre.
-fn short_length(x: f64) -> f64 {
+pub(super) fn short_length(x: f64) -> f64 {
     libm::round(x * 1e5) / 1e5
 }
 

@@ -142,7 +142,7 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
 
 /// Returns a length (m) in words.
 fn length(x: f64) -> String {
-    quantity(libm::round(x * 1e5) / 1e5, Dimension::LENGTH)
+    quantity(findings::short_length(x), Dimension::LENGTH)
 }
 
 /// Returns the position of the base at a time (s), m: at the first moment from then on.

@@ -1,12 +1,10 @@
 //! Pages of simulations: what they hold beside the closed forms of mechanics, and beside the pages of their plans.
 
+use crate::simulate::fixtures::{DROP, GRAVITY, close};
 use crate::support::desk::{run, run_clean};
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 use serde_json::Value;
-
-/// The acceleration of free fall, m/s².
-const GRAVITY: f64 = 9.80665;
 
 /// The data of a page that a program shows.
 fn data(page: &str) -> Value {
@@ -67,24 +65,6 @@ fn shown(program: &str, world: &str, settings: &str) -> String {
     let show = format!("show(simulate(plan(b, world: world({world})){settings}), \"s.html\")\n");
     run_clean(&format!("{program}{show}")).text("s.html").to_owned()
 }
-
-#[track_caller]
-fn close(value: f64, expected: f64, error: f64) {
-    assert!((value - expected).abs() <= error, "{value} instead of {expected}");
-}
-
-/// A weight that slides down from a post.
-const DROP: &str = "module Drop {
-  link post = box(50mm, 50mm, 50mm, mass: 1kg)
-  link weight = box(50mm, 50mm, 50mm, mass: 3kg) at [0mm, 0mm, -100mm]
-  joint slide : post -> weight = prismatic(axis: Z, passive: true)
-}
-config Falls { part d: Drop
-  base d
-  behavior rest = wait(1s)
-}
-let b = Falls().rest()
-";
 
 #[test]
 fn joints_are_where_mechanics_has_them() {
@@ -193,7 +173,7 @@ for t in s.travels {{ print(t / 1m) }}
     for part in ["tracks", "trees", "forms", "start", "base", "modules", "kinds"] {
         assert_eq!(page.data["body"][part], plan["body"][part], "{part}");
     }
-    // What is commanded is followed within some degrees.
+    // Joints follow their commands within some degrees.
     let lag = page.data["verdict"]["worst"][0][1].as_str().expect("words");
     assert!(lag.starts_with("greatest lag"), "{lag}");
     let drives = page.data["simulation"]["drives"].as_array().expect("a list");

@@ -1,7 +1,7 @@
 //! Simulations beside closed forms: of what swings, falls, floats and is held.
 
 use super::fixtures::{
-    DOUBLE_PENDULUM, FRAME, GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play, rate, step,
+    DOUBLE_PENDULUM, DROP, FRAME, GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play, rate, step,
 };
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
@@ -46,18 +46,7 @@ fn a_pendulum_swings_with_the_period_of_its_amplitude() {
 
 #[test]
 fn what_nothing_holds_falls_freely() {
-    let program = "module Drop {
-  link post = box(50mm, 50mm, 50mm, mass: 1kg)
-  link weight = box(50mm, 50mm, 50mm, mass: 3kg) at [0mm, 0mm, -100mm]
-  joint slide : post -> weight = prismatic(axis: Z, passive: true)
-}
-config Falls { part d: Drop
-  base d
-  behavior rest = wait(1s)
-}
-let b = Falls().rest()
-";
-    let simulation = play(&plan(program, HELD), &Settings::default());
+    let simulation = play(&plan(DROP, HELD), &Settings::default());
     for moment in &simulation.motion {
         // It is let go 0.3 s before the plan begins. Velocities at the end of steps are gained a step early: g h t/2.
         let (time, h) = (moment.time + 0.3, simulation.step);

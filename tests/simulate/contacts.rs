@@ -1,6 +1,6 @@
 //! Simulations beside closed forms: of what rolls, slides and is dragged on the ground, and of links that meet.
 
-use super::fixtures::{CART, GRAVITY, LEVEL, at, close, plan, play, step};
+use super::fixtures::{CART, GRAVITY, LEVEL, at, close, plan, play, step, train};
 use modl::plan::World;
 use modl::simulate::{Settings, Simulation};
 use std::f64::consts::TAU;
@@ -78,32 +78,14 @@ fn a_robot_that_accelerates_beyond_friction_slides_back_and_forth() {
     }
 }
 
-/// Two boxes of 1.5 kg with a joint that slides between them, and their coefficients of friction. By symmetry each bears
-/// half of the weight.
-fn train(a: f64, b: f64) -> String {
-    format!(
-        "module Train {{
-  link engine = box(100mm, 100mm, 40mm, mass: 1.5kg, friction: {a})
-  link wagon = box(100mm, 100mm, 40mm, mass: 1.5kg, friction: {b}) at [200mm, 0mm, 0mm]
-  joint bar : engine -> wagon = prismatic(axis: X, stiffness: 10000N/m)
-}}
-config Drags {{ part t: Train
-  base t
-  behavior pushes = move(t.bar, by: 200mm, in: 2s)
-}}
-let b = Drags().pushes()
-"
-    )
-}
-
 #[test]
 fn of_two_boxes_that_push_each_other_the_one_with_less_friction_slides() {
     // 1.5 kg at 0.5 hold against as much at 0.4, which the joint drags by 200 mm: 0.4 · 1.5 · 9.81 N · 0.2 m.
-    let simulation = play(&plan(&train(0.5, 0.4), LEVEL), &Settings::default());
+    let simulation = play(&plan(&train(0.5, "friction: 0.4"), LEVEL), &Settings::default());
     close(simulation.travel.norm(), 0.0, 2e-4);
     let work = 0.4 * 1.5 * GRAVITY * 0.2;
     close(simulation.work, work, 0.02 * work);
-    let simulation = play(&plan(&train(0.4, 0.5), LEVEL), &Settings::default());
+    let simulation = play(&plan(&train(0.4, "friction: 0.5"), LEVEL), &Settings::default());
     close(simulation.travel.x, -0.2, 1e-3);
     close(simulation.work, work, 0.02 * work);
 }
@@ -111,7 +93,7 @@ fn of_two_boxes_that_push_each_other_the_one_with_less_friction_slides() {
 #[test]
 fn what_slides_without_friction_keeps_its_centre_of_mass() {
     let world = World { friction: 0.0, ..LEVEL };
-    let simulation = play(&plan(&train(0.4, 0.5), world), &Settings::default());
+    let simulation = play(&plan(&train(0.4, "friction: 0.5"), world), &Settings::default());
     // Engine and wagon weigh as much, and go the same way.
     close(simulation.travel.x, -0.1, 1e-5);
 }

@@ -1,7 +1,7 @@
 //! Facts of modules that simulations alone know: damping, the torque-speed line of a motor, static friction, and the
 //! stiffness of contacts.
 
-use super::fixtures::{GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play};
+use super::fixtures::{GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play, train};
 use modl::formats::mjcf;
 use modl::simulate::Settings;
 
@@ -41,26 +41,9 @@ let b = Turns().turns()
     }
 }
 
-/// Two boxes of 1.5 kg with a joint that slides between them by 200 mm; the second with these facts of its surface.
-fn train(wagon: &str) -> String {
-    format!(
-        "module Train {{
-  link engine = box(100mm, 100mm, 40mm, mass: 1.5kg, friction: 0.5)
-  link wagon = box(100mm, 100mm, 40mm, mass: 1.5kg, {wagon}) at [200mm, 0mm, 0mm]
-  joint bar : engine -> wagon = prismatic(axis: X, stiffness: 10000N/m)
-}}
-config Drags {{ part t: Train
-  base t
-  behavior pushes = move(t.bar, by: 200mm, in: 2s)
-}}
-let b = Drags().pushes()
-"
-    )
-}
-
 #[test]
 fn what_sticks_better_than_it_slides_stays_where_it_is() {
-    let travel = |wagon: &str| play(&plan(&train(wagon), LEVEL), &Settings::default()).travel.x;
+    let travel = |wagon: &str| play(&plan(&train(0.5, wagon), LEVEL), &Settings::default()).travel.x;
     // The wagon slides at 0.4, below the engine's 0.5; if it sticks up to 0.6, the engine slides.
     close(travel("friction: 0.4"), 0.0, 1e-3);
     close(travel("friction: 0.4, static_friction: 0.6"), -0.2, 2e-3);

@@ -113,3 +113,34 @@ config Car {
   behavior spins(w: AngularSpeed, t: Time) = Pc(spin(c.a, w, for: t), spin(c.b, w, for: t), spin(c.c, w, for: t), spin(c.d, w, for: t))
 }
 ";
+
+/// A weight that slides down from a post.
+pub const DROP: &str = "module Drop {
+  link post = box(50mm, 50mm, 50mm, mass: 1kg)
+  link weight = box(50mm, 50mm, 50mm, mass: 3kg) at [0mm, 0mm, -100mm]
+  joint slide : post -> weight = prismatic(axis: Z, passive: true)
+}
+config Falls { part d: Drop
+  base d
+  behavior rest = wait(1s)
+}
+let b = Falls().rest()
+";
+
+/// Returns the program of two boxes of 1.5 kg with a joint that slides between them by 200 mm: the first with a coefficient
+/// of friction, the second with these facts of its surface. By symmetry each bears half of the weight.
+pub fn train(friction: f64, wagon: &str) -> String {
+    format!(
+        "module Train {{
+  link engine = box(100mm, 100mm, 40mm, mass: 1.5kg, friction: {friction})
+  link wagon = box(100mm, 100mm, 40mm, mass: 1.5kg, {wagon}) at [200mm, 0mm, 0mm]
+  joint bar : engine -> wagon = prismatic(axis: X, stiffness: 10000N/m)
+}}
+config Drags {{ part t: Train
+  base t
+  behavior pushes = move(t.bar, by: 200mm, in: 2s)
+}}
+let b = Drags().pushes()
+"
+    )
+}

@@ -5,7 +5,7 @@ mod bonds;
 mod closed_forms;
 mod contacts;
 mod facts;
-mod fixtures;
+pub mod fixtures;
 mod mujoco;
 mod obstacles;
 mod robustness;

@@ -3,11 +3,12 @@
 use super::fixtures::{CART, GRAVITY, LEVEL, at, close, plan, play};
 use modl::geometry::{Placed, Shape, Vec3, pose::shifted};
 use modl::simulate::{Refusal, Settings, simulate};
+use std::sync::Arc;
 
 /// Returns settings with one box as an obstacle; its size and its centre, m.
 fn beside(size: [f64; 3], centre: [f64; 3]) -> Settings {
     let wall = Placed { pose: shifted(Vec3::from(centre)), shape: Shape::Box { size: Vec3::from(size) } };
-    Settings { obstacles: vec![vec![wall]], ..Settings::default() }
+    Settings { obstacles: Arc::new([vec![wall]]), ..Settings::default() }
 }
 
 #[test]

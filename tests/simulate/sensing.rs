@@ -4,6 +4,7 @@ use super::fixtures::{GRAVITY, HELD, LEVEL, close, plan, play, step};
 use modl::geometry::{Placed, Shape, Vec3, pose::shifted};
 use modl::plan::{Body, Ground, World};
 use modl::simulate::{Refusal, Settings, Simulation, simulate};
+use std::sync::Arc;
 
 /// The world in which the base stands on level ground, and is fixed to it.
 const FIXED: World = World { ground: Ground::Fixed, ..LEVEL };
@@ -87,7 +88,7 @@ fn an_arm_stops_where_it_touches_an_obstacle() {
     let program = format!("{ARM}let x = Reach(20deg)\nlet b = {lowers}\n");
     let size = Vec3::new(0.1, 0.1, 0.02);
     let step = Placed { pose: shifted(Vec3::new(0.2, 0.0, 0.01)), shape: Shape::Box { size } };
-    let settings = Settings { obstacles: vec![vec![step]], ..Settings::default() };
+    let settings = Settings { obstacles: Arc::new([vec![step]]), ..Settings::default() };
     // The lower near edge of the cube is 200 mm along and 10 mm below, the step 5 mm below the joint: 200 sin - 10 cos = -5.
     let expected = libm::atan(10.0 / 200.0) - libm::asin(5.0 / libm::hypot(200.0, 10.0));
     close(end(&play(&plan(&program, FIXED), &settings)), expected.to_degrees(), 0.1);
