@@ -1958,6 +1958,10 @@ extern type Simulation {
   saturated: Time
   /// The greatest load of a bond, in parts of what it holds.
   bond_load: Number
+  /// The greatest distance of two ports from each other when they docked, or were to dock and missed each other.
+  dock_error: Length
+  /// The greatest angle between two such ports and a perfect mate.
+  dock_angle: Angle
   /// The farthest that a link slid over the ground in all while it pressed on it.
   slip: Length
   /// The greatest speed at which a link came down on the ground.
@@ -1968,6 +1972,8 @@ extern type Simulation {
   path: List<Vec3<Length>>
   /// In how many of the further runs it fell.
   falls: Int
+  /// In how many of the further runs ports that were to dock missed each other.
+  misses: Int
   /// How far the base got, seen from above, in each of the further runs.
   travels: List<Length>
   /// Falls, bonds that broke, ports that did not dock, and why a program was stopped, in words, in order of time.

@@ -124,6 +124,10 @@ pub(super) struct JsonSimulation {
     pub saturated: Option<JsonExtreme>,
     /// The greatest load of a bond, in parts of what it holds.
     pub bond_load: Option<JsonExtreme>,
+    /// The greatest distance of two ports that dock, or miss each other, m; `None`: none are to dock.
+    pub dock_error: Option<JsonExtreme>,
+    /// The greatest angle of two such ports from a perfect mate, rad.
+    pub dock_angle: Option<JsonExtreme>,
     /// The farthest that a link slides over the ground in all while it presses on it, m.
     pub slip: f64,
     /// The greatest speed at which a link comes down on the ground, m/s.

@@ -94,6 +94,11 @@ fn told(
         let named = |e: Extreme| JsonExtreme { value: e.value, at: e.joint(&tracks.robot), time: e.time };
         extreme.map(named)
     };
+    let of_bond = |extreme: Option<Extreme>| {
+        let named =
+            |e: Extreme| JsonExtreme { value: e.value, at: tracks.robot.bond_name(e.of), time: e.time };
+        extreme.map(named)
+    };
     report.simulations.get_or_insert_default().push(JsonSimulation {
         file: name.to_owned(),
         ok,
@@ -108,11 +113,9 @@ fn told(
         slide_lag: of_joint(outcome.lag_length),
         torque: of_joint(outcome.effort),
         saturated: of_joint(outcome.saturated),
-        bond_load: outcome.bond_load.map(|e| JsonExtreme {
-            value: e.value,
-            at: tracks.robot.bond_name(e.of),
-            time: e.time,
-        }),
+        bond_load: of_bond(outcome.bond_load),
+        dock_error: of_bond(outcome.dock_errors().map(|errors| errors.0)),
+        dock_angle: of_bond(outcome.dock_errors().map(|errors| errors.1)),
         slip: outcome.slip,
         impact: outcome.impact,
         energy: outcome.work,

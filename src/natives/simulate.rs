@@ -116,6 +116,10 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
+    let missing = runs.iter().filter(|run| run.outcome.misses()).count();
+    if missing > 0 {
+        notes.push(format!("ports do not dock in {missing} of {} runs", runs.len()));
+    }
     Ok(Value::Record(Rc::new(Record::Native(Rc::new(Simulated { planned, outcome, runs, notes })))))
 }
 
@@ -222,6 +226,11 @@ const SIMULATION: &[Field<Simulated>] = &[
     ("torque", |s| Value::number(Simulated::worst(s.outcome.effort))),
     ("saturated", |s| Value::time(Simulated::worst(s.outcome.saturated))),
     ("bond_load", |s| Value::number(Simulated::worst(s.outcome.bond_load))),
+    ("dock_error", |s| Value::length(Simulated::worst(s.outcome.dock_errors().map(|errors| errors.0)))),
+    ("dock_angle", |s| {
+        let angle = s.outcome.dock_errors().map(|errors| errors.1);
+        Value::Quantity(Simulated::worst(angle), Dimension::ANGLE)
+    }),
     ("slip", |s| Value::length(s.outcome.slip)),
     ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
     ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
@@ -231,6 +240,7 @@ const SIMULATION: &[Field<Simulated>] = &[
         Value::list(s.outcome.motion.iter().map(at).collect())
     }),
     ("falls", |s| Value::count(s.runs.iter().filter(|run| run.outcome.fall.is_some()).count())),
+    ("misses", |s| Value::count(s.runs.iter().filter(|run| run.outcome.misses()).count())),
     ("travels", |s| {
         Value::list(s.runs.iter().map(|run| Value::length(run.outcome.travel.xy().norm())).collect())
     }),

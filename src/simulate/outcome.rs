@@ -105,6 +105,26 @@ pub struct Simulation {
     pub motion: Vec<Moment>,
 }
 
+impl Simulation {
+    /// Returns the farthest from a perfect mate that ports were when they docked, or were to dock and missed each other:
+    /// their distance (m) and their angle (rad), each with the index of the bond; `None` where nothing was to dock.
+    pub fn dock_errors(&self) -> Option<(Extreme, Extreme)> {
+        let (mut distance, mut angle) = (None, None);
+        for event in &self.bonds {
+            if let BondEventKind::Docks(apart, turned) | BondEventKind::Misses(apart, turned) = event.kind {
+                keep(&mut distance, apart, event.bond, event.time);
+                keep(&mut angle, turned, event.bond, event.time);
+            }
+        }
+        distance.zip(angle)
+    }
+
+    /// Returns true if ports that were to dock missed each other.
+    pub fn misses(&self) -> bool {
+        self.bonds.iter().any(|event| matches!(event.kind, BondEventKind::Misses(..)))
+    }
+}
+
 /// The measurement of a simulation.
 pub(super) struct Recorder<'a> {
     model: &'a Model,

@@ -11,7 +11,7 @@ const TIME: f64 = 1e-3;
 
 impl Simulation {
     /// Returns the result on one line for what the base does, one for the joints and one for the motors, if there are
-    /// any, and one for each failure; `robot` names joints and bonds.
+    /// any, one for the ports that dock, and one for each failure; `robot` names joints and bonds.
     pub fn in_words(&self, robot: &Assembly) -> Vec<String> {
         let mut lines = vec![format!(
             "simulated in steps of {}: travels {}, turns {}, leans at most {}",
@@ -29,6 +29,15 @@ impl Simulation {
         if let Some(effort) = self.effort {
             let effort = format!("{} of the limit at {}", fixed(effort.value, 2), effort.joint(robot));
             lines.push(format!("torque reaches {effort}"));
+        }
+        if let Some((distance, angle)) = self.dock_errors() {
+            lines.push(format!(
+                "ports dock {} from a perfect mate at most at {}, and {} at {}",
+                length(distance.value),
+                robot.bond_name(distance.of),
+                degrees(angle.value),
+                robot.bond_name(angle.of)
+            ));
         }
         lines.extend(self.failures(robot).into_iter().map(|failure| format!("failed {failure}")));
         lines

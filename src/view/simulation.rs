@@ -110,6 +110,9 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
         worst(outcome.bond_load, &|x, of| {
             format!("greatest load {} of what it holds, {}", parts(x), robot.bond_name(of))
         }),
+        worst(outcome.dock_errors().map(|errors| errors.0), &|x, of| {
+            format!("ports dock within {}, {}", length(x), robot.bond_name(of))
+        }),
     ];
     let mut checks = vec![
         ["travels".to_owned(), length(outcome.travel.xy().norm())],

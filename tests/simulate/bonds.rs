@@ -3,7 +3,7 @@
 use super::fixtures::{GRAVITY, HELD, close, plan, play, step};
 use modl::plan::{Body, Plan};
 use modl::robot::Capture;
-use modl::simulate::{BondEvent, BondEventKind, ServoGains, Settings};
+use modl::simulate::{BondEvent, BondEventKind, ServoGains, Settings, Spread, study};
 use std::sync::Arc;
 
 /// A module of 2 kg below one that is held, by a bond of which `holds` is stated; with `aside` it sticks out by 100 mm.
@@ -118,11 +118,27 @@ fn ports_dock_within_what_their_connectors_capture() {
         };
         assert_eq!(happens, docks);
         close(distance, 4e-3, 2e-5);
+        let (farthest, _) = simulation.dock_errors().expect("ports are to dock");
+        assert_eq!((farthest.value, simulation.misses()), (distance, !docks));
         close(angle, 0.0, 1e-6);
         // Docked ports are drawn in; those that are not stay.
         let slide = simulation.motion.last().expect("it moves").joints[0];
         close(slide, if docks { 0.0 } else { -4e-3 }, 1e-4);
     }
+}
+
+#[test]
+fn heavier_arms_miss_their_ports() {
+    let program = CRANE.replace("STIFFNESS", &format!("{}N/m", 0.5 * GRAVITY / 4e-3));
+    let plan = plan(&program, HELD);
+    let spread = Spread { mass: 0.4, ..Spread::default() };
+    let runs = study(&plan, &Settings::default(), &spread, 12, 0).expect("it is played");
+    // Masses sag as they weigh, 4.0 mm as stated, and the connector captures 5 mm.
+    for run in &runs {
+        assert_eq!(run.outcome.misses(), run.factors.mass * 4e-3 > 5e-3, "{:?}", run.factors);
+    }
+    let missing = runs.iter().filter(|run| run.outcome.misses()).count();
+    assert!((1..runs.len()).contains(&missing), "some dock, some miss: {missing}");
 }
 
 #[test]

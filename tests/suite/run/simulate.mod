@@ -80,6 +80,33 @@ let s = simulate(plan(Hanging().hang(), world: world(ground: held)))
 print("{s.bond_load:.3}")
 //> 0.654
 
+--- ports dock as far from a perfect mate as the arm sags
+connector Hook { mates Hook, turns 4, capture 5mm 5deg }
+module Crane {
+  link post = box(40mm, 40mm, 40mm, mass: 2kg)
+  link lift = box(40mm, 40mm, 40mm, mass: 500g) at [0mm, 0mm, -300mm]
+  joint slide : post -> lift = prismatic(axis: Z, stiffness: 1225.83N/m)
+  port hook : Hook on lift at [0mm, 0mm, -20mm] facing -Z up +X
+  port holder : Hook on post at [500mm, 0mm, 0mm] facing +X up +Z
+}
+module Load {
+  link body = box(40mm, 40mm, 40mm, mass: 1kg) at [300mm, 0mm, 0mm]
+  port held : Hook on body at [-100mm, 0mm, 0mm] facing -X up +Z
+  port eye : Hook on body at [-600mm, 0mm, -320mm] facing +Z up +X
+}
+config Lifts closed {
+  part c: Crane
+  part l: Load
+  connect c.holder -- l.held
+  connect c.hook -- l.eye
+  base c
+  behavior docks = Sc(undock(c.hook), move(c.slide, by: 50mm, in: 500ms), move(c.slide, by: -50mm, in: 500ms), wait(1s), dock(c.hook, l.eye), wait(1s))
+}
+let s = simulate(plan(Lifts().docks(), world: world(ground: held)))
+// 0.5 kg at 1225.83 N/m sag by 4.00 mm.
+print(s.dock_error > 3.95mm and s.dock_error < 4.05mm, s.dock_angle < 0.01deg, s.misses, s.failures)
+//> true true 0 []
+
 --- arguments out of range
 use std.smores.Driver1
 let d = plan(Driver1().drive(t: 100ms))
