@@ -90,15 +90,9 @@ fn told(
         print(&format!("{name}: {}\n", lines.join("\n  ")));
     }
     let ok = failures.is_empty();
-    let of_joint = |extreme: Option<Extreme>| {
-        let named = |e: Extreme| JsonExtreme { value: e.value, at: e.joint(&tracks.robot), time: e.time };
-        extreme.map(named)
-    };
-    let of_bond = |extreme: Option<Extreme>| {
-        let named =
-            |e: Extreme| JsonExtreme { value: e.value, at: tracks.robot.bond_name(e.of), time: e.time };
-        extreme.map(named)
-    };
+    let json = |e: Extreme, at: String| JsonExtreme { value: e.value, at, time: e.time };
+    let of_joint = |extreme: Option<Extreme>| extreme.map(|e| json(e, e.joint(&tracks.robot)));
+    let of_bond = |extreme: Option<Extreme>| extreme.map(|e| json(e, e.bond(&tracks.robot)));
     report.simulations.get_or_insert_default().push(JsonSimulation {
         file: name.to_owned(),
         ok,
@@ -114,8 +108,8 @@ fn told(
         torque: of_joint(outcome.effort),
         saturated: of_joint(outcome.saturated),
         bond_load: of_bond(outcome.bond_load),
-        dock_error: of_bond(outcome.dock_errors().map(|errors| errors.0)),
-        dock_angle: of_bond(outcome.dock_errors().map(|errors| errors.1)),
+        dock_error: of_bond(outcome.dock_error()),
+        dock_angle: of_bond(outcome.dock_angle()),
         slip: outcome.slip,
         impact: outcome.impact,
         energy: outcome.work,

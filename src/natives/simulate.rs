@@ -116,7 +116,7 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     notes.extend(verdict.and_then(|verdict| disagreement(&outcome, &verdict)));
     notes.extend(mildest(&spread, &runs));
-    let missing = runs.iter().filter(|run| run.outcome.misses()).count();
+    let missing = misses(&runs);
     if missing > 0 {
         notes.push(format!("ports do not dock in {missing} of {} runs", runs.len()));
     }
@@ -187,6 +187,11 @@ fn mildest(spread: &Spread, runs: &[Run]) -> Option<String> {
     Some(format!("{falls}{first}"))
 }
 
+/// Returns the number of runs in which ports that were to dock missed each other.
+fn misses(runs: &[Run]) -> usize {
+    runs.iter().filter(|run| run.outcome.misses()).count()
+}
+
 /// The value of the language's type `Simulation`.
 #[derive(Debug)]
 pub(super) struct Simulated {
@@ -226,11 +231,8 @@ const SIMULATION: &[Field<Simulated>] = &[
     ("torque", |s| Value::number(Simulated::worst(s.outcome.effort))),
     ("saturated", |s| Value::time(Simulated::worst(s.outcome.saturated))),
     ("bond_load", |s| Value::number(Simulated::worst(s.outcome.bond_load))),
-    ("dock_error", |s| Value::length(Simulated::worst(s.outcome.dock_errors().map(|errors| errors.0)))),
-    ("dock_angle", |s| {
-        let angle = s.outcome.dock_errors().map(|errors| errors.1);
-        Value::Quantity(Simulated::worst(angle), Dimension::ANGLE)
-    }),
+    ("dock_error", |s| Value::length(Simulated::worst(s.outcome.dock_error()))),
+    ("dock_angle", |s| Value::Quantity(Simulated::worst(s.outcome.dock_angle()), Dimension::ANGLE)),
     ("slip", |s| Value::length(s.outcome.slip)),
     ("impact", |s| Value::Quantity(s.outcome.impact, Dimension::SPEED)),
     ("energy", |s| Value::Quantity(s.outcome.work, Dimension::ENERGY)),
@@ -240,7 +242,7 @@ const SIMULATION: &[Field<Simulated>] = &[
         Value::list(s.outcome.motion.iter().map(at).collect())
     }),
     ("falls", |s| Value::count(s.runs.iter().filter(|run| run.outcome.fall.is_some()).count())),
-    ("misses", |s| Value::count(s.runs.iter().filter(|run| run.outcome.misses()).count())),
+    ("misses", |s| Value::count(misses(&s.runs))),
     ("travels", |s| {
         Value::list(s.runs.iter().map(|run| Value::length(run.outcome.travel.xy().norm())).collect())
     }),

@@ -106,17 +106,27 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Returns the farthest from a perfect mate that ports were when they docked, or were to dock and missed each other:
-    /// their distance (m) and their angle (rad), each with the index of the bond; `None` where nothing was to dock.
-    pub fn dock_errors(&self) -> Option<(Extreme, Extreme)> {
-        let (mut distance, mut angle) = (None, None);
+    /// Returns the greatest distance of two ports (m) when they docked, or were to dock and missed each other, with the
+    /// index of the bond; `None` where nothing was to dock.
+    pub fn dock_error(&self) -> Option<Extreme> {
+        self.greatest_off(|distance, _| distance)
+    }
+
+    /// Returns the greatest angle of two such ports from a perfect mate (rad), with the index of the bond; `None` where
+    /// nothing was to dock.
+    pub fn dock_angle(&self) -> Option<Extreme> {
+        self.greatest_off(|_, angle| angle)
+    }
+
+    fn greatest_off(&self, of: impl Fn(f64, f64) -> f64) -> Option<Extreme> {
+        let mut greatest = None;
         for event in &self.bonds {
-            if let BondEventKind::Docks(apart, turned) | BondEventKind::Misses(apart, turned) = event.kind {
-                keep(&mut distance, apart, event.bond, event.time);
-                keep(&mut angle, turned, event.bond, event.time);
+            if let BondEventKind::Docks(distance, angle) | BondEventKind::Misses(distance, angle) = event.kind
+            {
+                keep(&mut greatest, of(distance, angle), event.bond, event.time);
             }
         }
-        distance.zip(angle)
+        greatest
     }
 
     /// Returns true if ports that were to dock missed each other.

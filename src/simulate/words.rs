@@ -30,13 +30,13 @@ impl Simulation {
             let effort = format!("{} of the limit at {}", fixed(effort.value, 2), effort.joint(robot));
             lines.push(format!("torque reaches {effort}"));
         }
-        if let Some((distance, angle)) = self.dock_errors() {
+        if let Some((distance, angle)) = self.dock_error().zip(self.dock_angle()) {
             lines.push(format!(
-                "ports dock {} from a perfect mate at most at {}, and {} at {}",
+                "ports to dock are off by {} at {}, and by {} at {}",
                 length(distance.value),
-                robot.bond_name(distance.of),
+                distance.bond(robot),
                 degrees(angle.value),
-                robot.bond_name(angle.of)
+                angle.bond(robot)
             ));
         }
         lines.extend(self.failures(robot).into_iter().map(|failure| format!("failed {failure}")));
@@ -99,6 +99,11 @@ impl Extreme {
     /// Returns the path name of the joint at which a quantity of joints was greatest; `robot`: the robot.
     pub fn joint(&self, robot: &Assembly) -> String {
         robot.name_of(JointId(u32::try_from(self.of).unwrap_or(u32::MAX)))
+    }
+
+    /// Returns the name of the bond at which a quantity of bonds was greatest; `robot`: the robot.
+    pub fn bond(&self, robot: &Assembly) -> String {
+        robot.bond_name(self.of)
     }
 }
 

@@ -10,7 +10,7 @@ use super::tolerances::TOLERANCES;
 use super::{data, findings};
 use crate::geometry::{HeightField, Placed, Pose, Vec3, ground_features};
 use crate::plan::Tracks;
-use crate::robot::{Assembly, JointId, JointOwner};
+use crate::robot::{Assembly, JointOwner};
 use crate::simulate::{
     BondEvent, BondEventKind, ContactForce, Drive, Extreme, Moment, Run, Simulation, Terrain,
 };
@@ -97,21 +97,22 @@ fn told(tracks: &Tracks, shown: &SimulationInput) -> Value {
     };
     let failures: Vec<Value> = outcome.timed_failures(robot).into_iter().map(failure).collect();
     let fails = !failures.is_empty();
-    let worst = |extreme: Option<Extreme>, words: &dyn Fn(f64, usize) -> String| {
-        extreme.map(|e| json!([number(e.time), words(e.value, e.of)]))
+    let worst = |extreme: Option<Extreme>, words: &dyn Fn(&Extreme) -> String| {
+        extreme.map(|e| json!([number(e.time), words(&e)]))
     };
-    let joint = |of: usize| robot.name_of(JointId(u32::try_from(of).unwrap_or(u32::MAX)));
     let parts = |x: f64| format!("{}%", fixed(100.0 * x, 1));
     let angle = |x: f64| format!("{}deg", fixed(x.to_degrees(), 1));
     let extremes = [
-        worst(outcome.lag, &|x, of| format!("greatest lag {}, {}", angle(x), joint(of))),
-        worst(outcome.lag_length, &|x, of| format!("greatest lag {}, {}", length(x), joint(of))),
-        worst(outcome.effort, &|x, of| format!("greatest effort {} of its limit, {}", parts(x), joint(of))),
-        worst(outcome.bond_load, &|x, of| {
-            format!("greatest load {} of what it holds, {}", parts(x), robot.bond_name(of))
+        worst(outcome.lag, &|e| format!("greatest lag {}, {}", angle(e.value), e.joint(robot))),
+        worst(outcome.lag_length, &|e| format!("greatest lag {}, {}", length(e.value), e.joint(robot))),
+        worst(outcome.effort, &|e| {
+            format!("greatest effort {} of its limit, {}", parts(e.value), e.joint(robot))
         }),
-        worst(outcome.dock_errors().map(|errors| errors.0), &|x, of| {
-            format!("ports dock within {}, {}", length(x), robot.bond_name(of))
+        worst(outcome.bond_load, &|e| {
+            format!("greatest load {} of what it holds, {}", parts(e.value), e.bond(robot))
+        }),
+        worst(outcome.dock_error(), &|e| {
+            format!("ports to dock are off by {}, {}", length(e.value), e.bond(robot))
         }),
     ];
     let mut checks = vec![

@@ -118,7 +118,7 @@ fn ports_dock_within_what_their_connectors_capture() {
         };
         assert_eq!(happens, docks);
         close(distance, 4e-3, 2e-5);
-        let (farthest, _) = simulation.dock_errors().expect("ports are to dock");
+        let farthest = simulation.dock_error().expect("ports are to dock");
         assert_eq!((farthest.value, simulation.misses()), (distance, !docks));
         close(angle, 0.0, 1e-6);
         // Docked ports are drawn in; those that are not stay.
