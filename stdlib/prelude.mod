@@ -677,6 +677,30 @@ extern fn connections(of: Config) -> List<Connection>
 /// ```
 extern fn same(a: Config, b: Config) -> Bool
 
+/// The ways in which a configuration is contained in a robot: each element is a robot of the type of `pattern` whose
+/// modules are modules of the robot `in`, so that its behaviours are behaviours of that robot.
+///
+/// An embedding maps each module of the pattern to another module of the robot. It keeps the type of the module with its
+/// arguments, and each connection with its two ports and its turn; of a connection with a joint
+/// also which port is first, where the joint would turn the other way round. The modules may have other connections to the rest of the robot, but none among themselves that the pattern
+/// lacks. Embeddings that differ by a symmetry are all listed, in the order of the robot's modules to which the first
+/// module of the pattern is mapped. The list is empty if the robot does not contain the pattern.
+///
+/// Joint positions make no difference, and what the pattern sets does not apply: behaviours begin in the posture of the
+/// robot. A module counts as a robot of one module. Comparing two modules counts as an evaluation step; at worst every
+/// module of the pattern is compared with every module of the robot. Embeddings of more than a million modules together
+/// are refused.
+///
+/// Example:
+/// ```modl
+/// use std.smores.{Grasper7, Walker14}
+/// let w = Walker14()
+/// let graspers = embed(Grasper7, in: w)
+/// print(graspers)
+/// print(plan(Sc(w.stand(), graspers[0].open())).duration)
+/// ```
+extern fn embed<C: Config>(pattern: C, in: Config) -> List<C>
+
 /// Where a port or a module's body is in the start pose, in the frame of the base module.
 ///
 /// Where a signal is wanted, as in `series`, it is the pose over time, in the world.

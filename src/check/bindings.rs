@@ -168,6 +168,18 @@ impl Bindings {
         bindings
     }
 
+    /// Returns the type of all that an unbound parameter may stand for, if `ty` is one that is bounded by a family of
+    /// declarations; any other type is returned as it is.
+    pub(super) fn bound_of(&self, ty: Type) -> Type {
+        match ty {
+            Type::Param(i) => match self.bounds[usize::from(i)] {
+                Bound::Family(family) => Type::AnyOf(family),
+                _ => ty,
+            },
+            _ => ty,
+        }
+    }
+
     /// Returns a type with the bound parameters substituted; unbound ones stay. [`Type::Error`] stands for a quantity
     /// in which the exponent of a base dimension would be too large.
     pub(super) fn apply(&self, ty: &Type) -> Type {

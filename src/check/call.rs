@@ -499,8 +499,8 @@ impl<'a> Checker<'a> {
             return got;
         }
         if !self.unify(pattern, &got.ty, bindings) {
-            let want = bindings.apply(pattern);
-            if has_params(&want) {
+            let want = bindings.bound_of(bindings.apply(pattern));
+            if has_params(&want) || matches!(want, Type::AnyOf(_)) {
                 let (need, have) = (self.words(&want), self.words(&got.ty));
                 let message = format!("`{name}` wants {need}; this is {have}");
                 let mut d = Diagnostic::error(code::TYPE_MISMATCH, message)

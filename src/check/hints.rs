@@ -49,6 +49,13 @@ impl Checker<'_> {
             (Type::Pose, Type::Signal(_)) => {
                 Some("a signal is asked for where it is wanted: `series(pose(port))`".into())
             }
+            (Type::Instance(id), Type::AnyOf(Family::Config)) => {
+                let word = self.family(*id)?.word();
+                Some(format!(
+                    "a `Config` is a configuration or a module; `{}` is a {word}",
+                    self.def(*id).name
+                ))
+            }
             (Type::Condition, Type::Bool) => {
                 Some("a condition is watched while the robot moves; it has no value yet".into())
             }

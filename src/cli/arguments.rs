@@ -29,6 +29,7 @@ Examples:
   modl check --json *.mod          diagnostics for an editor
   modl verify out/drive.plan.json  judge a plan again, from nothing but its file
   modl explain E0301               what a code means and how to mend it
+  modl what rover/main.mod Rover   what the library can do with a robot
   modl repl rover/main.mod         ask and try things out
   modl -e '4 * 90deg'              a question at once
 
@@ -126,6 +127,20 @@ pub(super) enum Command {
         /// Open the page (of several the last) in the browser
         #[arg(long)]
         open: bool,
+    },
+    /// List what the standard library can do with a robot
+    #[command(
+        after_help = "Lists the configurations that the robot contains, by the number of their embeddings, with the \
+        behaviors\nthat it can therefore execute: `embed(Grasper7, in: w)[0].squeeze()`. None of the program's \
+        statements is run.\n\nExamples:\n  modl what walkbot.mod Walkbot\n  modl what walkbot.mod 'Walkbot(bend: 20deg)'"
+    )]
+    What {
+        /// The program, whose declarations are taken in; `-` reads standard input
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
+        /// The robot: a configuration that the program declares, or an expression that gives one
+        #[arg(value_name = "ROBOT")]
+        robot: String,
     },
     /// Type declarations, statements and expressions, and see what they are
     #[command(

@@ -26,6 +26,7 @@ mod terminal;
 mod verdict;
 mod watch;
 mod watched;
+mod what;
 
 use crate::source::suggest::suggest;
 use arguments::{Arguments, Command};
@@ -180,6 +181,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Verify { files } => judge::run(files, globals),
         Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
         Command::Show { file, open } => show::run(file, *open, globals),
+        Command::What { file, robot } => repl::what(file, robot, globals),
         Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
         Command::Repl { file, .. } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),

@@ -1,4 +1,4 @@
-//! `modl repl` and `modl -e`: a session with a terminal, a pipe, or expressions on the command line.
+//! `modl repl`, `modl -e` and `modl what`: a session with a terminal, a pipe, or expressions on the command line.
 
 use super::arguments::Globals;
 use super::disk::{self, FILE_BYTES_MAX, Project};
@@ -8,7 +8,7 @@ use super::terminal::{
     Terminal, begin_work, idle, listen_for_cancel, listen_for_interrupt, print, print_error, print_styled,
     settled,
 };
-use super::{CallError, Ending, output, program, show};
+use super::{CallError, Ending, output, program, show, what};
 use crate::check::Checked;
 use crate::interpret::session::Shown;
 use crate::interpret::{Options, WriteError};
@@ -109,6 +109,28 @@ pub(super) fn expressions(texts: &[String], globals: &Globals) -> Result<Ending,
         repl.report.values = Some(std::mem::take(&mut repl.terminal.values));
         repl.report.finish(ending == Ending::Fine, globals);
     }
+    Ok(ending)
+}
+
+/// Runs the command `modl what`, which tells what the standard library can do with a robot: `robot` is an expression over
+/// what `file` declares.
+///
+/// # Errors
+/// A message if the project or the file can't be read, or the evaluator thread can't be started.
+pub(super) fn what(file: &Path, robot: &str, globals: &Globals) -> Result<Ending, CallError> {
+    let project = Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref())?;
+    let name = project.name.clone();
+    listen_for_cancel();
+    let mut repl = Repl::new(project, globals)?;
+    let mut loaded = repl.cancellable(|session, terminal| session.load(&name, terminal));
+    loaded.notes.clear();
+    if repl.print_reply(&loaded) {
+        repl.what(robot);
+    }
+    let ending = repl.ending();
+    repl.report.printed = None;
+    repl.report.written = None;
+    repl.report.finish(ending == Ending::Fine, globals);
     Ok(ending)
 }
 
@@ -305,6 +327,7 @@ impl<'g> Repl<'g> {
             Command::Verify(text) => {
                 self.ask(&format!("print(verify({text}))"), Shown::Nothing);
             }
+            Command::What(text) => self.what(&text),
             Command::View(text) => self.view(&text),
             Command::Time(text) => {
                 let begin = Instant::now();
@@ -339,6 +362,16 @@ impl<'g> Repl<'g> {
         match found {
             Ok(text) => print(&text),
             Err(why) => self.print_failure(&why),
+        }
+    }
+
+    /// Tells what the library can do with the robot that an expression gives.
+    fn what(&mut self, text: &str) {
+        let (reply, repertoire) = self.cancellable(|session, terminal| session.repertoire(text, terminal));
+        if self.print_reply(&reply)
+            && let Some(repertoire) = repertoire
+        {
+            what::tell(repertoire, &mut self.report, self.globals);
         }
     }
 

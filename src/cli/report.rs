@@ -2,6 +2,7 @@
 
 use super::arguments::{Color, Globals};
 use super::terminal::{JsonValue, print_error, print_json, print_styled};
+use super::what::JsonRobot;
 use crate::plan::Verdict;
 use crate::plan::facts::Facts;
 use crate::source::json::{JsonDiagnostic, to_json};
@@ -48,6 +49,9 @@ pub(super) struct Report {
     /// The simulations of plan files; `None` for commands that play none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub simulations: Option<Vec<JsonSimulation>>,
+    /// The robot that was asked about, with what embeds in it; `None` for other commands, and where it is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robot: Option<JsonRobot>,
     /// The links of documentation that lead nowhere; `None` for commands that write none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub broken_links: Option<Vec<JsonLink>>,

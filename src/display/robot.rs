@@ -227,7 +227,7 @@ fn free_of(instance: &Instance) -> Vec<String> {
     let robot = &instance.robot;
     let lone = ConfigDesign::default();
     let config = robot.config().unwrap_or(&lone);
-    let modules = instance.offset..instance.offset + instance.design.module_count();
+    let modules = instance.modules.indices(instance.design.module_count());
     modules
         .flat_map(|module| {
             let name = robot.module_name(module);

@@ -320,7 +320,7 @@ impl Interpreter<'_> {
         if let Value::Instance(part) = value {
             // Of a part that is a configuration, its own base.
             let inner = part.design.config().and_then(|c| c.base.get()).unwrap_or(0);
-            config.base.set(Some(part.offset + inner));
+            config.base.set(Some(part.modules.index(inner)));
         }
         Ok(())
     }

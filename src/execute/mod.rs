@@ -27,6 +27,7 @@ static ROUTINES: Routines = Routines {
     typed: display::typed,
     display: display::display,
     describe_declaration: display::describe_declaration,
+    capabilities: natives::capabilities,
     draw_declared: natives::draw_declared,
 };
 

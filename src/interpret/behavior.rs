@@ -131,7 +131,7 @@ impl Interpreter<'_> {
                         return Err(fault(code::BAD_ACTION, expr.span, message, "not a single module"));
                     }
                 }
-                plan::ExemptionKind::Collision(Some((x.offset, y.offset)))
+                plan::ExemptionKind::Collision(Some((x.modules.index(0), y.modules.index(0))))
             }
             ExemptionKind::Overload(Some(joint)) => {
                 let Value::Joint(value) = self.eval(joint, frame)? else { return Ok(None) };

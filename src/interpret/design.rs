@@ -6,6 +6,7 @@
 
 use super::cells::Cells;
 use super::identity::{Identity, Name};
+use super::module_map::ModuleMap;
 use super::robot::Robot;
 use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
@@ -366,8 +367,7 @@ impl Design {
     /// Returns the type of the module at an index. Panics if the modules of a configuration are not listed yet, the
     /// index is out of range, or the design is not a robot.
     pub fn module_type(self: &Rc<Design>, index: usize) -> Rc<ModuleType> {
-        let design = self.module_at(index);
-        design.module().expect("only modules are listed").module.clone()
+        self.module_at(index).module().expect("only modules are listed").module.clone()
     }
 
     /// Returns the path name of the module at an index, such as `leg[2].m[0]`; for a design that is not a
@@ -396,8 +396,7 @@ impl Design {
     /// Returns the connection at an index of [`Design::bonds`]. Panics if the design is not a configuration, or the
     /// index is out of range.
     pub fn bond(&self, index: usize) -> BondRecord {
-        let config = self.config().expect("only configurations have bonds");
-        config.bonds.borrow()[index].clone()
+        self.config().expect("only configurations have bonds").bonds.borrow()[index].clone()
     }
 
     /// Returns the start positions that a configuration sets; an empty list for other designs.
@@ -448,9 +447,10 @@ pub struct Instance {
     pub design: Rc<Design>,
     /// The robot that the instance is a part of.
     pub robot: Subject,
-    /// The index of the instance's first module among the robot's, from 0; 0 for the whole.
-    pub offset: usize,
-    /// The path name of the instance within the robot, such as `leg[2]`; empty for the whole.
+    /// The modules of the robot that are those of the instance.
+    pub modules: ModuleMap,
+    /// The path name of the instance within the robot, such as `leg[2]`; empty for the whole. That of an embedding
+    /// names its design and first module.
     pub path: Rc<str>,
     /// The parts as values, by part group; made when they are first asked for.
     parts: OnceCell<Vec<Value>>,
@@ -462,14 +462,18 @@ impl Instance {
     /// Returns a new instance that is the whole of a design: another robot at each call, without a name.
     pub fn whole(design: Rc<Design>) -> Rc<Instance> {
         let robot = Subject::new(design.clone());
-        Rc::new(Instance {
-            design,
-            robot,
-            offset: 0,
-            path: "".into(),
-            parts: OnceCell::new(),
-            lazy: RefCell::default(),
-        })
+        Instance::new(design, robot, ModuleMap::whole(), "".into())
+    }
+
+    /// Returns an instance of a design whose modules are those of a robot that `modules` lists, in their order.
+    pub fn embedded(design: Rc<Design>, robot: Subject, modules: ModuleMap) -> Rc<Instance> {
+        let name = robot.module_name(modules.index(0));
+        let path = if design.config().is_none() { name } else { format!("{} at {name}", design.name).into() };
+        Instance::new(design, robot, modules, path)
+    }
+
+    fn new(design: Rc<Design>, robot: Subject, modules: ModuleMap, path: Rc<str>) -> Rc<Instance> {
+        Rc::new(Instance { design, robot, modules, path, parts: OnceCell::new(), lazy: RefCell::default() })
     }
 
     /// Adds a name to the robot, if the instance is a whole robot. A part gets none: it goes by the names of its robot.
@@ -482,8 +486,7 @@ impl Instance {
     /// Returns the parts of a configuration as values: an instance or a list of instances for each group. `None` while
     /// they are being elaborated, and for an instance that is not a configuration.
     pub fn parts(&self) -> Option<&[Value]> {
-        let config = self.design.config()?;
-        let groups = config.parts.get()?;
+        let groups = self.design.config()?.parts.get()?;
         Some(self.parts.get_or_init(|| groups.iter().map(|group| self.part_values(group)).collect()))
     }
 
@@ -493,14 +496,11 @@ impl Instance {
     }
 
     fn part(&self, element: &PartElement) -> Rc<Instance> {
-        Rc::new(Instance {
-            design: element.design.clone(),
-            robot: self.robot.clone(),
-            offset: self.offset + element.offset,
-            path: join_path(&self.path, &element.name),
-            parts: OnceCell::new(),
-            lazy: RefCell::default(),
-        })
+        let (design, modules) = (element.design.clone(), self.modules.part(element.offset));
+        if modules.is_embedding() && design.module_count() > 0 {
+            return Instance::embedded(design, self.robot.clone(), modules);
+        }
+        Instance::new(design, self.robot.clone(), modules, join_path(&self.path, &element.name))
     }
 
     /// Returns a joint of a module instance, by its index in the module type; `None` for an instance that is not a
@@ -508,7 +508,7 @@ impl Instance {
     pub fn joint(&self, joint: usize) -> Option<Value> {
         let module = self.design.module()?;
         let dimension = *module.joint_dimensions.get(joint)?;
-        let owner = JointOwner::Module { module: self.offset, joint };
+        let owner = JointOwner::Module { module: self.modules.index(0), joint };
         Some(Value::Joint(JointValue { robot: self.robot.clone(), owner, dimension }))
     }
 
@@ -518,7 +518,8 @@ impl Instance {
     pub fn port(&self, group: usize, array: bool) -> Option<Value> {
         let module = self.design.module()?;
         let (first, count) = *module.port_groups.get(group)?;
-        let port = |port| Value::Port(PortValue { robot: self.robot.clone(), module: self.offset, port });
+        let own = self.modules.index(0);
+        let port = |port| Value::Port(PortValue { robot: self.robot.clone(), module: own, port });
         let mut ports = (first..first + count).map(port);
         if array { Some(Value::List(Rc::new(ports.collect()))) } else { ports.next() }
     }
@@ -546,9 +547,8 @@ impl JointValue {
             }
             JointOwner::Bond(bond) => {
                 let BondRecord { a, b, .. } = self.robot.bond(bond);
-                let [a, b] =
-                    [a, b].map(|(module, port)| PortValue { robot: self.robot.clone(), module, port }.name());
-                format!("{a} -- {b}")
+                let port = |(module, port)| PortValue { robot: self.robot.clone(), module, port }.name();
+                format!("{} -- {}", port(a), port(b))
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The state of a run: what has been computed, what was reported, and the position of evaluation.
 
+use super::capability::Capabilities;
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::{HostProxy, REST_BYTES};
@@ -77,6 +78,8 @@ pub struct Reported {
     pub plans: Vec<(String, Plan)>,
     /// The size of the values that were told besides their text, in bytes.
     pub values_bytes: usize,
+    /// The configurations that embed in the robot that an entry of a session asks about; `None` without the question.
+    pub capabilities: Option<Capabilities>,
     /// The results of the tests that were run, in order.
     pub tests: Vec<TestResult>,
     /// True if a condition of the present test is unknown because of an error reported before.

@@ -19,12 +19,14 @@ mod operators;
 
 pub mod argument;
 mod call;
+pub mod capability;
 pub mod native;
 pub mod nesting;
 mod statements;
 
 pub mod design;
 pub mod identity;
+pub mod module_map;
 pub mod robot;
 
 pub mod cells;

@@ -4,7 +4,8 @@
 //! called, values are printed. The evaluator does not know these rooms; whoever runs a program hands them in
 //! as functions ([`crate::execute`]).
 
-use super::design::Design;
+use super::capability::Capabilities;
+use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
 use super::native::Native;
 use super::printed::{PrintedValue, TypedValue};
@@ -60,6 +61,9 @@ pub struct Routines {
     /// The function that writes a line about what a declaration declares, with its defaults; a halt ends its
     /// elaboration.
     pub describe_declaration: fn(&mut Interpreter, DefId) -> Eval<String>,
+    /// The function that finds what the standard library can do with a robot, asked for at the span; `None` where it
+    /// can't be assembled.
+    pub capabilities: fn(&mut Interpreter, &Rc<Instance>, Span) -> Eval<Option<Capabilities>>,
     /// The function that draws every robot, lattice and truss that the program declares, through the host.
     pub draw_declared: fn(&mut Interpreter) -> Eval<()>,
 }

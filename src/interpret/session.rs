@@ -3,6 +3,7 @@
 //! Values are immutable and shared, so the memory of a session is copied before every entry, at the
 //! cost of a few pointers: an entry that fails, or is taken back, leaves the copy.
 
+use super::capability::Capabilities;
 use super::eval::Frame;
 use super::evaluator_thread::{EvaluatorThread, HostProxy};
 use super::host::{Host, Mode, Options};
@@ -76,6 +77,8 @@ pub enum Shown {
     Values,
     /// The values are printed with their types, and what declarations declare.
     All,
+    /// Nothing is printed; the answer lists the configurations that embed in the robot that an expression gives.
+    Capabilities,
 }
 
 /// The result of a [`Task`]: what it found and wrote, and whether it changed the memory.
@@ -85,6 +88,9 @@ pub struct Answer {
     pub diagnostics: Vec<Diagnostic>,
     /// The paths written, as the host showed them.
     pub written: Vec<String>,
+    /// The configurations that embed in the robot that the entry gives; `None` if they were not asked for
+    /// ([`Shown::Capabilities`]), or the entry gives no robot.
+    pub capabilities: Option<Capabilities>,
     /// True if the task found no error. If not, the memory is as it was before, but that an abandoned task may still
     /// change it ([`Evaluator::wait_for_abandoned`]).
     pub ok: bool,
@@ -207,6 +213,7 @@ fn evaluate(
     let answer = Answer {
         diagnostics: std::mem::take(&mut interpreter.reported.reports),
         written: std::mem::take(&mut interpreter.reported.written),
+        capabilities: interpreter.reported.capabilities.take(),
         ok,
         interrupted,
         defect,
@@ -326,6 +333,9 @@ impl<'a> Interpreter<'a> {
 
     fn tell_value(&mut self, value: &Value, expr: &Expr, shown: Shown) -> Eval<()> {
         self.check_known(value, expr.span);
+        if self.reported.errors == 0 && shown == Shown::Capabilities {
+            return self.tell_capabilities(value, expr);
+        }
         if self.reported.errors > 0 || shown == Shown::Nothing || matches!(value, Value::Nothing) {
             return Ok(());
         }
@@ -340,6 +350,22 @@ impl<'a> Interpreter<'a> {
             _ => display,
         };
         self.shared.host.print(shown);
+        Ok(())
+    }
+
+    /// Reports what the standard library can do with a robot; refuses a value that is none.
+    fn tell_capabilities(&mut self, value: &Value, expr: &Expr) -> Eval<()> {
+        if let Value::Instance(robot) = value
+            && (robot.design.module().is_some() || robot.design.config().is_some())
+        {
+            self.reported.capabilities = (self.shared.routines.capabilities)(self, robot, expr.span)?;
+            return Ok(());
+        }
+        let ty = self.shared.program.type_name(&expr.ty);
+        let diagnostic = Diagnostic::error(code::TYPE_MISMATCH, "a robot of modules is wanted")
+            .label(expr.span, format!("this is {ty}"))
+            .hint("name a configuration or a module, or write an expression that gives one");
+        self.add_report(diagnostic);
         Ok(())
     }
 

@@ -16,7 +16,6 @@ use crate::source::{Span, Symbol};
 use crate::units::Dimension;
 use num_bigint::BigInt;
 use std::collections::HashSet;
-use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -205,8 +204,8 @@ pub enum Measure {
     Margin,
     /// The least signed distance of links that may not touch, m.
     Clearance,
-    /// The normal force of the ground on the modules of these indices together, N.
-    GroundForce(Range<usize>),
+    /// The normal force of the ground on the modules of these indices, ascending, together, N.
+    GroundForce(Rc<[usize]>),
     /// The pose of a port or of a module's body in the world.
     Pose(MovingFrame),
     /// The origin of a port or of a module's body in the world, m.
@@ -465,7 +464,9 @@ impl Comparison {
                 Rc::ptr_eq(a, b) || matches!((&**a, &**b), (Callable::Def(x), Callable::Def(y)) if x == y)
             }
             (Instance(a), Instance(b)) => {
-                Rc::ptr_eq(&a.design, &b.design) && Rc::ptr_eq(&*a.robot, &*b.robot) && a.offset == b.offset
+                Rc::ptr_eq(&a.design, &b.design)
+                    && Rc::ptr_eq(&*a.robot, &*b.robot)
+                    && a.modules.is_same(&b.modules, a.design.module_count())
             }
             (Joint(a), Joint(b)) => Rc::ptr_eq(&*a.robot, &*b.robot) && a.owner == b.owner,
             (Port(a), Port(b)) => {

@@ -22,6 +22,7 @@
 //! natives has one line in `SUBJECTS`.
 
 mod action;
+mod embed;
 mod family;
 mod fastest;
 mod fold;
@@ -49,6 +50,8 @@ pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
 mod truss_limits;
+
+pub use embed::capabilities;
 
 use crate::interpret::fields::fields;
 use crate::interpret::interpreter::Interpreter;
@@ -78,6 +81,7 @@ const SUBJECTS: &[Subject] = &[
     natives(shape::TABLE),
     natives(family::TABLE),
     natives(robot::TABLE),
+    natives(embed::TABLE),
     natives(action::TABLE),
     natives(plan::TABLE),
     natives(fastest::TABLE),

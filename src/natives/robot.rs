@@ -84,7 +84,7 @@ fn connections(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let port = |end: PortRef| {
         Value::Port(PortValue {
             robot: instance.robot.clone(),
-            module: instance.offset + end.module,
+            module: instance.modules.index(end.module),
             port: end.port,
         })
     };
@@ -122,10 +122,13 @@ fn ports(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut free = Vec::new();
     for module in 0..design.module_count() {
         let count = design.module_type(module).ports.len();
-        let taken = |port: usize| is_taken(&instance.robot, instance.offset + module, port);
-        free.extend((0..count).filter(|&port| !taken(port)).map(|port| {
-            Value::Port(PortValue { robot: instance.robot.clone(), module: instance.offset + module, port })
-        }));
+        let module = instance.modules.index(module);
+        let taken = |port: usize| is_taken(&instance.robot, module, port);
+        free.extend(
+            (0..count)
+                .filter(|&port| !taken(port))
+                .map(|port| Value::Port(PortValue { robot: instance.robot.clone(), module, port })),
+        );
     }
     Ok(Value::list(free))
 }
@@ -177,7 +180,10 @@ fn pose_of(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval<Optio
         }
         Value::Instance(module) if module.design.module().is_some() => {
             let Some(robot) = interpreter.robot_at(&module.robot, call.at(name))? else { return Ok(None) };
-            Ok(Some((module.robot.design.clone(), robot.kinematics.module_pose(module.offset, &robot.poses))))
+            Ok(Some((
+                module.robot.design.clone(),
+                robot.kinematics.module_pose(module.modules.index(0), &robot.poses),
+            )))
         }
         _ => Err(call.refuse(name, "a port or a module is wanted")),
     }
@@ -220,7 +226,7 @@ fn state_position(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Returns the robot that a port or a module belongs to, and its frame there.
 fn frame(of: &Value) -> (Subject, MovingFrame) {
     match of {
-        Value::Instance(module) => (module.robot.clone(), MovingFrame::Module(module.offset)),
+        Value::Instance(module) => (module.robot.clone(), MovingFrame::Module(module.modules.index(0))),
         Value::Port(port) => (port.robot.clone(), MovingFrame::Port(port_ref(port))),
         _ => unreachable!("`check` lets only modules and ports through"),
     }

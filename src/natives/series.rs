@@ -21,7 +21,6 @@ use crate::robot::{JointId, Kinematics};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::cell::OnceCell;
-use std::ops::Range;
 use std::rc::Rc;
 
 /// The built-ins for signals of a robot and for samples of a plan, such as `torque`, `clearance` and `Plan.series`: the
@@ -68,12 +67,12 @@ fn ground_force(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn tilt_of(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let on = call.get::<&Rc<Instance>>("on")?;
-    Ok(signal(Some(on.robot.clone()), Measure::Sensed(Signal::Tilt(on.offset))))
+    Ok(signal(Some(on.robot.clone()), Measure::Sensed(Signal::Tilt(on.modules.index(0)))))
 }
 
 fn touching(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let on = call.get::<&Rc<Instance>>("on")?;
-    let condition = Condition::Touching(modules_of(on).collect());
+    let condition = Condition::Touching(modules_of(on).to_vec());
     Ok(Value::Condition(Rc::new(ConditionValue { robot: Some(on.robot.clone()), condition })))
 }
 
@@ -83,9 +82,11 @@ fn separation(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(signal(robot, Measure::Sensed(Signal::Separation(port_ref(a), port_ref(b)))))
 }
 
-/// Returns the indices of an instance's modules in the whole robot.
-fn modules_of(instance: &Instance) -> Range<usize> {
-    instance.offset..instance.offset + instance.design.module_count()
+/// Returns the indices of an instance's modules in the whole robot, ascending.
+fn modules_of(instance: &Instance) -> Rc<[usize]> {
+    let mut modules: Vec<usize> = instance.modules.indices(instance.design.module_count()).collect();
+    modules.sort_unstable();
+    modules.into()
 }
 
 /// Returns the plan that a method is called of; `None` where it could not be made, which has been reported.

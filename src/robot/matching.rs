@@ -141,7 +141,7 @@ pub fn matching(
 }
 
 /// Returns true if two module types are the same but for the numbering of their connectors.
-fn same_kind(a: (&Library, usize), b: (&Library, usize)) -> bool {
+pub(super) fn same_kind(a: (&Library, usize), b: (&Library, usize)) -> bool {
     let (of_a, of_b) = (&a.0.modules[a.1], &b.0.modules[b.1]);
     if std::ptr::eq(of_a, of_b) {
         return true;

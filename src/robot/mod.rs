@@ -3,7 +3,8 @@
 //! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
 //! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]), inverse dynamics ([`dynamics`]) and forward dynamics
-//! ([`articulated_bodies`], on [`spatial`] vectors), the isomorphism of two robots ([`matching()`]), rigidity of trusses ([`truss`]), and files of
+//! ([`articulated_bodies`], on [`spatial`] vectors), the isomorphism of two robots ([`matching()`]), embeddings of one in
+//! another ([`embeddings`]), rigidity of trusses ([`truss`]), and files of
 //! RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
@@ -25,6 +26,7 @@ pub mod articulated_bodies;
 pub mod dynamics;
 pub mod spatial;
 
+mod embedding;
 mod matching;
 mod symmetry;
 
@@ -37,6 +39,7 @@ pub mod rofi_json;
 
 pub use assembly::{Assembly, Bond, JointId, JointOwner, ModuleInstance, PortRef, State};
 pub use drive::{Drive, drives, motor_efforts};
+pub use embedding::{EmbeddingAttempt, embeddings};
 pub use fault::{LibraryFault, ModulePart};
 pub use kinematics::{Kinematics, Residual, mate};
 pub use library::{

@@ -6,6 +6,7 @@
 //! values are kept ([`crate::interpret::session`]), except those that depend on a new declaration
 //! (`dependencies`).
 
+mod capabilities;
 mod changes;
 mod dependencies;
 mod kept;
@@ -21,6 +22,7 @@ mod members;
 mod reload;
 mod save;
 
+pub use capabilities::{EmbeddedConfiguration, Repertoire};
 pub use changes::{Change, ChangeKind};
 pub use kept::{FileSnapshot, Project};
 pub use state::{Input, Reloaded, Reply, Session};

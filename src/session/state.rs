@@ -6,6 +6,7 @@ use super::kept::{FileSnapshot, Project};
 use super::reload::stale;
 use crate::check::typed::{DefId, DefKind, Stmt, StmtKind};
 use crate::check::{self, Checked, Entry, Type};
+use crate::interpret::capability::Capabilities;
 use crate::interpret::session::{Entered, Evaluator, Shown, Task, UNDO_MAX, Work};
 use crate::interpret::{Host, Options};
 use crate::source::{Diagnostic, FileId, Files, Symbol, code};
@@ -70,6 +71,9 @@ pub struct Reply {
     pub broken: Vec<Diagnostic>,
     /// The paths of the files that were written, as the host showed them.
     pub written: Vec<String>,
+    /// The configurations that embed in the robot that the entry gives; `None` if they were not asked for, or the entry
+    /// gives no robot.
+    pub capabilities: Option<Capabilities>,
     /// True if the entry was evaluated without an error. If not, the session is as it was.
     pub ok: bool,
     /// True if the entry was cancelled.
@@ -98,6 +102,7 @@ impl Reply {
             notes: Vec::new(),
             broken: Vec::new(),
             written: Vec::new(),
+            capabilities: None,
             ok: true,
             interrupted: false,
         }
@@ -210,7 +215,8 @@ impl Session {
             _ => Vec::new(),
         };
         let (ok, interrupted, written) = (answer.ok, answer.interrupted, answer.written);
-        Reply { checked, diagnostics, notes, broken, written, ok, interrupted }
+        let capabilities = answer.capabilities;
+        Reply { checked, diagnostics, notes, broken, written, capabilities, ok, interrupted }
     }
 
     /// Runs work on the evaluator.

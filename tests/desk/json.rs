@@ -37,6 +37,7 @@ const ANSWERS: &[Row] = &[
     row("simulate", &["q.mod"], &["report", "printed", "values", "simulations"]),
     row("show", &["a.mod"], &["report", "printed", "values", "written"]),
     row("show", &["p.plan.json"], &["report", "written"]),
+    row("what", &["a.mod", "Driver1"], &["report", "robot"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
     row("fmt", &["--check", "a.mod"], &["report", "written"]),
     row("explain", &["E0301"], &["code", "title", "page"]),

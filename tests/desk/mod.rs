@@ -16,3 +16,4 @@ pub mod system;
 pub mod tables;
 pub mod transcripts;
 pub mod view;
+pub mod what;

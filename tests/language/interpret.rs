@@ -297,6 +297,7 @@ fn a_value_that_is_lost_without_a_word_is_reported() {
         typed: modl::display::typed,
         display: modl::display::display,
         describe_declaration: modl::display::describe_declaration,
+        capabilities: modl::natives::capabilities,
         draw_declared: modl::natives::draw_declared,
     };
     let ended = |text: &str| {

@@ -4,6 +4,7 @@ pub mod cholesky;
 pub mod designs;
 pub mod distance;
 pub mod dynamics;
+pub mod embedding;
 pub mod jacobian;
 pub mod kinematics;
 pub mod mass;
