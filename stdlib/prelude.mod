@@ -1218,7 +1218,7 @@ extern fn subdivided(mesh: Mesh, parts: Int) -> Mesh
 /// ```
 extern fn on_sphere(mesh: Mesh, radius: Length) -> Mesh
 
-/// Ground that rises evenly along a horizontal direction, through the origin: a terrain for `simulate` and `locomote`.
+/// Ground that rises evenly along a horizontal direction, through the origin: a terrain for `world`, `simulate` and `locomote`.
 ///
 /// It reaches 500 m from the origin along x and y; a negative angle falls along `along`. At most 50 degrees.
 ///
@@ -1676,6 +1676,8 @@ extern type World {
   friction: Number
   /// `statics` or `full`.
   dynamics: Text
+  /// The angle by which the ground slopes; zero where it is level.
+  slope: Angle
 }
 
 /// Surroundings for `plan` and `verify`.
@@ -1691,16 +1693,24 @@ extern type World {
 /// inertia, and the ground's forces are the best that friction allows. Lattices, folded sheets and trusses have assumptions
 /// of their own.
 ///
+/// A `slope` is `terrain` for a robot of modules that is `settle`: it is put down as it was drawn, leaning with the ground or
+/// not, as it then falls less, and tips where the line of gravity through its centre of mass leaves what supports it. It must
+/// not slide: the friction of what bears it, at least the tangent of the angle, holds its weight along the slope. `simulate`
+/// plays such a plan on the same slope. Uneven ground is no terrain of a verdict.
+///
 /// Example:
 /// ```modl
-/// use std.smores.Chain3
+/// use std.smores.{Chain3, Tank7}
 /// print(verify(Chain3(), world: world(ground: off, gravity: off)).ok)
+/// let uphill = world(terrain: slope(5deg), friction: 0.8)
+/// print(verify(Tank7().drive(t: 1s), world: uphill).displacement.z > 5mm)
 /// ```
 extern fn world(
   ground: settle | fixed | held | off = settle,
   gravity: off | Acceleration = 9.80665m/s^2,
   friction: Number = 1,
   dynamics: statics | full = full,
+  terrain: Terrain?,
 ) -> World
 
 /// The positions of all joints, the bonds, and where the robot is.
@@ -1927,7 +1937,7 @@ extern fn verify(
 ///
 /// On a `terrain` the robot stands at the start as it does on level ground, but leaning with the plane that lies best through
 /// the ground under its feet. The points of links touch the terrain: a peak that is thinner than a link, so that it comes
-/// between them, is not felt. `obstacles` are shapes in the world that stand fast, `placed` where they are; their friction is
+/// between them, is not felt. A plan whose world is a `slope` is played on that, without another terrain. `obstacles` are shapes in the world that stand fast, `placed` where they are; their friction is
 /// 0.5, or that of a rougher link on them. No verdict is about such ground, or knows of obstacles.
 ///
 /// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of

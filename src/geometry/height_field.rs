@@ -79,10 +79,24 @@ impl HeightField {
     /// each metre (without unit), up to 500 m from it along each axis. `along`: a unit vector. Heights are sound up to a
     /// rise of √2.
     pub fn plane(along: [f64; 2], rise: f64) -> HeightField {
-        const HALF: f64 = 500.0;
+        const HALF: f64 = HeightField::PLANE_HALF;
         let at = |x: f64, y: f64| rise * (along[0] * x + along[1] * y);
         let heights = vec![at(-HALF, -HALF), at(HALF, -HALF), at(-HALF, HALF), at(HALF, HALF)];
         HeightField { corner: [-HALF, -HALF], spacing: 2.0 * HALF, columns: 2, heights }
+    }
+
+    /// Half the side of the square over which [`plane`](Self::plane) rises, m.
+    const PLANE_HALF: f64 = 500.0;
+
+    /// Returns the rise along x and along y, m per m, of a field that is a [`plane`](Self::plane); `None` for others, and
+    /// for a field that is not sound.
+    pub fn as_plane(&self) -> Option<[f64; 2]> {
+        const HALF: f64 = HeightField::PLANE_HALF;
+        let [a, b, c, d] = <[f64; 4]>::try_from(self.heights.as_slice()).ok()?;
+        let square = self.corner == [-HALF, -HALF] && self.spacing == 2.0 * HALF && self.columns == 2;
+        // Through the origin, which is in the middle, and flat: opposite corners are as far above it as below.
+        let even = a == -d && b == -c;
+        (square && even && self.fault().is_none()).then(|| [(b - a) / self.spacing, (c - a) / self.spacing])
     }
 
     /// Returns the greatest slope of all triangles, the height gained for a horizontal distance of 1; not negative,

@@ -3,6 +3,7 @@
 use super::Native;
 use super::show::Form;
 use crate::behavior::{self, Problem};
+use crate::geometry::HeightField;
 use crate::interpret::WriteError;
 use crate::interpret::argument::{Choice, Off, Positive, WordOr, parameters};
 use crate::interpret::design::Instance;
@@ -33,7 +34,7 @@ pub(super) const TABLE: &[Native] = &[
     ),
     Native::pure(
         "world",
-        parameters![ground: Ground, gravity: WordOr<Off, f64>, friction: f64, dynamics: DynamicsModel],
+        parameters![ground: Ground, gravity: WordOr<Off, f64>, friction: f64, dynamics: DynamicsModel, terrain: Option<&HeightField>],
         world,
     ),
     Native::on_run(
@@ -80,7 +81,8 @@ fn print(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Runs `world`.
 ///
 /// # Errors
-/// A fault where gravity or friction is negative, or a robot is to settle without gravity.
+/// A fault where gravity or friction is negative, a robot is to settle without gravity, or the terrain is no slope, or one
+/// on which nothing settles.
 fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ground: Ground = call.get("ground")?;
     let gravity = match call.get("gravity")? {
@@ -101,7 +103,19 @@ fn world(_: &mut Interpreter, call: &Call) -> Eval<Value> {
             "without gravity nothing rests on the ground: `ground: off`, `held` or `fixed`",
         ));
     }
-    Ok(Value::Record(Rc::new(Record::World(World { gravity, ground, friction, dynamics }))))
+    let mut world = World { gravity, ground, friction, dynamics, ..World::default() };
+    if let Some(field) = call.get::<Option<&HeightField>>("terrain")? {
+        let Some(slope) = field.as_plane() else {
+            let why =
+                "only a `slope` is ground for the judge: uneven ground is that of `simulate` and `locomote`";
+            return Err(call.refuse("terrain", why));
+        };
+        if ground != Ground::Settle {
+            return Err(call.refuse("terrain", "a slope is ground to settle on: `ground: settle`"));
+        }
+        world.slope = slope;
+    }
+    Ok(Value::Record(Rc::new(Record::World(world))))
 }
 
 fn planned_value(planned: Option<Rc<PlanValue>>) -> Value {

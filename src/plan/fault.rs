@@ -4,6 +4,7 @@
 //! order, or that a number has no meaning, so that whoever comes after may index without asking. Times are in s,
 //! positions in rad or m.
 
+use super::slope::SLOPE_RISE_MAX;
 use super::time::DURATION_MAX;
 use super::validation::{Unwritable, check_serialisable};
 use super::world::DynamicsModel;
@@ -61,6 +62,15 @@ pub enum PlanFault {
     Gravity,
     /// A negative coefficient of friction in a world, or one that is not a number.
     Friction,
+    /// A slope that is steeper than [`SLOPE_RISE_MAX`](super::SLOPE_RISE_MAX), given by its rise, m per m.
+    SlopeTooSteep {
+        /// The rise, m per m.
+        rise: f64,
+    },
+    /// A slope on which no robot of modules settles by its weight.
+    SlopeUnsettled,
+    /// Worlds of one plan on different slopes.
+    SlopeChanges,
     /// A world that holds the base fast, for a robot that has none.
     NoBaseToHold,
     /// A sampling interval of the judge that is not positive.
@@ -406,6 +416,16 @@ impl fmt::Display for PlanFault {
             PlanFault::ExemptionOrder => write!(f, "an exemption ends before it begins"),
             PlanFault::Gravity => write!(f, "gravity points upwards"),
             PlanFault::Friction => write!(f, "friction is negative"),
+            PlanFault::SlopeTooSteep { rise } => {
+                write!(f, "the ground rises by {rise} m per m; at most {SLOPE_RISE_MAX} is allowed")
+            }
+            PlanFault::SlopeUnsettled => {
+                write!(
+                    f,
+                    "a slope is ground on which a robot of modules settles by its weight, and nothing else"
+                )
+            }
+            PlanFault::SlopeChanges => write!(f, "the ground slopes otherwise in another world of the plan"),
             PlanFault::NoBaseToHold => write!(f, "only a robot of modules has a base to hold"),
             PlanFault::SampleInterval { interval } => write!(f, "a sample every {interval} s is none"),
             PlanFault::UnstableFor => write!(f, "`unstable_for` is negative"),

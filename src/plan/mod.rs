@@ -12,6 +12,7 @@ pub mod time;
 mod cause;
 mod program;
 mod provenance;
+mod slope;
 mod verdict;
 pub mod visit;
 mod world;
@@ -48,6 +49,7 @@ pub use operation_error::OperationError;
 pub use operations::{joined, retimed, reversed, sliced};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};
 pub use provenance::{Change, ObjectiveValue, Provenance};
+pub use slope::SLOPE_RISE_MAX;
 pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };

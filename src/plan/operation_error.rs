@@ -28,7 +28,7 @@ pub enum OperationError {
         /// The name of the first node that is elsewhere; `None` if the struts or the number of nodes differ.
         node: Option<String>,
     },
-    /// Two trusses among different obstacles, or on different ground.
+    /// Two trusses among different obstacles, or two robots on different ground.
     Surroundings,
     /// Two lattices of different cells, or with different units of time.
     Cells,

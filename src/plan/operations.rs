@@ -81,6 +81,11 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
     if duration > DURATION_MAX {
         return Err(OperationError::TooLong { duration });
     }
+    // A robot does not get from one slope onto another at once.
+    let slope = |plan: &Plan| plan.worlds.first().map(|first| first.world.slope);
+    if slope(p) != slope(q) {
+        return Err(OperationError::Surroundings);
+    }
     let causes = p.causes.len() as u32;
     let Appended { body, remap } = p.body.joined(&p.library, &q.body, &q.library, causes)?;
     let renamed = match (&remap, q.body.tracks()) {

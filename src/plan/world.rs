@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Ground {
-    /// Quasi-static contact on level ground at height 0: the robot rests, rolls, travels and tips.
+    /// Quasi-static contact on the ground, level at height 0 or a slope: the robot rests, rolls, travels and tips.
     Settle,
     /// Level ground at height 0, onto which the robot is lowered at the start with its orientation; its base then
     /// keeps that pose. Contacts bear the weight; without gravity a fixture holds the base.
@@ -34,6 +34,15 @@ pub struct World {
     /// asks for them. Whatever stands here, trusses are judged under statics, and lattices under kinodynamics
     /// ([`Body::dynamics`](super::Body::dynamics)).
     pub dynamics: DynamicsModel,
+    /// The rise of the ground along x and along y of the world, m per m: a plane through the origin. Level ground has
+    /// [0, 0]; any other needs a ground on which an articulated robot settles, and is the same in all worlds of a plan.
+    #[serde(default, skip_serializing_if = "is_level")]
+    pub slope: [f64; 2],
+}
+
+/// Returns true for the slope of level ground.
+pub(super) fn is_level(slope: &[f64; 2]) -> bool {
+    *slope == [0.0, 0.0]
 }
 
 /// The dynamics that a plan is judged under: the assumed relation of forces and motion. Later versions may add
@@ -73,8 +82,13 @@ impl std::fmt::Display for DynamicsModel {
 
 impl World {
     /// The world without gravity and without ground, under statics.
-    pub const FREE: World =
-        World { gravity: 0.0, ground: Ground::Off, friction: 1.0, dynamics: DynamicsModel::Statics };
+    pub const FREE: World = World {
+        gravity: 0.0,
+        ground: Ground::Off,
+        friction: 1.0,
+        dynamics: DynamicsModel::Statics,
+        slope: [0.0; 2],
+    };
 
     /// Returns true if there is ground under the robot: for [`Ground::Settle`] and [`Ground::Fixed`].
     pub fn has_floor(&self) -> bool {
@@ -90,7 +104,13 @@ impl World {
 
 impl Default for World {
     fn default() -> World {
-        World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0, dynamics: DynamicsModel::Full }
+        World {
+            gravity: 9.80665,
+            ground: Ground::Settle,
+            friction: 1.0,
+            dynamics: DynamicsModel::Full,
+            slope: [0.0; 2],
+        }
     }
 }
 

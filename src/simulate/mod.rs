@@ -64,8 +64,12 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
     }
     if let Some(field) = &settings.terrain {
         let floor = plan.worlds.first().is_some_and(|first| first.world.has_floor());
-        let fault =
-            if floor { field.fault() } else { Some("the plan's world has no ground that could be uneven") };
+        let sloped = plan.worlds.first().is_some_and(|first| first.world.is_sloped());
+        let fault = match (floor, sloped) {
+            (false, _) => Some("the plan's world has no ground that could be uneven"),
+            (true, true) => Some("the plan's world has a slope of its own"),
+            (true, false) => field.fault(),
+        };
         fault.map_or(Ok(()), |fault| Err(Refusal::Terrain(fault)))?;
     }
     if plan.nominal
@@ -111,7 +115,8 @@ fn run(
     let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
     let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
     let mut model = Model::new(tracks, &X_WB, &world, settings, apart);
-    let terrain = settings.terrain.as_ref().map(|field| Terrain::under(&model, field));
+    let slope = world.terrain().map(Terrain::of_plan);
+    let terrain = settings.terrain.as_ref().map(|field| Terrain::under(&model, field)).or(slope);
     if let Some(terrain) = &terrain {
         model.start.iter_mut().for_each(|pose| *pose = terrain.X_WP * *pose);
     }
@@ -125,7 +130,9 @@ fn run(
     let couplings = Couplings::new(&model, robot, &tracks.start.bonds, links);
     let gravity = if world.ground == Ground::Off { 0.0 } else { world.gravity };
     let h = settings.step;
-    let ground = world.has_floor().then(|| GroundContacts::new(&model, settings.terrain.as_ref(), h));
+    let ground = world
+        .has_floor()
+        .then(|| GroundContacts::new(&model, terrain.as_ref().map(|terrain| &terrain.field), h));
     let mut stepper = Stepper::new(&model, couplings, &tracks.start.joints, gravity, ground, h);
     let mut commands = Commands::new(tracks, plan.program.as_ref().filter(|_| plan.nominal));
     let mut recorder = Recorder::new(&model, apart, h);

@@ -24,6 +24,11 @@ pub struct Terrain {
 }
 
 impl Terrain {
+    /// Returns the slope that a plan's own world has, on which the plan itself puts the robot.
+    pub(super) fn of_plan(field: HeightField) -> Terrain {
+        Terrain { field: Arc::new(field), X_WP: Pose::identity() }
+    }
+
     /// Returns the ground with a robot put on it, which stands on level ground at height 0 as the plan begins.
     pub(super) fn under(model: &Model, field: &Arc<HeightField>) -> Terrain {
         let planned: Vec<Vec3> = points(model, &Pose::identity(), &Vec3::z()).collect();

@@ -83,16 +83,18 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
     xml.open("worldbody", &[]);
     if world.has_floor() {
         xml.comment("Links have the higher priority, so that the friction of a contact is theirs.");
-        xml.leaf(
-            "geom",
-            &[
-                ("name", "floor".into()),
-                ("type", "plane".into()),
-                ("size", numbers([0.0, 0.0, 1.0])),
-                ("priority", "0".into()),
-                ("friction", number(FLOOR_FRICTION)),
-            ],
-        );
+        let mut floor = vec![
+            ("name", "floor".into()),
+            ("type", "plane".into()),
+            ("size", numbers([0.0, 0.0, 1.0])),
+            ("priority", "0".into()),
+            ("friction", number(FLOOR_FRICTION)),
+        ];
+        if world.is_sloped() {
+            let turn = world.ground_pose().rotation;
+            floor.push(("quat", numbers([turn.w, turn.i, turn.j, turn.k])));
+        }
+        xml.leaf("geom", &floor);
     }
     let held = matches!(world.ground, Ground::Fixed | Ground::Held);
     bodies::bodies(&mut xml, trees, held, world.friction);

@@ -19,7 +19,9 @@ use crate::plan::stated::Stated;
 use crate::plan::tracks::RobotNames;
 use crate::plan::validation::validate;
 use crate::plan::verdict::Verdict;
-use crate::plan::world::{DynamicsModel, Exemption, ExemptionKind, Ground, Settings, World, WorldFrom};
+use crate::plan::world::{
+    DynamicsModel, Exemption, ExemptionKind, Ground, Settings, World, WorldFrom, is_level,
+};
 use crate::robot::Library;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -80,6 +82,9 @@ struct WorldJson {
     friction: f64,
     /// The law of forces and motion that the verdict rests on.
     dynamics: DynamicsModel,
+    /// The rise of the ground along x and along y, m per m; absent for level ground.
+    #[serde(default, skip_serializing_if = "is_level")]
+    slope: [f64; 2],
 }
 
 /// An interval of the plan that is excused from a check. The end of the whole plan never is.
@@ -126,6 +131,7 @@ impl<'a> PlanJson<'a> {
                 ground: w.world.ground,
                 friction: w.world.friction,
                 dynamics: plan.body.dynamics(&w.world),
+                slope: w.world.slope,
             },
         };
         let exemption = |e: &Exemption| ExemptionJson {
@@ -191,6 +197,7 @@ impl<'a> PlanJson<'a> {
                 ground: w.world.ground,
                 friction: w.world.friction,
                 dynamics: articulated(w.world.dynamics),
+                slope: w.world.slope,
             },
         };
         let exemption = |e: ExemptionJson| Exemption { kind: e.kind, from: e.from, to: e.to, cause: e.cause };

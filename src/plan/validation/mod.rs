@@ -13,9 +13,10 @@ pub(super) use serialisable::check_serialisable;
 
 use super::fault::{PlanFault, need, need_ascending, need_bounded, need_finite, need_index};
 use super::motion_plan::Plan;
+use super::slope::SLOPE_RISE_MAX;
 use super::time::DURATION_MAX;
 use super::visit::Graph;
-use super::world::Ground;
+use super::world::{Ground, World};
 use crate::robot::validation::{QUANTITY_MAX, check_library};
 
 /// Checks that a plan is well formed: that its indices are within their lists and its times in order, that the body
@@ -71,6 +72,17 @@ fn numbers(plan: &Plan) -> Result<(), PlanFault> {
     plan.body.check_numbers()
 }
 
+/// Checks the slope of the ground in a world; `has_base`: true for a robot of modules.
+fn slope(world: &World, has_base: bool) -> Result<(), PlanFault> {
+    if !world.is_sloped() {
+        return Ok(());
+    }
+    let rise = world.rise();
+    need(rise <= SLOPE_RISE_MAX, || PlanFault::SlopeTooSteep { rise })?;
+    let settles = world.ground == Ground::Settle && world.gravity > 0.0;
+    need(has_base && settles, || PlanFault::SlopeUnsettled)
+}
+
 /// Checks the settings of the judge, and the worlds.
 fn options(plan: &Plan) -> Result<(), PlanFault> {
     let settings = &plan.settings;
@@ -87,6 +99,9 @@ fn options(plan: &Plan) -> Result<(), PlanFault> {
         need(w.world.gravity >= 0.0, || PlanFault::Gravity)?;
         need_bounded(w.world.gravity, QUANTITY_MAX, "gravity")?;
         need(w.world.friction >= 0.0, || PlanFault::Friction)?;
-        need_bounded(w.world.friction, QUANTITY_MAX, "friction")
-    })
+        need_bounded(w.world.friction, QUANTITY_MAX, "friction")?;
+        slope(&w.world, has_base)
+    })?;
+    let same = plan.worlds.windows(2).all(|pair| pair[0].world.slope == pair[1].world.slope);
+    need(same, || PlanFault::SlopeChanges)
 }

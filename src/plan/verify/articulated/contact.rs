@@ -21,7 +21,7 @@ pub struct ContactPoint {
     pub p: Vec3,
     /// The height of the point above the ground, m; negative below it.
     pub gap: f64,
-    /// The normal force as a fraction of the robot's weight, without friction; all sum up to 1, or are 0.
+    /// The normal force as a fraction of the robot's weight along the normal of the ground; all sum up to 1, or are 0.
     pub load: f64,
 }
 
@@ -41,14 +41,14 @@ pub struct ContactPatch {
 }
 
 /// Returns all points no higher above the ground than the contact tolerance of their module, or `gap_loaded` if that
-/// is more. If `weighed`, those within `gap_loaded` carry the weight as springs would whose stiffness falls with the
-/// gap, without friction; else none carries any. `features`: as [`Model::placed`] returns them; `height`: that of the
-/// centre of mass above the ground, m.
+/// is more. With a `foot`, the point (x, y) at which the line of gravity meets the ground, from the centre of mass, m, those
+/// within `gap_loaded` carry the weight as springs would whose stiffness falls with the gap; without one none carries any.
+/// `features`: as [`Model::placed`] returns them; `height`: that of the centre of mass above the ground, m.
 pub(super) fn contact_points(
     model: &Model,
     features: &[Feature],
     height: f64,
-    weighed: bool,
+    foot: Option<[f64; 2]>,
     tolerances: &Tolerances,
 ) -> Vec<ContactPoint> {
     let up = Vec3::z();
@@ -67,8 +67,8 @@ pub(super) fn contact_points(
             }
         }
     }
-    if weighed {
-        spread(&mut found, tolerances);
+    if let Some(foot) = foot {
+        spread(&mut found, foot, tolerances);
     }
     found
 }
@@ -78,16 +78,17 @@ pub(super) fn counts(model: &Model, contact_point: &ContactPoint) -> bool {
     contact_point.gap <= model.bodies[contact_point.link].contact
 }
 
-/// Returns the static stability margin (McGhee and Frank 1968), m: the distance of the centre of mass inside the hull
-/// of the contact points for which `chosen` returns true, negative outside; its edge is given by indices in
-/// `contact_points`. `None` if they span no area.
+/// Returns the static stability margin (McGhee and Frank 1968), m: the distance of `foot`, where the line of gravity
+/// through the centre of mass meets the ground, inside the hull of the contact points for which `chosen` returns true,
+/// negative outside; its edge is given by indices in `contact_points`. `None` if they span no area.
 pub(super) fn margin(
     contact_points: &[ContactPoint],
+    foot: [f64; 2],
     chosen: impl Fn(&ContactPoint) -> bool,
 ) -> Option<Margin> {
     let indices: Vec<usize> = (0..contact_points.len()).filter(|&i| chosen(&contact_points[i])).collect();
     let points: Vec<_> = indices.iter().map(|&i| [contact_points[i].p.x, contact_points[i].p.y]).collect();
-    let found = support_polygon::margin(&points, [0.0, 0.0])?;
+    let found = support_polygon::margin(&points, foot)?;
     Some(Margin { edge: (indices[found.edge.0], indices[found.edge.1]), ..found })
 }
 
@@ -131,13 +132,17 @@ const PROXIMAL_ROUNDS: usize = 3;
 const NEWTON_ROUNDS_MAX: usize = 60;
 const HALVINGS_MAX: usize = 40;
 
-/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the centre of mass and N ≥ 0,
+/// Sets the loads: `min Σ N²/κ` with the sum of all N the weight, no moment about the `foot` of gravity's line and N ≥ 0,
 /// where κ falls with the gap. Solved by its Lagrangian dual in three unknowns: `N = κ max(0, λ·g)` with `g = (1, x,
 /// y)`. If no such loads exist, the moment left is least.
-fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
+fn spread(contact_points: &mut [ContactPoint], foot: [f64; 2], tolerances: &Tolerances) {
     let near = |t: &ContactPoint| t.gap <= tolerances.gap_loaded;
-    let size =
-        contact_points.iter().filter(|t| near(t)).fold(0.0_f64, |s, t| s.max(t.p.x.abs()).max(t.p.y.abs()));
+    let from_foot = |t: &ContactPoint| [t.p.x - foot[0], t.p.y - foot[1]];
+    let size = contact_points
+        .iter()
+        .filter(|t| near(t))
+        .map(from_foot)
+        .fold(0.0_f64, |s, [x, y]| s.max(x.abs()).max(y.abs()));
     let size = if size > 0.0 { size } else { 1.0 };
     let springs: Vec<(f64, Vec3, usize)> = contact_points
         .iter()
@@ -145,7 +150,8 @@ fn spread(contact_points: &mut [ContactPoint], tolerances: &Tolerances) {
         .filter(|(_, t)| near(t))
         .map(|(i, t)| {
             let stiffness = (1.0 - t.gap / tolerances.gap_loaded).max(tolerances.stiffness_min);
-            (stiffness * stiffness, Vec3::new(1.0, t.p.x / size, t.p.y / size), i)
+            let [x, y] = from_foot(t);
+            (stiffness * stiffness, Vec3::new(1.0, x / size, y / size), i)
         })
         .collect();
     let total: f64 = springs.iter().map(|s| s.0).sum();

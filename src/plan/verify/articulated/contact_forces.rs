@@ -239,8 +239,10 @@ impl ContactQuery<'_> {
             columns.iter().zip(sizes).map(|(c, s)| if c.free { *s } else { s.max(0.0) }).collect();
         let balances: Vec<_> = columns.iter().map(|c| self.balance(c)).collect();
         let mut sizes = clipped;
+        let up = self.stance.up();
+        let weight = Vector6::new(up.x, up.y, up.z, 0.0, 0.0, 0.0);
         for _ in 0..3 {
-            let mut missing = Vector6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
+            let mut missing = weight;
             let mut normal = Matrix6::identity() * NUMERICS.balance_ridge;
             for (balance, size) in balances.iter().zip(&sizes) {
                 missing -= balance * *size;
@@ -253,7 +255,7 @@ impl ContactQuery<'_> {
             let corrected = sizes.iter().zip(&balances).map(|(s, b)| s + s.abs() * b.dot(&multipliers));
             sizes = corrected.collect();
         }
-        let mut missing = Vector6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
+        let mut missing = weight;
         balances.iter().zip(&sizes).for_each(|(b, s)| missing -= b * *s);
         let pushing = columns.iter().zip(&sizes).all(|(c, s)| c.free || *s >= 0.0);
         (missing.norm() <= self.tolerances.balance && pushing).then_some(sizes)

@@ -102,13 +102,16 @@ fn moment(sample: &Sample) -> Moment {
         stance.contact_points.iter().filter(|contact_point| contact::counts(sample.model, contact_point));
     let points: Vec<[f64; 2]> = touching
         .filter(|_| grounded)
-        .map(|t| [planar_pose.x + c * t.p.x - s * t.p.y, planar_pose.y + s * t.p.x + c * t.p.y])
+        .map(|t| match sample.world.is_sloped() {
+            true => stance.world_point(&t.p).xy().into(),
+            false => [planar_pose.x + c * t.p.x - s * t.p.y, planar_pose.y + s * t.p.x + c * t.p.y],
+        })
         .collect();
     let margin = if grounded { stance.margin(sample.model).map(|m| m.distance) } else { None };
     Moment {
         time: sample.time,
         base: stance.base_pose(sample.model),
-        centre: Vec3::new(planar_pose.x, planar_pose.y, stance.height),
+        centre: stance.world_point(&Vec3::zeros()),
         support: hull(&points).into_iter().map(|i| points[i]).collect(),
         contacts: points.iter().step_by(points.len().div_ceil(CONTACTS_MAX).max(1)).copied().collect(),
         margin,

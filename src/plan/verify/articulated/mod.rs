@@ -29,6 +29,7 @@ mod contact_forces;
 mod contact_lp;
 mod fixed_base;
 mod load_limits;
+mod slope;
 mod stability;
 mod statics;
 mod torque;
@@ -131,6 +132,7 @@ fn check_samples(
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
     let mut base_motion = base_motion::Monitor::new(rollout.settings, rollout.tolerances);
     let mut torque = torque::Monitor::new(rollout.tolerances);
+    let mut slope = slope::Monitor::new(rollout.tolerances);
     let full = rollout.is_full();
     let mut recorder = dynamics::Recorder::default();
     let ended = roll_out(*rollout, None, rollout.tracks.duration, &mut |sample, checkpoint| {
@@ -142,6 +144,7 @@ fn check_samples(
             ledger.fail(loss.failure());
         }
         base_motion.observe(sample, ledger);
+        slope.observe(sample, ledger);
         if full {
             recorder.observe(sample);
         } else {
@@ -158,12 +161,13 @@ fn check_samples(
     ledger.verdict.samples = checkpoints.seen();
     let mut deflected = None;
     if full {
-        deflected = Some(dynamics::RolloutLoads::new(rollout, recorder).judge(ledger));
+        deflected = Some(dynamics::RolloutLoads::new(rollout, recorder).judge(slope.free(), ledger));
     } else {
         torque.between(&fixed_base::prove(rollout), rollout);
         torque.overloaded().iter().for_each(|over| ledger.fail(over.failure()));
         torque.finish(ledger);
     }
+    slope.finish(full, ledger);
     standing.finish(ledger);
     let names = |link| link_name(rollout, link);
     base_motion.finish(names, ledger);

@@ -237,7 +237,10 @@ impl<'a> Stepper<'a> {
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         let pose = self.rollout.tracks.start.base;
         let placement = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
-        let (settling, fall) = self.place_on_ground(&pose, placement);
+        let (settling, fall) = match self.world.is_sloped() {
+            true => self.place_on_slope(&pose),
+            false => self.place_on_ground(&pose, placement),
+        };
         self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
     }
 
@@ -386,7 +389,7 @@ impl<'a> Stepper<'a> {
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
         let over = self.stance.holding(&self.model, attempt, tolerances);
         let support =
-            contact::margin(&over.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact);
+            contact::margin(&over.contact_points, over.foot(), |point| point.gap <= tolerances.gap_exact);
         let mut edge = match support {
             Some(margin) => {
                 vec![over.contact_points[margin.edge.0].link, over.contact_points[margin.edge.1].link]
@@ -446,6 +449,20 @@ impl<'a> Stepper<'a> {
             Stance::start(&self.model, posture, pose, (&self.world, placement), self.rollout.tolerances);
         (self.stance, self.held_since) = (stance, None);
         (turn, fall)
+    }
+
+    /// Sets the robot down on a slope as it was drawn, leaning with the ground or not: as it falls less. Returns the angle
+    /// by which it turned to settle (rad) and the fall (m).
+    fn place_on_slope(&mut self, pose: &Pose) -> (f64, f64) {
+        let leaning = self.world.ground_pose() * pose;
+        let first = self.place_on_ground(&leaning, Placement::Settled);
+        let stance = self.stance.clone();
+        let second = self.place_on_ground(pose, Placement::Settled);
+        if second.1 < first.1 {
+            return second;
+        }
+        self.stance = stance;
+        first
     }
 
     /// Returns true if the robot rests and settles on the ground.

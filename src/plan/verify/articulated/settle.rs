@@ -29,6 +29,8 @@ const ROUNDS_MAX: usize = 400;
 const BASES_MAX: usize = 500;
 /// The greatest number of shortenings of a step.
 const SHORTENINGS_MAX: usize = 60;
+/// The greatest number of times that the line of gravity is found anew on a slope: two or three suffice for what rests.
+const SLOPE_ROUNDS_MAX: usize = 40;
 
 /// The attitude at which settling ended.
 #[derive(Clone, Debug)]
@@ -37,6 +39,8 @@ pub(super) struct SettledAttitude {
     pub turn: Mat3,
     /// The height of the centre of mass above the lowest point of the robot, m.
     pub height: f64,
+    /// The fall of the centre of mass on the way, m.
+    pub fall: f64,
 }
 
 /// Returns the height of the centre of mass, the origin, above the lowest point of the features, m, along the unit
@@ -51,7 +55,8 @@ pub(super) fn height(features: &[Feature], up: &Vec3) -> f64 {
 pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAttitude {
     let reach = features.iter().map(Feature::reach).fold(0.0, f64::max);
     let mut turn = Mat3::identity();
-    let mut level = height(features, &Vec3::z());
+    let start = height(features, &Vec3::z());
+    let mut level = start;
     let mut bundle: Vec<Vec3> = Vec::new();
     let mut step = STEP_MAX;
     let mut rounds = 0;
@@ -79,7 +84,41 @@ pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAt
             step = step.min(omega.norm()) / 2.0;
         }
     }
-    SettledAttitude { turn, height: level }
+    SettledAttitude { turn, height: level, fall: start - level }
+}
+
+/// Returns the attitude near the present one at which a robot comes to rest on a slope, where friction holds what touches
+/// it: the line of gravity through its centre of mass then meets the ground within what supports it. `lean`: the shift of
+/// that line for each metre that it comes nearer to the ground; others as for [`settle`].
+///
+/// Seen from the ground, the weight acts as if it were that of a point as high as the centre of mass, straight above the
+/// place where the line of gravity meets the ground: the robot settles as on level ground with that point in the place of
+/// the centre of mass, which is found anew until nothing turns. What still rolls on after [`SLOPE_ROUNDS_MAX`] rounds, such as
+/// a ball, has no attitude of rest: it keeps its own, from which it falls.
+pub(super) fn settle_on_slope(
+    features: &[Feature],
+    lean: [f64; 2],
+    tolerances: &Tolerances,
+) -> SettledAttitude {
+    if lean == [0.0, 0.0] {
+        return settle(features, tolerances);
+    }
+    let mut turned = features.to_vec();
+    let mut found = SettledAttitude { turn: Mat3::identity(), height: 0.0, fall: 0.0 };
+    for _ in 0..SLOPE_ROUNDS_MAX {
+        let level = height(&turned, &Vec3::z());
+        let foot = Vec3::new(lean[0] * level, lean[1] * level, 0.0);
+        let shifted: Vec<Feature> = turned.iter().map(|f| f.placed(&Mat3::identity(), &-foot)).collect();
+        let rest = settle(&shifted, tolerances);
+        found.turn = rest.turn * found.turn;
+        found.fall += rest.fall;
+        turned = turned.iter().map(|f| f.placed(&rest.turn, &Vec3::zeros())).collect();
+        if (rest.turn - Mat3::identity()).amax() < NUMERICS.slope_turn {
+            found.height = height(&turned, &Vec3::z());
+            return found;
+        }
+    }
+    SettledAttitude { turn: Mat3::identity(), height: height(features, &Vec3::z()), fall: found.fall }
 }
 
 /// A point near the ground as a plane under H: `a + b·ω` for a small turn ω = (x, y).

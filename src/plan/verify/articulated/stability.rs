@@ -166,7 +166,8 @@ impl<'a> Monitor<'a> {
         match self.settings.stability {
             Stability::Footprint => {
                 let contact_points = &sample.stance.contact_points;
-                let margin = contact::margin(contact_points, |t| contact::counts(sample.model, t))?;
+                let foot = sample.stance.foot();
+                let margin = contact::margin(contact_points, foot, |t| contact::counts(sample.model, t))?;
                 let links = [contact_points[margin.edge.0].link, contact_points[margin.edge.1].link];
                 Some((margin, links))
             }
@@ -194,7 +195,8 @@ impl<'a> Monitor<'a> {
 
     /// Notes settling and tip-overs in the verdict.
     fn note_events(&self, sample: &Sample, ledger: &mut Ledger) {
-        if let Some(angle) = sample.settling.filter(|_| sample.fall > self.tolerances.fall_floor) {
+        let settles = |angle: &f64| *angle > 0.0 && sample.fall > self.tolerances.fall_floor;
+        if let Some(angle) = sample.settling.filter(settles) {
             let angle = quantity(angle, Dimension::ANGLE);
             ledger.note(match sample.time == 0.0 {
                 true => format!("the start settles by {angle}"),
@@ -276,12 +278,17 @@ fn centres(sample: &Sample, tolerances: &Tolerances) -> Option<(Margin, [usize; 
     let kinematics = &sample.model.kinematics;
     let bodies: Vec<usize> = kinematics.tree.order.iter().map(|&(m, _)| kinematics.link(m, 0)).collect();
     let places: Vec<_> =
-        bodies.iter().map(|&link| sample.stance.link_pose(link).translation.vector).collect();
+        bodies.iter().map(|&link| sample.stance.pose_on_ground(link).translation.vector).collect();
     let lowest = places.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
     let low: Vec<usize> = (0..places.len()).filter(|&i| places[i].z - lowest < tolerances.centres).collect();
     let points: Vec<_> = low.iter().map(|&i| [places[i].x, places[i].y]).collect();
     let count = places.len() as f64;
-    let mean = places.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p.x / count, sum[1] + p.y / count]);
+    let mut mean = places.iter().fold([0.0, 0.0], |sum, p| [sum[0] + p.x / count, sum[1] + p.y / count]);
+    if sample.world.is_sloped() {
+        let height = places.iter().map(|p| p.z / count).sum::<f64>();
+        let lean = sample.world.lean(0.0);
+        mean = [mean[0] + lean[0] * height, mean[1] + lean[1] * height];
+    }
     let margin = support_polygon::margin(&points, mean)?;
     let links = [bodies[low[margin.edge.0]], bodies[low[margin.edge.1]]];
     Some((margin, links))

@@ -4,7 +4,7 @@ use super::alignment::{height_keeping_turn, mass_alignment};
 use super::contact::{self, ContactPatch, ContactPoint};
 use super::minimum_power::{PlanarPose, displacement};
 use super::model::{Model, Posture};
-use super::settle::{SettledAttitude, height, settle};
+use super::settle::{SettledAttitude, height, settle_on_slope};
 use super::tolerances::Tolerances;
 use crate::geometry::Mat3;
 use crate::geometry::ground_features::Feature;
@@ -18,12 +18,12 @@ use nalgebra::{Rotation3, UnitQuaternion};
 pub struct Stance {
     /// The poses of the links in the frame of the base module's body.
     pub posture: Posture,
-    /// The orientation of that frame in level axes: those of the world, turned about the vertical by the yaw of the
-    /// planar pose.
+    /// The orientation of that frame in level axes: those of the ground, turned about its normal by the yaw of the planar
+    /// pose. The frame of level ground is that of the world.
     pub R: Mat3,
-    /// The height of the centre of mass above the plane z = 0 of the world, which is that of the ground, m.
+    /// The height of the centre of mass above the plane z = 0 of the ground's frame, m.
     pub height: f64,
-    /// The horizontal position of the centre of mass, m, and the heading, rad, in the world.
+    /// The position of the centre of mass along the ground, m, and the heading, rad, in the ground's frame.
     pub planar_pose: PlanarPose,
     /// The features with the centre of mass at the origin, in level axes, in the order of [`Model::features`]; without
     /// a floor there may be none.
@@ -34,10 +34,9 @@ pub struct Stance {
     pub patches: Vec<ContactPatch>,
     /// True if the base is held because the support was lost.
     pub held: bool,
-    /// True if there is a floor.
-    floor: bool,
-    /// True if the floor carries the weight of the robot: the contact points have normal forces only then.
-    weighed: bool,
+    /// The world that the robot is in: its floor, if any, how that slopes, and if it carries the weight of the robot, as
+    /// the contact points have normal forces only then.
+    world: World,
     /// The contact points before the base was held, each with the same load; empty otherwise.
     anchors: Vec<ContactPoint>,
 }
@@ -82,11 +81,12 @@ impl Stance {
         (world, placement): (&World, Placement),
         tolerances: &Tolerances,
     ) -> (Stance, f64, f64) {
-        let R = *X_WB.rotation.to_rotation_matrix().matrix();
+        let X_GB = if world.is_sloped() { world.ground_pose().inverse() * X_WB } else { *X_WB };
+        let R = *X_GB.rotation.to_rotation_matrix().matrix();
         let idle = placement == Placement::Fixed && !world.has_floor();
         let features = if idle { vec![] } else { model.placed(&posture, &R) };
         let up = height(&features, &Vec3::z());
-        let c = X_WB.transform_point(&posture.centre.into());
+        let c = X_GB.transform_point(&posture.centre.into());
         let planar_pose = PlanarPose { x: c.x, y: c.y, yaw: 0.0 };
         let level = match placement {
             Placement::Fixed => c.z,
@@ -101,8 +101,7 @@ impl Stance {
             contact_points: vec![],
             patches: vec![],
             held: false,
-            floor: world.has_floor(),
-            weighed: world.floor_bears(),
+            world: *world,
             anchors: vec![],
         };
         if placement != Placement::Settled {
@@ -110,16 +109,16 @@ impl Stance {
             return (stance, 0.0, 0.0);
         }
         // The attitude of rest near the drawn one.
-        let rest = settle(&stance.features, tolerances);
+        let rest = settle_on_slope(&stance.features, world.lean(0.0), tolerances);
         let turned =
             UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rest.turn)).angle();
         stance.turn(&rest);
         // The base stays over the point where it was drawn, whatever the settling did.
-        let drift = stance.base_pose(model).translation.vector - X_WB.translation.vector;
+        let drift = stance.pose_on_ground(model.base_link()).translation.vector - X_GB.translation.vector;
         stance.planar_pose.x -= drift.x;
         stance.planar_pose.y -= drift.y;
         stance.find_contacts(model, tolerances);
-        (stance, up - rest.height, turned)
+        (stance, rest.fall, turned)
     }
 
     /// Returns the effect of a change to `posture`: the robot is turned so that its masses move least
@@ -133,10 +132,12 @@ impl Stance {
         R = turn * R;
         features = features.iter().map(|f| f.placed(&turn, &Vec3::zeros())).collect();
         let moved = self.features.iter().zip(&features).map(|(a, b)| a.moved(b));
-        let motion = moved.fold(0.0, f64::max);
+        // On a slope the place where the line of gravity meets the ground moves with the height, too.
+        let spread = 1.0 + self.world.rise();
+        let motion = moved.fold(0.0, f64::max) * (spread * spread);
         let up = height(&features, &Vec3::z());
-        let rest = settle(&features, tolerances);
-        SettleAttempt { posture, R, features, height: up, motion, fall: up - rest.height, rest }
+        let rest = settle_on_slope(&features, self.world.lean(self.planar_pose.yaw), tolerances);
+        SettleAttempt { posture, R, features, height: up, motion, fall: rest.fall, rest }
     }
 
     /// Returns (stance, slips) of the robot settled as attempted, at the place to which the minimum power principle
@@ -185,12 +186,11 @@ impl Stance {
     /// Changes the world under the robot, which stays as it is: with a floor its contact points are found, without one
     /// it has none.
     pub fn enter(&mut self, model: &Model, world: &World, tolerances: &Tolerances) {
-        let (floor, weighed) = (world.has_floor(), world.floor_bears());
-        if (floor, weighed) != (self.floor, self.weighed) {
-            if floor && !self.floor {
+        let before = std::mem::replace(&mut self.world, *world);
+        if (world.has_floor(), world.floor_bears()) != (before.has_floor(), before.floor_bears()) {
+            if world.has_floor() && !before.has_floor() {
                 self.features = model.placed(&self.posture, &self.R);
             }
-            (self.floor, self.weighed) = (floor, weighed);
             self.find_contacts(model, tolerances);
         }
     }
@@ -198,13 +198,17 @@ impl Stance {
     /// Returns the static stability margin in the support polygon of the contact points within the contact tolerances
     /// of their modules; `None` if these span no area.
     pub fn margin(&self, model: &Model) -> Option<Margin> {
-        contact::margin(&self.contact_points, |contact_point| contact::counts(model, contact_point))
+        contact::margin(&self.contact_points, self.foot(), |contact_point| {
+            contact::counts(model, contact_point)
+        })
     }
 
     /// Returns the static stability margin in the support polygon of the contact points whose gap is at most the
     /// tolerance `gap_exact`; `None` if these span no area.
     pub fn margin_exact(&self, tolerances: &Tolerances) -> Option<Margin> {
-        contact::margin(&self.contact_points, |contact_point| contact_point.gap <= tolerances.gap_exact)
+        contact::margin(&self.contact_points, self.foot(), |contact_point| {
+            contact_point.gap <= tolerances.gap_exact
+        })
     }
 
     /// Returns `X_WB`, the world pose of the base module's body, m.
@@ -215,6 +219,12 @@ impl Stance {
 
     /// Returns `X_WL`, the world pose of the link of this number, m. Panics if there is none.
     pub fn link_pose(&self, link: usize) -> Pose {
+        let pose = self.pose_on_ground(link);
+        if self.world.is_sloped() { self.world.ground_pose() * pose } else { pose }
+    }
+
+    /// Returns `X_GL`, the pose of the link of this number in the frame of the ground, m. Panics if there is none.
+    pub fn pose_on_ground(&self, link: usize) -> Pose {
         let (s, c) = libm::sincos(self.planar_pose.yaw);
         let turned = Mat3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0) * self.R;
         let p = turned * (self.posture.p[link] - self.posture.centre)
@@ -235,8 +245,7 @@ impl Stance {
             contact_points: vec![],
             patches: vec![],
             held: self.held,
-            floor: self.floor,
-            weighed: self.weighed,
+            world: self.world,
             anchors: self.anchors.clone(),
         }
     }
@@ -250,12 +259,53 @@ impl Stance {
         }
     }
 
+    /// Returns the position of the point at which the line of gravity through the centre of mass meets the ground, x and y
+    /// from the centre of mass in level axes, m: zero on level ground.
+    pub fn foot(&self) -> [f64; 2] {
+        if self.world.is_sloped() {
+            self.world.lean(self.planar_pose.yaw).map(|lean| lean * self.height)
+        } else {
+            [0.0, 0.0]
+        }
+    }
+
+    /// Returns the unit vector along which gravity pulls, in level axes.
+    pub fn down(&self) -> Vec3 {
+        self.world.down(self.planar_pose.yaw)
+    }
+
+    /// Returns the unit vector against gravity, in level axes.
+    pub fn up(&self) -> Vec3 {
+        // Without negative zeros.
+        Vec3::zeros() - self.down()
+    }
+
+    /// Returns the position in the world, m, of a point that is given from the centre of mass in level axes, m.
+    pub fn world_point(&self, p: &Vec3) -> Vec3 {
+        let pose = self.planar_pose;
+        let point = self.along_ground(p) + Vec3::new(pose.x, pose.y, self.height);
+        if self.world.is_sloped() { self.world.ground_pose().rotation * point } else { point }
+    }
+
+    /// Returns in the world's axes a vector that is given in level axes.
+    pub fn world_vector(&self, v: &Vec3) -> Vec3 {
+        let turned = self.along_ground(v);
+        if self.world.is_sloped() { self.world.ground_pose().rotation * turned } else { turned }
+    }
+
+    /// Returns in the axes of the ground a vector that is given in level axes.
+    fn along_ground(&self, v: &Vec3) -> Vec3 {
+        let (s, c) = libm::sincos(self.planar_pose.yaw);
+        Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
+    }
+
     /// Finds contact points and patches anew; without a floor there are none.
     fn find_contacts(&mut self, model: &Model, tolerances: &Tolerances) {
         self.contact_points.clear();
-        if self.floor {
+        if self.world.has_floor() {
+            let foot = self.world.floor_bears().then(|| self.foot());
             self.contact_points =
-                contact::contact_points(model, &self.features, self.height, self.weighed, tolerances);
+                contact::contact_points(model, &self.features, self.height, foot, tolerances);
         }
         self.patches = contact::patches(&self.contact_points);
     }

@@ -126,13 +126,10 @@ impl Gauge<'_> {
             (None, Detail::Stance) => None,
         };
         let loads = loads.unwrap_or_else(unknown);
-        let planar_pose = sample.stance.planar_pose;
-        let (s, c) = libm::sincos(planar_pose.yaw);
-        let turned = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
         let force = |push: &super::statics::Wrench| GroundForce {
             module: sample.model.kinematics.module_of(push.link),
-            point: turned(&push.p) + Vec3::new(planar_pose.x, planar_pose.y, sample.stance.height),
-            force: turned(&push.f),
+            point: sample.stance.world_point(&push.p),
+            force: sample.stance.world_vector(&push.f),
         };
         Instant {
             time: sample.time,

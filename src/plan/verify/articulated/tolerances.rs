@@ -151,6 +151,9 @@ pub(super) struct Numerics {
     /// The height above the model of the bundle method from which on a support plane counts as violated, m. 1e-12:
     /// rounding of coordinates.
     pub plane_violation: f64,
+    /// The turn up to which a robot on a slope rests once the line of gravity is found anew, rad. 1e-9: it moves the line by
+    /// less than coordinates are rounded.
+    pub slope_turn: f64,
     /// The rounding allowed in the multipliers of the bundle method, which are without unit and sum to 1. 1e-10.
     pub multiplier: f64,
     /// The proximal weight of the dual of the normal forces, so that its solution exists whatever the contact points
@@ -193,6 +196,7 @@ pub(super) const NUMERICS: Numerics = Numerics {
     orientation_weight: 1e-3 * 0.04 * 0.04,
     turn_weight: 1e-8,
     plane_violation: 1e-12,
+    slope_turn: 1e-9,
     multiplier: 1e-10,
     proximal_weight: 1e-8,
     dual_gradient: 1e-14,

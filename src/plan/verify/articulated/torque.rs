@@ -150,7 +150,8 @@ impl<'a> Monitor<'a> {
         };
         let efforts = (0..sample.joints.len()).map(effort).collect();
         let weight = sample.model.mass * sample.world.gravity;
-        let spread = || pushing(sample).filter(|t| t.load > 0.0).map(|t| push(t, weight)).collect();
+        let up = sample.stance.up();
+        let spread = || pushing(sample).filter(|t| t.load > 0.0).map(|t| push(t, &up, weight)).collect();
         let forces = closed.then(|| decided.best.map_or_else(spread, |best| best.of_ground()));
         Some(JudgedLoads { efforts, forces })
     }
@@ -423,7 +424,7 @@ fn weights(sample: &Sample) -> Vec<Wrench> {
         let body = &model.bodies[link];
         let posture = &stance.posture;
         let p = stance.R * (posture.R[link] * body.com + posture.p[link] - posture.centre);
-        let f = Vec3::new(0.0, 0.0, -body.mass * sample.world.gravity);
+        let f = stance.down() * (body.mass * sample.world.gravity);
         Wrench { link, p, f, m: Vec3::zeros() }
     };
     model.attached.iter().map(push).collect()
@@ -439,10 +440,12 @@ fn pushing<'s>(sample: &Sample<'s>) -> impl Iterator<Item = &'s ContactPoint> {
 fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerances: &Tolerances) -> Loads {
     let weight = sample.model.mass * sample.world.gravity;
     let mut wrenches = weights(sample);
+    let (up, foot) = (sample.stance.up(), sample.stance.foot());
     let (mut x, mut y, mut size) = (0.0, 0.0, NUMERICS.robot_size);
     for contact_point in pushing(sample).filter(|t| t.load > 0.0) {
-        wrenches.push(push(contact_point, weight));
-        (x, y) = (x + contact_point.load * contact_point.p.x, y + contact_point.load * contact_point.p.y);
+        wrenches.push(push(contact_point, &up, weight));
+        let [px, py] = [contact_point.p.x - foot[0], contact_point.p.y - foot[1]];
+        (x, y) = (x + contact_point.load * px, y + contact_point.load * py);
         size = size.max(contact_point.p.norm());
     }
     let held = structure.held(sample.model, sections, &wrenches);
@@ -457,9 +460,10 @@ fn loads(structure: &Structure, sample: &Sample, sections: &[Section], tolerance
     Loads { ratios, held, judged, balanced }
 }
 
-/// Returns the normal force at a contact point, without friction.
-fn push(contact_point: &ContactPoint, weight: f64) -> Wrench {
-    let f = Vec3::new(0.0, 0.0, contact_point.load * weight);
+/// Returns the force at a contact point against gravity, whose opposite direction is `up`: without friction on level
+/// ground, and on a slope with as much of it as holds the robot.
+fn push(contact_point: &ContactPoint, up: &Vec3, weight: f64) -> Wrench {
+    let f = up * (contact_point.load * weight);
     Wrench { link: contact_point.link, p: contact_point.p, f, m: Vec3::zeros() }
 }
 

@@ -63,10 +63,11 @@ pub(super) fn solve(
     for _ in 0..PARAMETERS.rounds_max {
         let capacity: f64 = candidates.iter().zip(&loads).map(|(c, load)| c.friction * load).sum();
         let (needed, slides) = match momentum {
-            Some(_) => (Vector3::zeros(), false),
+            Some(_) => (downhill(situation), false),
             None => carried(situation, capacity),
         };
-        let problem = problem(situation, &loads, needed, momentum);
+        let tilting = tilting(situation, &loads);
+        let problem = problem(situation, &loads, (needed, tilting), momentum);
         let twist = match situation.support {
             Support::Settles => twist::solve(&problem, &warm.twist),
             Support::Stays | Support::Held | Support::Floats => Twist::default(),
@@ -91,29 +92,54 @@ pub(super) fn solve(
 }
 
 /// Returns the twist of the base at the centre of mass, in level axes, at which friction is in balance under the
-/// normal forces `loads` (N, one for each candidate), found from the guess `before`.
+/// normal forces `loads` (N, one for each candidate) with `factors` on its coefficients, found from the guess `before`.
 pub(super) fn twist_under(
     situation: &Situation,
-    loads: &[f64],
+    (loads, factors): (&[f64], &[f64]),
     momentum: Option<Momentum>,
     before: &Twist,
 ) -> Twist {
-    twist::solve(&problem(situation, loads, Vector3::zeros(), momentum), before)
+    let varied: Vec<f64> = loads.iter().zip(factors).map(|(load, factor)| load * factor).collect();
+    let needed = (downhill(situation), tilting(situation, loads));
+    twist::solve(&problem(situation, &varied, needed, momentum), before)
 }
 
 fn problem<'a>(
     situation: &'a Situation,
     loads: &'a [f64],
-    needed: Vector3<f64>,
+    (needed, tilting): (Vector3<f64>, [f64; 2]),
     momentum: Option<Momentum>,
 ) -> TwistProblem<'a> {
-    TwistProblem { candidates: &situation.candidates, loads, needed, momentum, weight: situation.weight }
+    let (candidates, weight) = (&situation.candidates, situation.weight);
+    TwistProblem { candidates, loads, needed, tilting, momentum, weight }
+}
+
+/// Returns the moments in roll and pitch about the centre of mass (N·m) that a situation on a slope needs beyond those of
+/// the normal forces `loads` (N): those of friction, which acts at the ground. Zero on level ground.
+fn tilting(situation: &Situation, loads: &[f64]) -> [f64; 2] {
+    if !situation.sloped {
+        return [0.0; 2];
+    }
+    let of = |moment: Vec3, (c, load): (&Candidate, &f64)| moment - c.p.cross(&(Vec3::z() * *load));
+    let left = situation.candidates.iter().zip(loads).fold(situation.base.moment, of);
+    [left.x, left.y]
+}
+
+/// Returns the force in x and y (N) and the moment in yaw (N·m) of friction that bear the weight of a robot at rest on a
+/// slope; zero on level ground. Momentum takes what they are more than friction gives.
+fn downhill(situation: &Situation) -> Vector3<f64> {
+    if situation.sloped { planar(situation) } else { Vector3::zeros() }
+}
+
+/// Returns the force in x and y (N) and the moment in yaw (N·m) that the situation needs.
+fn planar(situation: &Situation) -> Vector3<f64> {
+    Vector3::new(situation.base.force.x, situation.base.force.y, situation.base.moment.z)
 }
 
 /// Returns the force in x and y (N) and the moment in yaw (N·m) that friction has to supply, scaled down to what it
 /// can, and true if they were. `capacity`: the sum of friction times normal force, N.
 fn carried(situation: &Situation, capacity: f64) -> (Vector3<f64>, bool) {
-    let needed = Vector3::new(situation.base.force.x, situation.base.force.y, situation.base.moment.z);
+    let needed = planar(situation);
     // A moment counts by the force at the robot's size.
     let size = libm::hypot(libm::hypot(needed.x, needed.y), needed.z / situation.size);
     let most = PARAMETERS.traction_max * capacity;

@@ -44,17 +44,20 @@ pub(super) struct Posed<'a> {
     pub velocities: Vec<f64>,
     /// The mean acceleration of each joint over the window, rad/s² or m/s².
     pub accelerations: Vec<f64>,
+    /// The heading of the level axes in the frame of the ground, rad.
+    pub yaw: f64,
 }
 
 impl<'a> Posed<'a> {
     /// Returns the robot at a time of a rollout. `(time, window)`: the time and the length of the window centred on
-    /// it over which velocities and accelerations are means, s; `R`: the orientation of the base in level axes.
+    /// it over which velocities and accelerations are means, s; `(R, yaw)`: the orientation of the base in level axes, and
+    /// the heading of these (rad).
     pub(super) fn new(
         model: &'a Model<'a>,
         dynamics: &'a Dynamics,
         rollout: &Rollout,
         (time, window): (f64, f64),
-        R: &Mat3,
+        (R, yaw): (&Mat3, f64),
     ) -> Posed<'a> {
         let tracks = rollout.tracks;
         let mut joints = tracks.start.joints.clone();
@@ -77,7 +80,7 @@ impl<'a> Posed<'a> {
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*R));
         let base = Pose::from_parts((-(R * posture.centre)).into(), turn);
         poses.iter_mut().for_each(|pose| *pose = base * *pose);
-        Posed { model, dynamics, poses, joints, velocities, accelerations }
+        Posed { model, dynamics, poses, joints, velocities, accelerations, yaw }
     }
 
     /// Returns the twist at the centre of mass that the joints alone, with the base still, give each link, by the
@@ -205,8 +208,8 @@ impl<'a> Posed<'a> {
     fn floating_wrenches(&self, base: &Twist) -> Vec<Wrench> {
         let still = (*base, Twist::default());
         let acceleration =
-            self.compensating(&sum(&self.link_wrenches(Some(&still), 0.0))).unwrap_or_default();
-        self.link_wrenches(Some(&(*base, acceleration)), 0.0)
+            self.compensating(&sum(&self.link_wrenches(Some(&still), &Vec3::zeros()))).unwrap_or_default();
+        self.link_wrenches(Some(&(*base, acceleration)), &Vec3::zeros())
     }
 
     /// Returns the twist of the base's frame, with the joints still, whose momentum about the centre of mass cancels
@@ -242,10 +245,10 @@ impl<'a> Posed<'a> {
         Vec3::z().cross(&self.poses[self.model.base_link()].translation.vector)
     }
 
-    /// Returns the wrench that each link, by its number, needs for a motion under gravity (m/s², downwards), about the
+    /// Returns the wrench that each link, by its number, needs for a motion under gravity (m/s², in level axes), about the
     /// centre of mass of the robot, in level axes (N, N·m); zero for links that are not connected with the base.
     /// `motion`: velocity and acceleration of the base's own frame; `None` for a robot at rest.
-    pub(super) fn link_wrenches(&self, motion: Option<&(Twist, Twist)>, gravity: f64) -> Vec<Wrench> {
+    pub(super) fn link_wrenches(&self, motion: Option<&(Twist, Twist)>, gravity: &Vec3) -> Vec<Wrench> {
         let still = vec![0.0; self.velocities.len()];
         let (base, base_acceleration) = motion.copied().unwrap_or_default();
         let (velocities, accelerations) = match motion {
@@ -253,8 +256,7 @@ impl<'a> Posed<'a> {
             None => (&still, &still),
         };
         let state = MotionState { poses: &self.poses, base, base_acceleration, velocities, accelerations };
-        let down = Vec3::new(0.0, 0.0, -gravity);
-        self.dynamics.link_wrenches(&self.model.kinematics, &state, &down, &Vec3::zeros())
+        self.dynamics.link_wrenches(&self.model.kinematics, &state, gravity, &Vec3::zeros())
     }
 }
 
@@ -311,6 +313,8 @@ pub(super) struct Situation<'a> {
     pub support: Support,
     /// The weight, N.
     pub weight: f64,
+    /// True on a slope, where friction bears a part of the weight.
+    pub sloped: bool,
     /// The greatest horizontal distance of a candidate from the centre of mass, m; at least 5 cm.
     pub size: f64,
 }
@@ -335,7 +339,7 @@ impl<'a> Situation<'a> {
         let gravity = if support == Support::Floats { 0.0 } else { world.gravity };
         let needed = match motion {
             Some(motion) if support == Support::Floats => posed.floating_wrenches(&motion.0),
-            _ => posed.link_wrenches(motion, gravity),
+            _ => posed.link_wrenches(motion, &(world.down(posed.yaw) * gravity)),
         };
         Situation {
             base: sum(&needed),
@@ -343,6 +347,7 @@ impl<'a> Situation<'a> {
             loops: loads::loops(posed),
             stiffness: stiffness(posed.model),
             weight: posed.model.mass * gravity,
+            sloped: world.is_sloped(),
             posed,
             candidates,
             needed,

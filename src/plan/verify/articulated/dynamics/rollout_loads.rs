@@ -4,6 +4,7 @@
 use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
 use super::super::rollout::{Rollout, positions};
+use super::super::slope;
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
 use super::bursts::Bursts;
 use super::deflection::{DeflectedMotion, deflected};
@@ -13,6 +14,7 @@ use super::loads::{self, Loads};
 use super::overload::MeanOverload;
 use super::posed::{Posed, Situation, Support};
 use super::recorder::{Recorded, Recorder, with_instants};
+use super::slide::Slide;
 use super::tolerances::PARAMETERS;
 use super::traction::{GroundTravel, TravelSummary};
 use crate::geometry::Vec3;
@@ -70,6 +72,8 @@ pub(in super::super) struct RolloutLoads<'a> {
     /// The velocity (m/s, rad/s) and acceleration (m/s², rad/s²) of the base's frame at each instant, in the level axes
     /// of the instant.
     motions: Vec<(Twist, Twist)>,
+    /// The instants at which the robot slides down a slope, in order of time.
+    slides: Vec<Slide>,
 }
 
 /// The loads of one instant.
@@ -116,9 +120,18 @@ impl<'a> RolloutLoads<'a> {
         let instants = with_instants(recorder.recorded, &bursts.instants());
         let windows = instants.iter().map(|instant| bursts.window(instant.time)).collect();
         let (dynamics, travel) = (Dynamics::new(robot), recorder.travel);
-        let mut loads =
-            RolloutLoads { rollout, instants, travel, bursts, windows, dynamics, compiled, motions: vec![] };
-        loads.motions = loads.base_motions();
+        let mut loads = RolloutLoads {
+            rollout,
+            instants,
+            travel,
+            bursts,
+            windows,
+            dynamics,
+            compiled,
+            motions: vec![],
+            slides: vec![],
+        };
+        (loads.motions, loads.slides) = loads.base_motions();
         loads
     }
 
@@ -127,15 +140,16 @@ impl<'a> RolloutLoads<'a> {
         let recorded = &self.instants[index];
         let model = &self.compiled[recorded.bonds].model;
         let at = (recorded.time, self.windows[index]);
-        Posed::new(model, &self.dynamics, self.rollout, at, &recorded.R)
+        Posed::new(model, &self.dynamics, self.rollout, at, (&recorded.R, recorded.yaw))
     }
 
     /// Returns velocity and acceleration of the base's frame at each instant, in the level axes of the instant. The
     /// velocity is on the ground the one at which friction is in balance without inertia, without ground the one at
     /// which the robot has no momentum, and 0 for a base that keeps its place; the acceleration is the difference
-    /// quotient of the velocity over the window.
-    fn base_motions(&self) -> Vec<(Twist, Twist)> {
+    /// quotient of the velocity over the window. With it the instants at which it slides down a slope.
+    fn base_motions(&self) -> (Vec<(Twist, Twist)>, Vec<Slide>) {
         let recorded = &self.instants;
+        let mut slides = Vec::new();
         let mut warm = Warm::default();
         let mut velocities: Vec<Twist> = Vec::with_capacity(recorded.len());
         for (index, instant) in recorded.iter().enumerate() {
@@ -150,6 +164,7 @@ impl<'a> RolloutLoads<'a> {
                 Support::Settles => {
                     let situation = Situation::at_rest(&posed, &instant.world);
                     let found = equilibrium::solve(&situation, None, &mut warm);
+                    slides.extend(found.as_ref().and_then(|f| Slide::of(instant.time, &situation, f)));
                     found.map(|found| posed.of_base(&found.twist))
                 }
             };
@@ -166,7 +181,7 @@ impl<'a> RolloutLoads<'a> {
             };
             (turned(&velocities[index], -instant.yaw), turned(&acceleration, -instant.yaw))
         };
-        recorded.iter().enumerate().map(motion).collect()
+        (recorded.iter().enumerate().map(motion).collect(), slides)
     }
 
     /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the
@@ -277,9 +292,9 @@ impl<'a> RolloutLoads<'a> {
     }
 
     /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
-    /// the motors. Returns the motion of the joints as servos yield under these loads that are softer than stated by
+    /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos yield under these loads that are softer than stated by
     /// the factor `servo_softer`.
-    pub(in super::super) fn judge(&self, ledger: &mut Ledger) -> DeflectedMotion {
+    pub(in super::super) fn judge(&self, free: Option<&str>, ledger: &mut Ledger) -> DeflectedMotion {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
         let mut warm = Warm::default();
@@ -327,7 +342,7 @@ impl<'a> RolloutLoads<'a> {
             let at_rest = at_rest.entry(overload.instant).or_insert_with(|| self.at_rest(overload.instant));
             ledger.fail(self.explained(overload, at_rest));
         }
-        self.finish(&found, ledger);
+        self.finish(&found, free, ledger);
         found.deflected
     }
 
@@ -486,8 +501,9 @@ impl<'a> RolloutLoads<'a> {
         }
     }
 
-    /// Writes the findings of all instants into the verdict: the work, failures, notes, and the status of each check.
-    fn finish(&self, found: &Findings, ledger: &mut Ledger) {
+    /// Writes the findings of all instants into the verdict: the work, failures, notes, and the status of each check. `free`:
+    /// a joint on which the robot may roll down a slope.
+    fn finish(&self, found: &Findings, free: Option<&str>, ledger: &mut Ledger) {
         ledger.verdict.energy = found.work.energy();
         if let Some((since, until, worst)) = found.unbalanced {
             ledger.fail(Failure {
@@ -506,6 +522,7 @@ impl<'a> RolloutLoads<'a> {
             });
         }
         self.travel(ledger);
+        Slide::judge(&self.slides, ledger);
         self.note_small_margin(ledger);
         if let Some(step) = self.bursts.steps().first() {
             let name = self.rollout.tracks.robot.name_of(JointId(step.joint as u32));
@@ -550,7 +567,7 @@ impl<'a> RolloutLoads<'a> {
         };
         ledger.check(CheckKind::Balance, balance);
         let traction = match settles {
-            true => sampled(true),
+            true => slope::rolls(free, sampled(true)),
             false => Status::NotChecked("the base is not carried by the ground".to_owned()),
         };
         ledger.check(CheckKind::Traction, traction);

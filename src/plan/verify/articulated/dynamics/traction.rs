@@ -6,6 +6,7 @@ use super::super::model::Model;
 use super::super::rollout::Rollout;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::posed::{Posed, Situation};
+use super::slide;
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Mat3;
@@ -169,7 +170,7 @@ impl Traction {
         let stale =
             |last: &Last| step.time - last.time >= PARAMETERS.spacing_least || last.bonds != step.bonds;
         if self.last.as_ref().is_none_or(stale) {
-            self.determine(step);
+            self.determine(step, pose.yaw);
         }
         let Some(last) = &self.last else { return (*pose, vec![]) };
         let dt = step.time - step.before;
@@ -193,10 +194,15 @@ impl Traction {
     }
 
     /// Determines the velocities at the end of a step from the equilibrium of forces there, and those under the
-    /// variations; the former ones stay where no forces are found.
-    fn determine(&mut self, step: &GroundStep) {
-        let posed =
-            Posed::new(step.model, step.dynamics, step.rollout, (step.time, PARAMETERS.window), step.R);
+    /// variations; the former ones stay where no forces are found. `yaw`: the heading there, rad.
+    fn determine(&mut self, step: &GroundStep, yaw: f64) {
+        let posed = Posed::new(
+            step.model,
+            step.dynamics,
+            step.rollout,
+            (step.time, PARAMETERS.window),
+            (step.R, yaw),
+        );
         let mut situation = Situation::at_rest(&posed, step.world);
         let (inertia, carried) = planar(&posed);
         let since = self.last.as_ref().map(|last| step.time - last.time);
@@ -225,7 +231,12 @@ impl Traction {
             self.warm = Warm::default();
         }
         let found = equilibrium::solve(&situation, Some(momentum), &mut self.warm);
-        let Some(Equilibrium { twist, loads, friction, .. }) = found else { return };
+        let Some(Equilibrium { mut twist, loads, mut friction, .. }) = found else { return };
+        // Friction is viscous at low speed, so that a robot would creep down a slope on which it stands.
+        if slide::stands(&situation, &loads.normal, &friction) {
+            twist = Twist::default();
+            friction.iter_mut().for_each(|(slip, _)| *slip = Vec3::zeros());
+        }
         let by_joints = carried / step.model.mass;
         let rate = |twist: &Twist| {
             Vector3::new(twist.linear.x + by_joints.x, twist.linear.y + by_joints.y, twist.angular.z)
@@ -237,8 +248,9 @@ impl Traction {
                 PARAMETERS.friction_less
             }
         });
-        let other: Vec<f64> = loads.normal.iter().zip(factors).map(|(load, factor)| load * factor).collect();
-        let other = equilibrium::twist_under(&situation, &other, Some(momentum), &twist);
+        let factors: Vec<f64> = factors.collect();
+        let varied = (&loads.normal[..], &factors[..]);
+        let other = equilibrium::twist_under(&situation, varied, Some(momentum), &twist);
         let mut others = [rate(&other) - rate(&twist), Vector3::zeros(), Vector3::zeros()];
         let mut varied_at = step.time;
         match &self.last {

@@ -32,6 +32,9 @@ pub(super) struct TwistProblem<'a> {
     /// The horizontal force (N) and the moment about the vertical through the centre of mass (N·m) that friction has to
     /// supply: x, y, yaw in level axes.
     pub needed: Vector3<f64>,
+    /// The moments in roll and pitch about the centre of mass (N·m) that friction has to supply on a slope, as the normal
+    /// forces do not: without them a robot on wheels would turn over its axle. Zero on level ground.
+    pub tilting: [f64; 2],
     /// The momentum; `None` where friction decides at once.
     pub momentum: Option<Momentum>,
     /// The weight of the robot, N.
@@ -54,6 +57,8 @@ pub(super) fn solve(problem: &TwistProblem, before: &Twist) -> Twist {
     for (axis, row) in PLANAR.into_iter().enumerate() {
         given_right[row] -= problem.needed[axis];
     }
+    given_right[3] -= problem.tilting[0];
+    given_right[4] -= problem.tilting[1];
     if let Some(momentum) = &problem.momentum {
         let inertia = momentum.inertia / momentum.step;
         for (axis, row) in PLANAR.into_iter().enumerate() {
