@@ -129,8 +129,12 @@ impl Interpreter<'_> {
             Record::Report(verdict, headline) => verdicts::in_words(verdict, headline),
             Record::State(state) => format!("a state of {}", state.robot.name),
             Record::World(world) => format!(
-                "ground {:?}, gravity {}, friction {}",
+                "ground {:?}{}, gravity {}, friction {}",
                 world.ground,
+                match world.is_sloped() {
+                    true => format!(", slope {}", quantity(libm::atan(world.rise()), Dimension::ANGLE)),
+                    false => String::new(),
+                },
                 quantity(world.gravity, Dimension::ACCELERATION),
                 number(world.friction)
             )

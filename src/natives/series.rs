@@ -243,7 +243,7 @@ fn effort_of(known: &Instant, measure: &Measure) -> Option<f64> {
 
 fn normal_force(known: &Instant, measure: &Measure) -> Option<f64> {
     let (Measure::GroundForce(modules), Some(forces)) = (measure, &known.forces) else { return None };
-    Some(forces.iter().filter(|push| modules.contains(&push.module)).map(|push| push.force.z).sum())
+    Some(forces.iter().filter(|push| modules.contains(&push.module)).map(|push| push.normal).sum())
 }
 
 /// Returns the fault of a series with a value that nobody knows.

@@ -68,7 +68,7 @@ fn motion(input: &RenderInput, moments: &[Moment], end: f64, notes: &mut Vec<Str
         Body::Stages(stages) => lattice::body(stages, &plan.library),
         Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),
     };
-    json!({
+    let mut data = json!({
         "title": input.title,
         "summary": findings::summary(input, input.plan.body.duration()),
         "duration": number(plan.body.duration()),
@@ -83,7 +83,11 @@ fn motion(input: &RenderInput, moments: &[Moment], end: f64, notes: &mut Vec<Str
         "command": input.command,
         "meshes": meshes.list,
         "body": body,
-    })
+    });
+    if let Some(slope) = surroundings::slope(plan) {
+        data["slope"] = json!(slope);
+    }
+    data
 }
 
 /// Returns the clearance curve through the least clearance that the judge found. Adds a note where it is
@@ -127,13 +131,18 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     for from in &plan.worlds {
         let world = from.world;
         let ground = match world.ground {
+            Ground::Settle if world.is_sloped() => "rests on a slope",
             Ground::Settle => "rests on the ground",
             Ground::Fixed => "base kept on the ground",
             Ground::Held => "base held fast",
             Ground::Off => "no ground",
         };
+        let slope = match world.is_sloped() {
+            true => format!(" of {}", quantity(libm::atan(world.rise()), Dimension::ANGLE)),
+            false => String::new(),
+        };
         let words = format!(
-            "{ground}, gravity {}m/s^2, friction x {}",
+            "{ground}{slope}, gravity {}m/s^2, friction x {}",
             units::number(world.gravity),
             units::number(world.friction)
         );

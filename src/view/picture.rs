@@ -97,7 +97,9 @@ pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> 
 fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
     let time = options.time.clamp(0.0, findings::end(input.plan));
     let bodies = drawn(input, time);
-    Scene::new(bodies, surroundings::floor(input.plan), options).canvas()
+    let slope = surroundings::slope(input.plan).unwrap_or_default();
+    let ground = surroundings::floor(input.plan).then_some(slope);
+    Scene::new(bodies, ground, options).canvas()
 }
 
 /// A scene with its camera and light; lengths in metres.
@@ -111,8 +113,8 @@ struct Scene {
     /// The centre of the bodies' bounding box, and half its diagonal.
     middle: Vec3,
     radius: f64,
-    /// True if a level floor is drawn.
-    grounded: bool,
+    /// The rise of the floor along x and along y, m per m; `None` if none is drawn.
+    ground: Option<[f64; 2]>,
     /// The width and height in samples.
     width: usize,
     height: usize,
@@ -122,7 +124,7 @@ struct Scene {
 
 impl Scene {
     /// Sets up the camera so that all bodies are in the picture, the sun, and its shadow map.
-    fn new(bodies: Vec<Drawn>, grounded: bool, options: &StillOptions) -> Scene {
+    fn new(bodies: Vec<Drawn>, ground: Option<[f64; 2]>, options: &StillOptions) -> Scene {
         let (middle, radius) = ball(&bodies);
         let (width, height) = (options.width * SUPERSAMPLING, options.height * SUPERSAMPLING);
         let narrow = (width as f64 / height as f64).min(1.0);
@@ -137,7 +139,7 @@ impl Scene {
             shadows.fill(&body.mesh, &sun, &mut |_, _| [0.0; 3]);
         }
         let gamma = (0..1024).map(|i| libm::pow(f64::from(i) / 1023.0, 1.0 / 2.2) as f32).collect();
-        Scene { bodies, camera, sun, shadows, middle, radius, grounded, width, height, gamma }
+        Scene { bodies, camera, sun, shadows, middle, radius, ground, width, height, gamma }
     }
 
     /// Renders the bodies, their sharp edges, then the background.
@@ -210,20 +212,23 @@ impl Scene {
                 if canvas.depths[at] > f32::NEG_INFINITY {
                     continue;
                 }
-                let part = if self.grounded { self.ground(x, y) } else { 0.0 };
+                let part = self.ground.map_or(0.0, |slope| self.shading(slope, x, y));
                 canvas.colours[at] = sky.mixed(INK, part).0.map(|c| c as f32);
             }
         }
     }
 
-    /// Returns the darkness of the ground at a pixel, 0..1: grid lines and shadow.
-    fn ground(&self, x: usize, y: usize) -> f64 {
+    /// Returns the darkness of the ground, a plane of this slope, at a pixel, 0..1: grid lines and shadow.
+    fn shading(&self, slope: [f64; 2], x: usize, y: usize) -> f64 {
         let ray = self.camera.ray(x as f64 + 0.5, y as f64 + 0.5, self.width, self.height);
-        if ray.z >= 0.0 || self.camera.at.z <= 0.0 {
+        // The heights above the plane of the camera and of a point a metre along the ray.
+        let above = |v: &Vec3| v.z - slope[0] * v.x - slope[1] * v.y;
+        let (height, rate) = (above(&self.camera.at), above(&ray));
+        if rate >= 0.0 || height <= 0.0 {
             return 0.0;
         }
-        // The point where the ray meets the plane z = 0.
-        let away = -self.camera.at.z / ray.z;
+        // The point where the ray meets the plane.
+        let away = -height / rate;
         let p = self.camera.at + ray * away;
         let reach = f64::max(6.0 * self.radius, 2.5 * self.camera.distance);
         let out = libm::hypot(p.x - self.middle.x, p.y - self.middle.y) / reach;
@@ -234,7 +239,7 @@ impl Scene {
         let fade = 1.0 - u * u * (3.0 - 2.0 * u);
         // The footprint of a pixel: across the ray, and along the ground.
         let pixel = 2.0 * HALF_FOV_TANGENT * away / self.height as f64;
-        let long = pixel / -ray.z;
+        let long = pixel / -rate;
         let grid = |step: f64| {
             let line = |c: f64| {
                 let off = (c / step - libm::round(c / step)).abs() * step;

@@ -9,10 +9,15 @@ const SQUARES_MAX: usize = 48;
 /// The margin of drawn terrain around the nodes, in widths of the truss at the start.
 const AROUND: f64 = 0.5;
 
-/// Returns true if a level floor is drawn: the world has a floor, and no terrain replaces it.
+/// Returns true if a flat floor is drawn, level or a [`slope`]: the world has a floor, and no terrain replaces it.
 pub(super) fn floor(plan: &Plan) -> bool {
     let uneven = plan.body.node_paths().is_some_and(|paths| paths.surroundings.terrain.is_some());
     !uneven && plan.worlds.first().is_none_or(|world| world.world.has_floor())
+}
+
+/// Returns the rise of the floor along x and along y, m per m; `None` where it is level.
+pub(super) fn slope(plan: &Plan) -> Option<[f64; 2]> {
+    plan.worlds.first().filter(|first| first.world.is_sloped()).map(|first| first.world.slope)
 }
 
 /// Returns the obstacles, then the terrain, each as (name, shapes placed in the world).

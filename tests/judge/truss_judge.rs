@@ -27,6 +27,7 @@ const STANDING: World = World {
     ground: Ground::Settle,
     friction: 1.0,
     dynamics: modl::plan::DynamicsModel::Statics,
+    slope: [0.0; 2],
 };
 
 pub fn keyframe(time: f64, interpolation: Interpolation, nodes: &[Place]) -> Keyframe {

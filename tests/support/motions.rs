@@ -9,8 +9,13 @@ use modl::plan::{
 use modl::robot::{Assembly, JointId};
 
 /// Level ground on which every instant is judged at rest.
-pub const STATICS: World =
-    World { gravity: 9.80665, ground: Ground::Settle, friction: 1.0, dynamics: DynamicsModel::Statics };
+pub const STATICS: World = World {
+    gravity: 9.80665,
+    ground: Ground::Settle,
+    friction: 1.0,
+    dynamics: DynamicsModel::Statics,
+    slope: [0.0; 2],
+};
 
 /// Position of a joint id by module name and the joint's index in a SMORES module.
 pub fn joint(robot: &Assembly, module: &str, joint: usize) -> usize {

@@ -179,6 +179,7 @@ function main() {
     follows = { place, atEnd: camera.atEnd };
     const moving = camera.update(seconds_);
     const lineTheme = { ...state.theme, ink: state.lineInk };
+    const floor = floorOf(plan);
     const lines = [];
     const marks = [];
     //: if (options.trail) lines.push(...measuredTrail(plan, motion, plan.floor, lineTheme, options.nominal));
@@ -186,17 +187,17 @@ function main() {
     //: lines.push(...surroundingLines(plan, lineTheme));
     //: if (options.forces) marks.push(...forceArrows(plan, motion, state.t, framing.radius, camera.eye, lineTheme));
     //: if (!plan.simulation)
-    if (options.trail) lines.push(...trailLines(plan, plan.floor, lineTheme));
+    if (options.trail) lines.push(...trailLines(plan, floor, lineTheme));
     if (options.mass && stand) {
-      if (plan.ground) lines.push(...supportLines(stand, plan.floor, lineTheme));
-      marks.push(...centreMarks(stand, plan.floor, framing.thread ? framing.thread.wide : framing.radius, plan.ground, lineTheme));
+      if (plan.ground) lines.push(...supportLines(stand, floor, lineTheme));
+      marks.push(...centreMarks(stand, floor, framing.thread ? framing.thread.wide : framing.radius, plan.ground, lineTheme));
     }
-    if (options.contacts) marks.push(...contactDots(plan, state.t, plan.floor, lineTheme));
+    if (options.contacts) marks.push(...contactDots(plan, state.t, floor, lineTheme));
     if (failure && failure.point) marks.push(...spotOf(failure.point, 11, [...lineTheme.bad, 1], lineTheme));
-    if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, plan.floor, lineTheme));
+    if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, floor, lineTheme));
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
-      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
+      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, floorAt: floor, slope: plan.slope || [0, 0], ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
       edges: options.edges && coarseness() < 2, smooth: coarseness() < 1, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
     };
     //: scene.ghosts.push(options.nominal);

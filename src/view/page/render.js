@@ -117,7 +117,7 @@ function rendererOf(canvas, plan, motion) {
     const width = Math.max(radius * 6, norm(sub(camera.eye, middle)) * 2.5);
     const step = 10 ** Math.floor(Math.log10(grain * 0.9));
     use("ground", {
-      view: camera.matrix, sun, patch_: [middle[0], middle[1], scene.floor, width], ink: scene.theme.ink,
+      view: camera.matrix, sun, patch_: [middle[0], middle[1], scene.floor, width], slope: scene.slope, ink: scene.theme.ink,
       step_: step / 1, strength: scene.theme.dark ? 1.5 : 1, shadowed: scene.shadow ? 1 : 0,
     });
     gl.bindVertexArray(square);
@@ -147,7 +147,7 @@ function rendererOf(canvas, plan, motion) {
   function drawArea(scene) {
     const fan = [];
     for (let i = 2; i < scene.area.length; i++)
-      for (const p of [scene.area[0], scene.area[i - 1], scene.area[i]]) fan.push(p[0], p[1], scene.floor + 0.0005);
+      for (const p of [scene.area[0], scene.area[i - 1], scene.area[i]]) fan.push(p[0], p[1], scene.floorAt(p) + 0.0005);
     if (!fan.length) return;
     gl.bindBuffer(gl.ARRAY_BUFFER, flats.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(fan), gl.STREAM_DRAW);

@@ -92,15 +92,21 @@ function standTimes(plan) {
   return standTimesKnown;
 }
 
+/** The height of the ground under a point: a plane, level unless the plan has a slope. */
+function floorOf(plan) {
+  const [a, b] = plan.slope || [0, 0];
+  return ([x, y]) => plan.floor + a * x + b * y;
+}
+
 /** The support around the foot of the centre of mass, on the ground. */
 function supportLines(stand, floor, theme) {
   const [x, y, z] = stand.centre;
-  const lift = floor + 0.0008;
+  const lifted = p => [p[0], p[1], floor(p) + 0.0008];
   const lines = stand.area.map((p, i) => {
     const q = stand.area[(i + 1) % stand.area.length];
-    return { a: [...p, lift], b: [...q, lift], width: 2, colour: tintOf(stand, theme) };
+    return { a: lifted(p), b: lifted(q), width: 2, colour: tintOf(stand, theme) };
   });
-  lines.push({ a: [x, y, z], b: [x, y, lift], width: 1.5, colour: [...theme.ink, 0.7] });
+  lines.push({ a: [x, y, z], b: lifted([x, y]), width: 1.5, colour: [...theme.ink, 0.7] });
   return lines;
 }
 
@@ -109,7 +115,7 @@ function centreMarks(stand, floor, size, ground, theme) {
   const [x, y, z] = stand.centre;
   const r = size * 0.02;
   const cross = ([c, h]) => [[r, 0, 0], [0, r, 0], [0, 0, h * r]].map(d => ({ a: sub(c, d), b: add(c, d), width: 2.5, colour: tintOf(stand, theme) }));
-  return [[[x, y, z], 1], ...(ground ? [[[x, y, floor + 0.0008], 0]] : [])].flatMap(cross);
+  return [[[x, y, z], 1], ...(ground ? [[[x, y, floor([x, y]) + 0.0008], 0]] : [])].flatMap(cross);
 }
 
 /** Good or bad, by how it stands; without a support neither. */
@@ -124,7 +130,7 @@ function contactDots(plan, t, floor, theme) {
   if (at < 0) return [];
   const points = plan.contacts[at][1];
   const dots = [];
-  for (let i = 0; i < points.length; i += 2) dots.push(...spotOf([points[i], points[i + 1], floor], 7, [...theme.contact, 1], theme));
+  for (let i = 0; i < points.length; i += 2) dots.push(...spotOf([points[i], points[i + 1], floor(points.slice(i, i + 2))], 7, [...theme.contact, 1], theme));
   return dots;
 }
 let contactTimesKnown = null;
@@ -149,7 +155,7 @@ function nearestEdge(stand, floor, theme) {
     const away = Math.hypot(a[0] + u * d[0] - x, a[1] + u * d[1] - y);
     if (!best || away < best.away) best = { away, a, b };
   });
-  return best ? [{ a: [...best.a, floor], b: [...best.b, floor], width: 6, colour: [...theme.bad, 1] }] : [];
+  return best ? [{ a: [...best.a, floor(best.a)], b: [...best.b, floor(best.b)], width: 6, colour: [...theme.bad, 1] }] : [];
 }
 
 /** Where the base goes, on the ground. */
@@ -158,8 +164,8 @@ function trailLines(plan, floor, theme) {
   const stride = Math.max(Math.floor(keys.length / 600), 1);
   const lines = [];
   for (let i = stride; i < keys.length && keys[i][0] <= plan.end; i += stride) {
-    const [a, b] = [keys[i - stride], keys[i]];
-    lines.push({ a: [a[1], a[2], floor + 0.0006], b: [b[1], b[2], floor + 0.0006], width: 2, colour: [...theme.ink, 0.35] });
+    const [a, b] = [keys[i - stride], keys[i]].map(([, x, y]) => [x, y, floor([x, y]) + 0.0006]);
+    lines.push({ a, b, width: 2, colour: [...theme.ink, 0.35] });
   }
   return lines;
 }

@@ -112,12 +112,13 @@ void main() { shown = vec4(found & 255, (found >> 8) & 255, (found >> 16) & 255,
 const GROUND_VERTEX = HEAD + `
 uniform mat4 view, sun;
 uniform vec4 patch_;               // middle, half the width
+uniform vec2 slope;
 layout(location=0) in vec2 corner;
 out vec2 at;
 out vec4 lit;
 void main() {
   at = patch_.xy + corner * patch_.w;
-  vec4 p = vec4(at, patch_.z, 1.0);
+  vec4 p = vec4(at, patch_.z + dot(slope, at), 1.0);
   lit = sun * p;
   gl_Position = view * p;
 }`;

@@ -50,6 +50,8 @@ pub struct GroundForce {
     pub point: Vec3,
     /// The force in the world, N.
     pub force: Vec3,
+    /// The part of the force along the normal of the ground, N.
+    pub normal: f64,
 }
 
 /// Returns the judge's quantities at these times (s), one instant for each, in the order of `times`. `times` must
@@ -130,6 +132,7 @@ impl Gauge<'_> {
             module: sample.model.kinematics.module_of(push.link),
             point: sample.stance.world_point(&push.p),
             force: sample.stance.world_vector(&push.f),
+            normal: push.f.z,
         };
         Instant {
             time: sample.time,
