@@ -4,5 +4,6 @@ pub mod collision;
 pub mod ground;
 pub mod lattice_judge;
 pub mod oracle;
+pub mod slopes;
 pub mod truss_judge;
 pub mod verify;

@@ -126,7 +126,8 @@ impl<'a> Ledger<'a> {
             let moot = match failure.kind {
                 CheckKind::Torque | CheckKind::BondLoad | CheckKind::Deflection => failure.time >= ended,
                 CheckKind::Balance => failure.time >= ended || tips,
-                CheckKind::Traction => true,
+                // A travel is that of the whole plan; a slide down a slope begins at its time.
+                CheckKind::Traction => failure.until.is_some() || failure.time >= ended,
                 _ => false,
             };
             if moot {

@@ -30,5 +30,5 @@ mod twist;
 pub(super) use deflection::DeflectedMotion;
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
-pub(super) use slide::{failure as slide_failure, free_joint};
+pub(super) use slide::{failure as slide_failure, free_joint, is_slide};
 pub(super) use traction::{GroundStep, Traction, TravelSummary, soft_servos, travel_tolerance};

@@ -376,3 +376,11 @@ fn sum(wrenches: &[Wrench]) -> Wrench {
     let add = |sum: Wrench, w: &Wrench| Wrench { force: sum.force + w.force, moment: sum.moment + w.moment };
     wrenches.iter().fold(Wrench::default(), add)
 }
+
+/// Returns a twist turned about the normal of the ground by `yaw` (rad): given in level axes, it is returned in those of the
+/// ground.
+pub(super) fn turned(twist: &Twist, yaw: f64) -> Twist {
+    let (s, c) = libm::sincos(yaw);
+    let turn = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
+    Twist { linear: turn(&twist.linear), angular: turn(&twist.angular) }
+}

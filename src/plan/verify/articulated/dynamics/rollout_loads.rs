@@ -12,7 +12,7 @@ use super::elastic_tree::LimitedMotor;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::loads::{self, Loads};
 use super::overload::MeanOverload;
-use super::posed::{Posed, Situation, Support};
+use super::posed::{Posed, Situation, Support, turned};
 use super::recorder::{Recorded, Recorder, with_instants};
 use super::slide::Slide;
 use super::tolerances::PARAMETERS;
@@ -594,11 +594,4 @@ struct Findings {
     overloads: Vec<MeanOverload>,
     work: MotorWork,
     deflected: DeflectedMotion,
-}
-
-/// Returns a twist turned about the vertical by `yaw` (rad): given in level axes, it is returned in those of the world.
-fn turned(twist: &Twist, yaw: f64) -> Twist {
-    let (s, c) = libm::sincos(yaw);
-    let turn = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
-    Twist { linear: turn(&twist.linear), angular: turn(&twist.angular) }
 }

@@ -79,6 +79,12 @@ pub(in super::super) fn failure(time: f64, needed: f64, friction: f64) -> Failur
     }
 }
 
+/// Returns true for the failure of a robot that slides down a slope.
+pub(in super::super) fn is_slide(failure: &Failure) -> bool {
+    // That of a travel lasts as long as the plan.
+    failure.kind == CheckKind::Traction && failure.until.is_none()
+}
+
 /// Returns true for a robot on a slope whose joints do not move and whose loaded contacts do not slide: it stands, however
 /// the friction of the model creeps. `loads`: the normal force at each candidate, N; `friction`: slip (m/s) and friction
 /// (N) at each.
