@@ -304,7 +304,7 @@ fn terrain(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 /// Runs `slope`: a plane through the origin as a height field.
 fn slope(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let angle: f64 = call.get("angle")?;
-    if !(angle.abs() <= SLOPE_MAX) {
+    if !(-SLOPE_MAX..=SLOPE_MAX).contains(&angle) {
         return Err(call.refuse("angle", "a slope rises by at most 50deg"));
     }
     let along = call.get::<Vec3>("along")?.xy();

@@ -51,6 +51,25 @@ print(simulate(plan(o.rest(), world: icy)).travel > 100mm, simulate(plan(o.rest(
 print(simulate(plan(o.rest(), world: icy), terrain: slope(3deg)).travel)
 //                                                  ^^^^^^^^^^^ E0506 a slope of its own
 
+--- a tower tips as it bends over the edge of its support
+module Tower {
+  link base = box(200mm, 200mm, 60mm, mass: 2kg, friction: 1)
+  link mast = box(40mm, 40mm, 300mm, mass: 3kg) at [0mm, 0mm, 240mm]
+  joint bend : base -> mast = revolute(axis: Y, max_torque: 20N*m, range: -90deg..90deg, max_speed: 90deg/s) at [0mm, 0mm, 90mm]
+}
+config Leaning { part t: Tower  behavior bend(a: Angle) = move(t.bend, to: a, in: 4s) }
+let leaning = Leaning()
+// Seen from the middle of the base the centre of mass is at 90 mm (sin, cos) of the bend above 84 mm, and the line of gravity
+// meets the ground 100 mm away at last.
+fn last(slope: Angle) -> Angle = asin((100 - 84 * tan(slope)) / 90 * cos(slope)) - slope
+fn stands(a: Angle, angle: Angle) -> Bool = verify(leaning.bend(a), world: world(terrain: slope(angle, along: -X), dynamics: statics)).ok
+// A tenth of a degree before that it stands, and after it falls.
+print([stands(last(x) - 0.1deg, angle: x) for x in [10deg, 15deg, 20deg]], [stands(last(x) + 0.1deg, angle: x) for x in [10deg, 15deg, 20deg]])
+//> [true, true, true] [false, false, false]
+// It bends up the slope as far as it will.
+print(stands(-90deg, angle: 15deg))
+//> true
+
 --- torques under a gravity that leans
 module Arm {
   link post = box(400mm, 400mm, 100mm, mass: 20kg, friction: 1)
