@@ -681,10 +681,11 @@ extern fn same(a: Config, b: Config) -> Bool
 /// modules are modules of the robot `in`, so that its behaviours are behaviours of that robot.
 ///
 /// An embedding maps each module of the pattern to another module of the robot. It keeps the type of the module with its
-/// arguments, and each connection with its two ports and its turn; of a connection with a joint
-/// also which port is first, where the joint would turn the other way round. The modules may have other connections to the rest of the robot, but none among themselves that the pattern
-/// lacks. Embeddings that differ by a symmetry are all listed, in the order of the robot's modules to which the first
-/// module of the pattern is mapped. The list is empty if the robot does not contain the pattern.
+/// arguments, and each connection with its two ports and its turn; of a connection with a joint also which port is first,
+/// where the joint would turn the other way round. The modules may have other connections to the rest of the robot, but
+/// none among themselves that the pattern lacks. Embeddings that differ by a symmetry are all listed, in the order of the
+/// robot's modules to which the first module of the pattern is mapped. The list is empty if the robot does not contain
+/// the pattern.
 ///
 /// Joint positions make no difference, and what the pattern sets does not apply: behaviours begin in the posture of the
 /// robot. A module counts as a robot of one module. Comparing two modules counts as an evaluation step; at worst every
@@ -1937,7 +1938,8 @@ extern fn verify(
 ///
 /// On a `terrain` the robot stands at the start as it does on level ground, but leaning with the plane that lies best through
 /// the ground under its feet. The points of links touch the terrain: a peak that is thinner than a link, so that it comes
-/// between them, is not felt. A plan whose world is a `slope` is played on that, without another terrain. `obstacles` are shapes in the world that stand fast, `placed` where they are; their friction is
+/// between them, is not felt. A plan whose world is a `slope` is played on that, without another terrain.
+/// `obstacles` are shapes in the world that stand fast, `placed` where they are; their friction is
 /// 0.5, or that of a rougher link on them. No verdict is about such ground, or knows of obstacles.
 ///
 /// With `runs` above 0, the plan is played so many times more, with friction, masses, the greatest torques and forces of

@@ -47,6 +47,11 @@ impl Program {
     pub fn def(&self, id: DefId) -> &Def {
         &self.defs[id.0 as usize]
     }
+
+    /// Iterates over all declarations with their identities, in the order of these.
+    pub fn identified(&self) -> impl Iterator<Item = (DefId, &Def)> {
+        (0..).map(DefId).zip(&self.defs)
+    }
 }
 
 /// A checked declaration of a program, or a method of a record; [`DefKind`] holds its body.

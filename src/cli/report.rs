@@ -8,6 +8,7 @@ use crate::plan::facts::Facts;
 use crate::source::json::{JsonDiagnostic, to_json};
 use crate::source::render::{Style, render_one, sorted};
 use crate::source::{Diagnostic, Severity, Sources};
+use crate::units::counted;
 use serde::Serialize;
 use std::collections::HashSet;
 use std::io::{IsTerminal, stderr};
@@ -215,10 +216,10 @@ impl Report {
             print_json(&text);
             return;
         }
-        let parts = [(self.errors, "error"), (self.warnings, "warning")].map(|(n, word)| counted(n, word));
+        let parts = [(self.errors, "error"), (self.warnings, "warning")].map(|(n, word)| some(n, word));
         let parts: Vec<String> = parts.into_iter().flatten().collect();
         let found = if parts.is_empty() { "nothing is wrong".to_owned() } else { parts.join(", ") };
-        match self.programs.and_then(|n| counted(n, "program")) {
+        match self.programs.and_then(|n| some(n, "program")) {
             Some(programs) => print_error(&format!("{programs}: {found}\n")),
             None if parts.is_empty() => {}
             None => print_error(&format!("{found}\n")),
@@ -227,8 +228,8 @@ impl Report {
 }
 
 /// Returns "2 errors"; `None` for none.
-fn counted(n: usize, word: &str) -> Option<String> {
-    (n > 0).then(|| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
+fn some(n: usize, word: &str) -> Option<String> {
+    (n > 0).then(|| counted(n, word))
 }
 
 /// Reports a wrong call of a command, as text or, if `globals` say so, as a JSON object.

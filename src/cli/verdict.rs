@@ -16,10 +16,9 @@ pub(super) fn text(name: &str, plan: &Plan, verdict: &Verdict) -> String {
     line(&mut out, &summary(verdict));
     for world in &plan.worlds {
         let ground = match world.world.ground {
-            Ground::Settle if world.world.is_sloped() => &format!(
-                "settling on a slope of {}",
-                quantity(libm::atan(world.world.rise()), Dimension::ANGLE)
-            ),
+            Ground::Settle if world.world.is_sloped() => {
+                &format!("settling on a slope of {}", quantity(world.world.slope_angle(), Dimension::ANGLE))
+            }
             Ground::Settle => "settling on the ground",
             Ground::Fixed => "with its base kept on the ground",
             Ground::Held => "with its base held fast, and no ground",

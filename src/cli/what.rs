@@ -4,6 +4,7 @@ use super::arguments::Globals;
 use super::report::Report;
 use super::terminal::print;
 use crate::session::{EmbeddedConfiguration, Repertoire};
+use crate::units::counted;
 use serde::Serialize;
 
 /// A robot with the configurations that embed in it, as JSON.
@@ -57,9 +58,4 @@ fn text(repertoire: &Repertoire) -> String {
         behaviors.iter().for_each(|behavior| out.push_str(&format!("  {behavior}\n")));
     }
     out
-}
-
-/// Returns "1 module" or "2 modules".
-fn counted(n: usize, word: &str) -> String {
-    format!("{n} {word}{}", if n == 1 { "" } else { "s" })
 }

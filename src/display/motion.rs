@@ -1,6 +1,6 @@
 //! Behaviours as series-parallel trees with times, plans as sketches of their time.
 
-use super::pretty::{Branch, counted};
+use super::pretty::Branch;
 use super::truss;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::plan_value::PlanValue;
@@ -10,7 +10,7 @@ use crate::interpret::value::Behavior;
 use crate::interpret::verdicts::failure_line;
 use crate::plan::{self, Action, Command, Node, Profile, Target, Track, Tracks};
 use crate::robot::{Assembly, JointId};
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, counted, quantity};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 

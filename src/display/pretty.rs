@@ -121,11 +121,6 @@ impl Branch {
     }
 }
 
-/// Returns a number of things in words: `1 module`, `3 modules`; `what` is the singular.
-pub(super) fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
 /// Returns names in words, in their order: the first six, and the number of the rest.
 pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 6;

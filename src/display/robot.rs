@@ -1,6 +1,6 @@
 //! Robots as trees of their parts.
 
-use super::pretty::{Branch, counted, listed};
+use super::pretty::{Branch, listed};
 use super::shape;
 use super::truss;
 use crate::check::typed::{DefId, DefKind, RecordField};
@@ -9,7 +9,7 @@ use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, Modul
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
 use crate::robot::{Joint, JointKind};
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, counted, quantity};
 use std::rc::Rc;
 
 /// The number of elements of a list of different parts that are drawn, if there are more than one beyond it.

@@ -1,9 +1,9 @@
 //! Cells and flat patterns in characters.
 
-use super::pretty::counted;
 use crate::interpret::cells::Cells;
 use crate::planners::fold::Report;
 use crate::planners::fold::pattern::Pattern;
+use crate::units::counted;
 
 /// The greatest number of columns of a picture; of larger lattices only the size is shown.
 const COLUMNS_MAX: i64 = 120;

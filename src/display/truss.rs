@@ -1,14 +1,12 @@
 //! Trusses as pictures of dots, seen from the front and from above, and what their plans achieve.
 
-use super::pretty::counted;
 use crate::geometry::Vec3;
 use crate::interpret::design::Design;
 use crate::interpret::design::TrussDesign;
 use crate::interpret::plan_value::PlanValue;
 use crate::plan::NodePaths;
 use crate::planners::{locomote, morph};
-use crate::units::number;
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, counted, number, quantity};
 
 /// The width of a picture in characters; each holds two dots by four.
 const WIDTH: usize = 32;

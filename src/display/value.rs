@@ -132,7 +132,7 @@ impl Interpreter<'_> {
                 "ground {:?}{}, gravity {}, friction {}",
                 world.ground,
                 match world.is_sloped() {
-                    true => format!(", slope {}", quantity(libm::atan(world.rise()), Dimension::ANGLE)),
+                    true => format!(", slope {}", quantity(world.slope_angle(), Dimension::ANGLE)),
                     false => String::new(),
                 },
                 quantity(world.gravity, Dimension::ACCELERATION),

@@ -53,11 +53,11 @@ pub(super) fn page(checked: &Checked, file: FileId, doc: Option<String>) -> Opti
         _ => source.name.to_string(),
     };
     let methods = methods(checked);
-    let here = (0..checked.program.defs.len()).map(|index| DefId(index as u32)).filter(|id| {
-        let def = checked.program.def(*id);
-        def.file == file && !def.name.as_str().starts_with('_') && !methods.contains(id)
-    });
-    let entries: Vec<PageEntry> = here.map(|id| entry(checked, id)).collect();
+    let here = checked
+        .program
+        .identified()
+        .filter(|(id, def)| def.file == file && !def.name.as_str().starts_with('_') && !methods.contains(id));
+    let entries: Vec<PageEntry> = here.map(|(id, _)| entry(checked, id)).collect();
     let file = format!("{}.html", title.replace(['/', '.'], "-"));
     (!entries.is_empty()).then_some(Page { title, file, doc, entries })
 }

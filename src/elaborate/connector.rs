@@ -121,8 +121,7 @@ impl Interpreter<'_> {
     /// Returns the declaration of the built-in with this key, such as `move`; `None` if the program has none.
     pub(super) fn native_named(&self, key: &str) -> Option<DefId> {
         let is_it = |kind: &DefKind| matches!(kind, DefKind::Native(native) if native.key == key);
-        let index = self.shared.program.defs.iter().position(|def| is_it(&def.kind))?;
-        Some(DefId(u32::try_from(index).expect("declarations are counted in 32 bits")))
+        self.shared.program.identified().find(|(_, def)| is_it(&def.kind)).map(|(id, _)| id)
     }
 
     /// Refuses a connector whose mates do not mate it, or have another number of turns.

@@ -2,7 +2,6 @@
 
 use super::ROUTINES;
 use crate::check;
-use crate::check::typed::DefId;
 use crate::elaborate;
 use crate::interpret::WriteError;
 use crate::interpret::interpreter::Interpreter;
@@ -65,8 +64,7 @@ fn elaborated(path: &str, own: &str, arguments: &str) -> Option<Library> {
             return None;
         }
         let name = Symbol::new(name);
-        let index = checked.program.defs.iter().position(|def| def.name == name)?;
-        let def = DefId(u32::try_from(index).expect("declarations are counted in 32 bits"));
+        let (def, _) = checked.program.identified().find(|(_, def)| def.name == name)?;
         let mut options = Options::default();
         options.limits.steps = STEPS_MAX;
         let work = |interpreter: &mut Interpreter| elaborate::library_of(interpreter, def);

@@ -155,7 +155,7 @@ const WORLD: &[Field<World>] = &[
     ("ground", |world| Value::text(world.ground.word())),
     ("friction", |world| Value::number(world.friction)),
     ("dynamics", |world| Value::text(world.dynamics.word())),
-    ("slope", |world| Value::Quantity(libm::atan(world.rise()), Dimension::ANGLE)),
+    ("slope", |world| Value::Quantity(world.slope_angle(), Dimension::ANGLE)),
 ];
 
 const FRAME: &[Field<Record>] = &[

@@ -143,7 +143,7 @@ impl Interpreter<'_> {
         match failure.kind {
             CheckKind::Stability if failure.until.is_some() => diagnostic
                 .hint("`unstable_for:` allows support to be missing for a while, `allows unstable` to tip"),
-            CheckKind::Traction if failure.until.is_none() => diagnostic
+            CheckKind::Traction if failure.is_slide() => diagnostic
                 .hint("a gentler slope or more friction holds it; `allows traction` where it may slide"),
             CheckKind::Collision if failure.at.len() == 1 && planned.body.is_some() => diagnostic.hint(
                 "links of one module: leave room between them or narrow the range of their joint; \

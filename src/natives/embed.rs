@@ -125,18 +125,13 @@ pub fn capabilities(
 /// Returns the public configurations of the library's files, by file and in the order of their declarations.
 fn library_configurations(interpreter: &Interpreter) -> Vec<DefId> {
     let shared = &interpreter.shared;
-    let defs = shared.program.defs.iter().enumerate();
-    let public = defs.filter(|(_, def)| {
+    let public = shared.program.identified().filter(|(_, def)| {
         matches!(def.kind, DefKind::Config(_))
             && shared.sources.file(def.file).library
             && !def.name.as_str().starts_with('_')
     });
-    let mut found: Vec<_> = public
-        .map(|(index, def)| {
-            let id = DefId(u32::try_from(index).expect("declarations are counted in 32 bits"));
-            (&shared.sources.file(def.file).name, def.span.start, id)
-        })
-        .collect();
+    let mut found: Vec<_> =
+        public.map(|(id, def)| (&shared.sources.file(def.file).name, def.span.start, id)).collect();
     found.sort_unstable();
     found.into_iter().map(|(.., id)| id).collect()
 }

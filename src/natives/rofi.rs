@@ -1,7 +1,7 @@
 //! Robots of RoFI modules from and to RoFI's files.
 
 use super::Native;
-use crate::check::typed::DefId;
+use crate::check::typed::{Def, DefId};
 use crate::elaborate::outside;
 use crate::interpret::argument::parameters;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule, SetRecord};
@@ -152,11 +152,9 @@ fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
 
 /// Returns a declaration of the library's file; `None` if the program does not import it.
 fn declared(interpreter: &Interpreter, name: &str) -> Option<DefId> {
-    let here = |index: &usize| {
-        let def = interpreter.shared.program.def(DefId(*index as u32));
-        def.name == name && *interpreter.shared.sources.file(def.span.file).name == *LIBRARY
-    };
-    (0..interpreter.shared.program.defs.len()).find(here).map(|index| DefId(index as u32))
+    let shared = &interpreter.shared;
+    let here = |def: &Def| def.name == name && *shared.sources.file(def.span.file).name == *LIBRARY;
+    shared.program.identified().find(|(_, def)| here(def)).map(|(id, _)| id)
 }
 
 fn faulty(call: &Call, path: &str, line: usize, column: usize, what: &str) -> Stop {

@@ -7,7 +7,7 @@
 use super::file::digest;
 use super::tolerances::TOLERANCES;
 use crate::robot::{Cell, Joint, JointKind, Library, Limits, ModuleType, Servo, Strut};
-use crate::units::{Dimension, number, quantity};
+use crate::units::{Dimension, counted, number, quantity};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -73,9 +73,8 @@ pub fn name(library: &Library, declared: Declared) -> &str {
 fn of_module(module: &ModuleType) -> String {
     let mass: f64 = module.links.iter().map(|link| link.mass).sum();
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
-    let links = module.links.len();
     let mut words = vec![
-        format!("{} in {links} link{}", quantity(mass, Dimension::MASS), if links == 1 { "" } else { "s" }),
+        format!("{} in {}", quantity(mass, Dimension::MASS), counted(module.links.len(), "link")),
         format!("touch {}", metres(module.touch)),
         format!("contact {}", metres(module.contact)),
     ];

@@ -5,7 +5,7 @@
 
 #![allow(non_snake_case)]
 
-use super::world::World;
+use super::world::{World, is_level};
 use crate::geometry::{HeightField, Pose, Vec3};
 use nalgebra::UnitQuaternion;
 
@@ -15,12 +15,17 @@ pub const SLOPE_RISE_MAX: f64 = std::f64::consts::SQRT_2;
 impl World {
     /// Returns true if the ground is not level.
     pub fn is_sloped(&self) -> bool {
-        self.slope != [0.0, 0.0]
+        !is_level(&self.slope)
     }
 
     /// Returns the tangent of the angle by which the ground slopes; 0 where it is level.
     pub fn rise(&self) -> f64 {
         libm::hypot(self.slope[0], self.slope[1])
+    }
+
+    /// Returns the angle by which the ground slopes, rad; 0 where it is level.
+    pub fn slope_angle(&self) -> f64 {
+        libm::atan(self.rise())
     }
 
     /// Returns `X_WG`, the pose of the frame of the ground in the world; the identity where the ground is level.

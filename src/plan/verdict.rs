@@ -1,8 +1,7 @@
 //! The verdict of the judge: every check with its status, worst values, and failures with their causes.
 
 use super::cause::CauseId;
-use crate::units::number;
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, number, quantity, rounded};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -218,6 +217,12 @@ pub struct Failure {
 }
 
 impl Failure {
+    /// Returns true for the failure of a robot that slides down a slope: one of traction that begins at its time. That of
+    /// a travel which friction does not determine lasts as long as the plan.
+    pub fn is_slide(&self) -> bool {
+        self.kind == CheckKind::Traction && self.until.is_none()
+    }
+
     /// Returns the failure of a plan that is not well formed, or whose judgement could not be completed, with `message`
     /// as the finding: at 0 s, without an end, subjects, amounts (0) or blame.
     pub fn form(message: String) -> Failure {
@@ -258,10 +263,7 @@ impl Dynamics {
         let ratio = if self.lower_bound > 0.0 { duration / self.lower_bound } else { 1.0 };
         let bound = quantity(self.lower_bound, Dimension::TIME);
         [
-            (
-                "lower bound",
-                format!("{bound}; this takes {} times that", number(libm::round(ratio * 1e4) / 1e4)),
-            ),
+            ("lower bound", format!("{bound}; this takes {} times that", rounded(ratio, 4))),
             ("peak force", quantity(self.peak_force, Dimension::FORCE)),
             ("peak speed", quantity(self.peak_speed, Dimension::SPEED)),
             ("peak energy", format!("{}J", number(self.peak_energy))),

@@ -104,13 +104,7 @@ impl World {
 
 impl Default for World {
     fn default() -> World {
-        World {
-            gravity: 9.80665,
-            ground: Ground::Settle,
-            friction: 1.0,
-            dynamics: DynamicsModel::Full,
-            slope: [0.0; 2],
-        }
+        World { gravity: 9.80665, ground: Ground::Settle, dynamics: DynamicsModel::Full, ..World::FREE }
     }
 }
 

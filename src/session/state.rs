@@ -387,7 +387,7 @@ impl Session {
         }
         let check: Vec<DefId> = elaborated(&checked).collect();
         // If no identity is preserved, everything is stale.
-        let all = || (0..checked.program.defs.len()).map(|index| DefId(index as u32)).collect();
+        let all = || checked.program.identified().map(|(id, _)| id).collect();
         let stale = stale(&self.checked, &checked).unwrap_or_else(all);
         let before = std::mem::replace(&mut self.files, files);
         let answer = self.run(&checked, Work::Reload { check, stale }, host);

@@ -63,9 +63,8 @@ pub fn simulate(plan: &Plan, settings: &Settings) -> Result<Simulation, Refusal>
         return Err(Refusal::Setting(setting));
     }
     if let Some(field) = &settings.terrain {
-        let floor = plan.worlds.first().is_some_and(|first| first.world.has_floor());
-        let sloped = plan.worlds.first().is_some_and(|first| first.world.is_sloped());
-        let fault = match (floor, sloped) {
+        let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
+        let fault = match (world.has_floor(), world.is_sloped()) {
             (false, _) => Some("the plan's world has no ground that could be uneven"),
             (true, true) => Some("the plan's world has a slope of its own"),
             (true, false) => field.fault(),

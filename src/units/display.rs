@@ -39,6 +39,17 @@ pub fn number(value: f64) -> String {
     trim_zeros(&format!("{value:.decimals$}")).to_string()
 }
 
+/// Returns a plain number as text with at most this many decimals, otherwise as [`number`] does.
+pub fn rounded(value: f64, decimals: usize) -> String {
+    let scale = (0..decimals).fold(1.0, |scale, _| scale * 10.0);
+    number(libm::round(value * scale) / scale)
+}
+
+/// Returns a number of things in words: `1 module`, `3 modules`; `what` is the singular.
+pub fn counted<N: From<u8> + PartialEq + std::fmt::Display>(n: N, what: &str) -> String {
+    format!("{n} {what}{}", if n == N::from(1) { "" } else { "s" })
+}
+
 /// Returns a value in SI units as text in a unit, given as (name, factor to SI), and with this many decimals. `None`
 /// for the unit: one that suits the value; `None` for the decimals: the digits of [`number`]. An infinite value is
 /// `infinite` or `-infinite`, without unit. `dimension`: that of the value.

@@ -124,7 +124,7 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
     facts.extend(made.bound.map(|bound| ("lower bound", format!("no folding is below {}", energy(bound)))));
     if let Some(verdict) = &plan.verdict {
         facts.push(("verdict", headline(plan, verdict)));
-        facts.push(("energy", format!("{}J", units::number(libm::round(verdict.energy * 1e3) / 1e3))));
+        facts.push(("energy", format!("{}J", units::rounded(verdict.energy, 3))));
         facts.push(("samples", verdict.samples.to_string()));
         facts.extend(verdict.dynamics.iter().flat_map(|d| d.in_words(plan.body.duration())));
     }
@@ -138,7 +138,7 @@ fn facts(plan: &Plan) -> Vec<(&'static str, String)> {
             Ground::Off => "no ground",
         };
         let slope = match world.is_sloped() {
-            true => format!(" of {}", quantity(libm::atan(world.rise()), Dimension::ANGLE)),
+            true => format!(" of {}", quantity(world.slope_angle(), Dimension::ANGLE)),
             false => String::new(),
         };
         let words = format!(

@@ -6,7 +6,7 @@ use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use crate::plan::verify::articulated::collision_point;
 use crate::plan::{Cause, CheckKind, Failure, Measure, Plan, Verdict, Worst, WorstKind, headline};
-use crate::units::{self, Dimension, quantity};
+use crate::units::{self, Dimension, counted, quantity};
 use serde_json::{Value, json};
 
 /// Returns the time in seconds at which playing ends: that of the first failure, but for one of the plan's form, or
@@ -122,7 +122,7 @@ pub(super) fn short_length(x: f64) -> f64 {
 pub(super) fn summary(input: &RenderInput, duration: f64) -> String {
     let plan = input.plan;
     let (count, what) = plan.body.units();
-    let mut parts = vec![format!("{count} {what}{}", if count == 1 { "" } else { "s" })];
+    let mut parts = vec![counted(count, what)];
     if duration > 0.0 {
         parts.push(quantity(libm::round(duration * 1e2) / 1e2, Dimension::TIME));
     }

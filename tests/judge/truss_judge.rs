@@ -22,13 +22,7 @@ const C: Place = [0.5, HIGH, 0.0];
 const TOP: Place = [0.5, HIGH / 3.0, 0.8];
 
 const FREE: World = World::FREE;
-const STANDING: World = World {
-    gravity: 9.80665,
-    ground: Ground::Settle,
-    friction: 1.0,
-    dynamics: modl::plan::DynamicsModel::Statics,
-    slope: [0.0; 2],
-};
+const STANDING: World = World { gravity: 9.80665, ground: Ground::Settle, ..World::FREE };
 
 pub fn keyframe(time: f64, interpolation: Interpolation, nodes: &[Place]) -> Keyframe {
     Keyframe { time, interpolation, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }

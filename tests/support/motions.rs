@@ -3,19 +3,12 @@
 
 use crate::support::robots;
 use modl::plan::{
-    Body, CauseId, DynamicsModel, Ground, Plan, Provenance, Segment, Settings, Track, Tracks, World,
-    WorldFrom,
+    Body, CauseId, Ground, Plan, Provenance, Segment, Settings, Track, Tracks, World, WorldFrom,
 };
 use modl::robot::{Assembly, JointId};
 
 /// Level ground on which every instant is judged at rest.
-pub const STATICS: World = World {
-    gravity: 9.80665,
-    ground: Ground::Settle,
-    friction: 1.0,
-    dynamics: DynamicsModel::Statics,
-    slope: [0.0; 2],
-};
+pub const STATICS: World = World { gravity: 9.80665, ground: Ground::Settle, ..World::FREE };
 
 /// Position of a joint id by module name and the joint's index in a SMORES module.
 pub fn joint(robot: &Assembly, module: &str, joint: usize) -> usize {

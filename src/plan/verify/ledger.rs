@@ -126,8 +126,7 @@ impl<'a> Ledger<'a> {
             let moot = match failure.kind {
                 CheckKind::Torque | CheckKind::BondLoad | CheckKind::Deflection => failure.time >= ended,
                 CheckKind::Balance => failure.time >= ended || tips,
-                // A travel is that of the whole plan; a slide down a slope begins at its time.
-                CheckKind::Traction => failure.until.is_some() || failure.time >= ended,
+                CheckKind::Traction => !failure.is_slide() || failure.time >= ended,
                 _ => false,
             };
             if moot {

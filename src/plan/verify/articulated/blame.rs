@@ -6,7 +6,6 @@
 
 use super::base_motion::penetrating_contact;
 use super::docking;
-use super::dynamics;
 use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
 use super::torque;
@@ -41,13 +40,13 @@ pub(super) struct Candidate {
 /// its joint is held still from its beginning on (a counterfactual rollout); at most [`BLAMED_MAX`] are named. If
 /// there is none, those that move at the time of the failure are, else the lines that set the robot up at the start.
 /// Rollouts are repeated for the first [`FAILURES_MAX`] failures only, and not for ranges, collisions, and loads
-/// under full dynamics; faults of the form and slides down a slope, to which the ground is to blame, get none. `checkpoints`: states of the rollout, in order of time, from
-/// which it is repeated.
+/// under full dynamics; faults of the form and slides down a slope, to which the ground is to blame, get none.
+/// `checkpoints`: states of the rollout, in order of time, from which it is repeated.
 pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mut [Failure]) {
     let mut sought = 0;
     for failure in failures.iter_mut().filter(|f| f.blame.is_empty() && !f.blames_start) {
         let suspects = suspects(rollout.tracks, failure.time);
-        if failure.kind == CheckKind::Form || dynamics::is_slide(failure) {
+        if failure.kind == CheckKind::Form || failure.is_slide() {
             continue;
         }
         // Loads in motion depend on all that moves.

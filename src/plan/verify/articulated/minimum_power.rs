@@ -41,6 +41,12 @@ impl PlanarPose {
     }
 }
 
+/// Returns a vector in level axes, whose heading is `yaw` (rad), in the axes of the ground.
+pub(super) fn along_ground(v: &Vec3, yaw: f64) -> Vec3 {
+    let (s, c) = libm::sincos(yaw);
+    Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
+}
+
 /// The greatest number of rounds of reweighted least squares.
 const ROUNDS_MAX: usize = 100;
 

@@ -93,8 +93,8 @@ pub(super) fn settle(features: &[Feature], tolerances: &Tolerances) -> SettledAt
 ///
 /// Seen from the ground, the weight acts as if it were that of a point as high as the centre of mass, straight above the
 /// place where the line of gravity meets the ground: the robot settles as on level ground with that point in the place of
-/// the centre of mass, which is found anew until nothing turns. A robot that rolls on
-/// after [`SLOPE_ROUNDS_MAX`] rounds, such as a ball, has no attitude of rest: it keeps its own, from which it falls.
+/// the centre of mass, which is found anew until nothing turns. A robot that rolls on after [`SLOPE_ROUNDS_MAX`] rounds,
+/// such as a ball, has no attitude of rest: it keeps its own, from which it falls.
 pub(super) fn settle_on_slope(
     features: &[Feature],
     lean: [f64; 2],

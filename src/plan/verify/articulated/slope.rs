@@ -6,7 +6,7 @@ use super::rollout::Sample;
 use super::tolerances::Tolerances;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, DynamicsModel, ExemptionKind, Ground, Status};
-use crate::units::{Dimension, number, quantity};
+use crate::units::{Dimension, quantity, rounded};
 
 /// The monitor of a robot on a slope during a rollout. It does nothing on level ground.
 pub(super) struct Monitor<'a> {
@@ -77,12 +77,11 @@ impl<'a> Monitor<'a> {
     /// Records the friction that the slope needs, and under statics (`full` is false) the status of the check of traction.
     pub(super) fn finish(&self, full: bool, ledger: &mut Ledger) {
         let Some(rise) = self.rise else { return };
-        let words = |x: f64| number(libm::round(x * 1e3) / 1e3);
         ledger.note(format!(
             "the ground slopes by {}: to stand needs a friction of {}, and the least of what bears the robot is {}",
             quantity(libm::atan(rise), Dimension::ANGLE),
-            words(rise),
-            words(self.least)
+            rounded(rise, 3),
+            rounded(self.least, 3)
         ));
         if full {
             return;

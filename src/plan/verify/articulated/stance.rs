@@ -2,7 +2,7 @@
 
 use super::alignment::{height_keeping_turn, mass_alignment};
 use super::contact::{self, ContactPatch, ContactPoint};
-use super::minimum_power::{PlanarPose, displacement};
+use super::minimum_power::{PlanarPose, along_ground, displacement};
 use super::model::{Model, Posture};
 use super::settle::{SettledAttitude, height, settle_on_slope};
 use super::tolerances::Tolerances;
@@ -283,20 +283,14 @@ impl Stance {
     /// Returns the position in the world, m, of a point that is given from the centre of mass in level axes, m.
     pub fn world_point(&self, p: &Vec3) -> Vec3 {
         let pose = self.planar_pose;
-        let point = self.along_ground(p) + Vec3::new(pose.x, pose.y, self.height);
+        let point = along_ground(p, pose.yaw) + Vec3::new(pose.x, pose.y, self.height);
         if self.world.is_sloped() { self.world.ground_pose().rotation * point } else { point }
     }
 
     /// Returns in the world's axes a vector that is given in level axes.
     pub fn world_vector(&self, v: &Vec3) -> Vec3 {
-        let turned = self.along_ground(v);
+        let turned = along_ground(v, self.planar_pose.yaw);
         if self.world.is_sloped() { self.world.ground_pose().rotation * turned } else { turned }
-    }
-
-    /// Returns in the axes of the ground a vector that is given in level axes.
-    fn along_ground(&self, v: &Vec3) -> Vec3 {
-        let (s, c) = libm::sincos(self.planar_pose.yaw);
-        Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
     }
 
     /// Finds contact points and patches anew; without a floor there are none.

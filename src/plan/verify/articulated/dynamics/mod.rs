@@ -9,8 +9,9 @@
 //! [`rollout_loads`] judges the loads in motion, as means over 50 ms, or over less beside motions that are shorter than
 //! 200 ms.
 //!
-//! Level axes are those of the stance's heading: z along the normal of the ground, and x and y turned about it from those of
-//! the ground by the heading. On a slope gravity leans in them, and friction bears a part of the weight ([`slide`]). A twist "at the centre of mass" has the velocity of the point of a link, extended as a rigid body, that
+//! Level axes are those of the stance's heading: z along the normal of the ground, and x and y turned about it from
+//! those of the ground by the heading. On a slope gravity leans in them, and friction bears a part of the weight
+//! ([`slide`]). A twist "at the centre of mass" has the velocity of the point of a link, extended as a rigid body, that
 //! coincides with the robot's centre of mass, which itself may move against the link.
 
 mod bursts;
@@ -30,5 +31,5 @@ mod twist;
 pub(super) use deflection::DeflectedMotion;
 pub(super) use recorder::Recorder;
 pub(super) use rollout_loads::RolloutLoads;
-pub(super) use slide::{failure as slide_failure, free_joint, is_slide};
+pub(super) use slide::{failure as slide_failure, free_joint};
 pub(super) use traction::{GroundStep, Traction, TravelSummary, soft_servos, travel_tolerance};

@@ -1,6 +1,7 @@
 //! The robot at an instant: poses in level axes about its centre of mass, joints in motion, and the points at which the
 //! ground may bear it.
 
+use super::super::minimum_power::along_ground;
 use super::super::model::Model;
 use super::super::rollout::Rollout;
 use super::loads::{self, Loop, Stop};
@@ -380,7 +381,5 @@ fn sum(wrenches: &[Wrench]) -> Wrench {
 /// Returns a twist turned about the normal of the ground by `yaw` (rad): given in level axes, it is returned in those of the
 /// ground.
 pub(super) fn turned(twist: &Twist, yaw: f64) -> Twist {
-    let (s, c) = libm::sincos(yaw);
-    let turn = |v: &Vec3| Vec3::new(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
-    Twist { linear: turn(&twist.linear), angular: turn(&twist.angular) }
+    Twist { linear: along_ground(&twist.linear, yaw), angular: along_ground(&twist.angular, yaw) }
 }

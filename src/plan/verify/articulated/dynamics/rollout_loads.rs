@@ -22,7 +22,7 @@ use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure, Ground, Status, World, Worst};
 use crate::robot::dynamics::{Dynamics, Twist};
 use crate::robot::{JointId, JointOwner};
-use crate::units::{Dimension, number, quantity};
+use crate::units::{Dimension, number, quantity, rounded};
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -292,8 +292,8 @@ impl<'a> RolloutLoads<'a> {
     }
 
     /// Judges torque, loads of bonds, balance and traction at all instants, and records the results and the work of
-    /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos yield under these loads that are softer than stated by
-    /// the factor `servo_softer`.
+    /// the motors. `free`: a joint on which the robot may roll down a slope. Returns the motion of the joints as servos
+    /// yield under these loads that are softer than stated by the factor `servo_softer`.
     pub(in super::super) fn judge(&self, free: Option<&str>, ledger: &mut Ledger) -> DeflectedMotion {
         let mut found = Findings::default();
         let mut window: VecDeque<(f64, usize, Loaded)> = VecDeque::new();
@@ -439,7 +439,7 @@ impl<'a> RolloutLoads<'a> {
                 "loads are known within some {} %: {} keeps {} of its limit at {}, and may reach it",
                 number(100.0 * PARAMETERS.load_error),
                 worst.at.join(", "),
-                number(libm::round(worst.value * 1e3) / 1e3),
+                rounded(worst.value, 3),
                 quantity(worst.time, Dimension::TIME)
             );
             ledger.note(note);
@@ -513,7 +513,7 @@ impl<'a> RolloutLoads<'a> {
                 at: vec![],
                 message: format!(
                     "no forces of the ground hold the robot in motion: {} of its weight is not balanced, so it tips",
-                    number(libm::round(worst * 1e3) / 1e3)
+                    rounded(worst, 3)
                 ),
                 value: worst,
                 limit: PARAMETERS.imbalance_max,

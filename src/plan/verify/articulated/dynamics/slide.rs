@@ -8,7 +8,7 @@ use crate::geometry::Vec3;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, ExemptionKind, Failure};
 use crate::robot::JointOwner;
-use crate::units::{Dimension, number, quantity};
+use crate::units::{Dimension, quantity, rounded};
 use std::collections::BTreeSet;
 
 /// An instant at which the weight of a robot pulls it down a slope with more force than friction holds.
@@ -27,9 +27,8 @@ impl Slide {
     /// hold its weight along the slope, or while no joint moves a loaded contact slides. `None` if it holds, or the ground is
     /// level.
     pub(super) fn of(time: f64, situation: &Situation, found: &Equilibrium) -> Option<Slide> {
-        let still = situation.posed.velocities.iter().all(|velocity| *velocity == 0.0);
-        let gives_way = found.slides || (still && !stands(situation, &found.loads.normal, &found.friction));
         let loads = &found.loads.normal;
+        let gives_way = found.slides || (is_still(situation) && !sticks(loads, &found.friction));
         let capacity: f64 = situation.candidates.iter().zip(loads).map(|(c, load)| c.friction * load).sum();
         let pressed: f64 = loads.iter().sum();
         let force = situation.base.force;
@@ -60,7 +59,6 @@ impl Slide {
 /// Returns the failure of a robot that slides down a slope from a time on (s): it needs a coefficient of friction, and has
 /// another.
 pub(in super::super) fn failure(time: f64, needed: f64, friction: f64) -> Failure {
-    let words = |x: f64| number(libm::round(x * 1e3) / 1e3);
     Failure {
         kind: CheckKind::Traction,
         time,
@@ -69,8 +67,8 @@ pub(in super::super) fn failure(time: f64, needed: f64, friction: f64) -> Failur
         message: format!(
             "the robot slides down the slope at {}: its weight needs a friction of {}, and has {}",
             quantity(time, Dimension::TIME),
-            words(needed),
-            words(friction)
+            rounded(needed, 3),
+            rounded(friction, 3)
         ),
         value: needed,
         limit: friction,
@@ -79,21 +77,24 @@ pub(in super::super) fn failure(time: f64, needed: f64, friction: f64) -> Failur
     }
 }
 
-/// Returns true for the failure of a robot that slides down a slope.
-pub(in super::super) fn is_slide(failure: &Failure) -> bool {
-    // That of a travel lasts as long as the plan.
-    failure.kind == CheckKind::Traction && failure.until.is_none()
-}
-
 /// Returns true for a robot on a slope whose joints do not move and whose loaded contacts do not slide: it stands, however
 /// the friction of the model creeps. `loads`: the normal force at each candidate, N; `friction`: slip (m/s) and friction
 /// (N) at each.
 pub(super) fn stands(situation: &Situation, loads: &[f64], friction: &[(Vec3, Vec3)]) -> bool {
-    let sticks =
-        |((slip, _), load): (&(Vec3, Vec3), &f64)| *load <= 0.0 || slip.norm() <= PARAMETERS.sliding_speed;
-    situation.sloped
-        && situation.posed.velocities.iter().all(|velocity| *velocity == 0.0)
-        && friction.iter().zip(loads).all(sticks)
+    situation.sloped && is_still(situation) && sticks(loads, friction)
+}
+
+/// Returns true if no joint moves.
+fn is_still(situation: &Situation) -> bool {
+    situation.posed.velocities.iter().all(|velocity| *velocity == 0.0)
+}
+
+/// Returns true if no loaded contact slides; the arguments are those of [`stands`].
+fn sticks(loads: &[f64], friction: &[(Vec3, Vec3)]) -> bool {
+    friction
+        .iter()
+        .zip(loads)
+        .all(|((slip, _), load)| *load <= 0.0 || slip.norm() <= PARAMETERS.sliding_speed)
 }
 
 /// Returns the name of a joint without a motor beyond which one of some links, by their numbers, lies: on a slope it may let
