@@ -7,7 +7,7 @@ use super::robot::Robot;
 use super::value::Value;
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::articulated::{Detail, Instant, base_at};
+use crate::plan::verify::articulated::{ClusterPaths, Detail, Instant, base_at};
 use crate::plan::{Ground, Plan, Verdict, World};
 use crate::robot::State;
 use std::any::Any;
@@ -108,6 +108,10 @@ impl StateValue {
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
+        if let Some(paths) = ClusterPaths::of(&self.planned.plan, self.time) {
+            paths.place(self.time, &mut poses);
+            return poses;
+        }
         let base = self.body.assembly.base;
         self.body.kinematics.link_poses_from(base, &self.state.joints, &stood, &mut poses);
         poses

@@ -15,7 +15,7 @@ use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{
     ConditionValue, JointValue, Measure, MovingFrame, PortValue, SignalValue, Value,
 };
-use crate::plan::verify::articulated::{Detail, GroundForce, Instant};
+use crate::plan::verify::articulated::{ClusterPaths, Detail, GroundForce, Instant};
 use crate::plan::{Condition, Ground, Signal, Tracks, World};
 use crate::robot::{JointId, Kinematics};
 use crate::source::{Diagnostic, code};
@@ -187,11 +187,15 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             (leans, Dimension::ANGLE)
         }
         Measure::Sensed(Signal::Separation(a, b)) => {
+            let paths = ClusterPaths::of(&plan.plan, tracks.duration);
             let at = |time: &f64| {
                 let state = tracks.state(*time);
                 let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
                 let mut poses = vec![state.base; kinematics.link_count()];
-                kinematics.link_poses(&state.joints, &state.base, &mut poses);
+                match &paths {
+                    Some(paths) => paths.place(*time, &mut poses),
+                    None => kinematics.link_poses(&state.joints, &state.base, &mut poses),
+                }
                 let [a, b] = [a, b].map(|port| kinematics.port_pose(&tracks.robot, *port, &poses));
                 Some((a.translation.vector - b.translation.vector).norm())
             };

@@ -100,6 +100,8 @@ pub struct WorstKind {
     pub title: Option<&'static str>,
     /// The kind of quantity that the value is, which sets its unit.
     pub measure: Measure,
+    /// True if the greatest value is the worst, false if the least is.
+    pub greatest: bool,
     /// The function that returns the value in a verdict, `None` if the verdict has none.
     pub of: fn(&Verdict) -> &Option<Worst>,
     /// The function that returns the value in a verdict for writing, `None` if the verdict has none.
@@ -108,11 +110,12 @@ pub struct WorstKind {
 
 /// Makes a row of [`WORST_VALUES`] for a field of [`Verdict`].
 macro_rules! worst_value {
-    ($field:ident, $name:literal, $title:expr, $measure:ident) => {
+    ($field:ident, $name:literal, $title:expr, $measure:ident, $greatest:literal) => {
         WorstKind {
             name: $name,
             title: $title,
             measure: Measure::$measure,
+            greatest: $greatest,
             of: |verdict| &verdict.$field,
             of_mut: |verdict| &mut verdict.$field,
         }
@@ -122,15 +125,15 @@ macro_rules! worst_value {
 /// Every worst value of a verdict, in the order in which it is shown. All that prints, compares or rounds worst
 /// values goes through this table.
 pub const WORST_VALUES: [WorstKind; 9] = [
-    worst_value!(clearance, "clearance", Some("clearance"), Length),
-    worst_value!(margin, "margin", Some("margin of stability"), Length),
-    worst_value!(torque_margin, "torque margin", Some("torque margin"), Fraction),
-    worst_value!(bond_margin, "bond margin", Some("bond margin"), Fraction),
-    worst_value!(speed_margin, "speed margin", Some("speed margin"), Fraction),
-    worst_value!(impact, "impact", None, Speed),
-    worst_value!(angle, "angle", Some("angle"), Angle),
-    worst_value!(rigidity, "rigidity", Some("rigidity"), Number),
-    worst_value!(slip, "slip", None, Length),
+    worst_value!(clearance, "clearance", Some("clearance"), Length, false),
+    worst_value!(margin, "margin", Some("margin of stability"), Length, false),
+    worst_value!(torque_margin, "torque margin", Some("torque margin"), Fraction, false),
+    worst_value!(bond_margin, "bond margin", Some("bond margin"), Fraction, false),
+    worst_value!(speed_margin, "speed margin", Some("speed margin"), Fraction, false),
+    worst_value!(impact, "impact", None, Speed, true),
+    worst_value!(angle, "angle", Some("angle"), Angle, false),
+    worst_value!(rigidity, "rigidity", Some("rigidity"), Number, false),
+    worst_value!(slip, "slip", None, Length, true),
 ];
 
 /// The outcome of a check, and how strong the evidence for it is.

@@ -112,6 +112,20 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
+    /// Returns the name of the link of this number among those of all modules, as in `leg[2].m[0].body`; no text if there
+    /// is no such link.
+    pub fn link_name(&self, link: usize) -> String {
+        let mut rest = link;
+        for (module, instance) in self.modules.iter().enumerate() {
+            let links = &self.module_type(module).links;
+            if rest < links.len() {
+                return format!("{}.{}", instance.name, links[rest].name);
+            }
+            rest -= links.len();
+        }
+        String::new()
+    }
+
     /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is
     /// passive or follows others and a bond without a hinge. Panics if there is no such module, joint or bond.
     pub fn effort_limit(&self, owner: JointOwner) -> Option<f64> {

@@ -7,7 +7,7 @@ use super::primitives::along;
 use super::{findings, surroundings};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::articulated::base_at;
+use crate::plan::verify::articulated::{ClusterPaths, base_at};
 use crate::plan::{Body, CellBox, NodePaths, Stages, Tracks};
 use crate::robot::{Kinematics, Library};
 
@@ -63,6 +63,10 @@ pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec
     let state = tracks.state(time);
     let kinematics = Kinematics::new(&tracks.robot, &state.bonds, tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    if let Some(paths) = ClusterPaths::of(input.plan, time) {
+        paths.place(time, &mut poses);
+        return poses;
+    }
     let base = base_at(input.plan, time).unwrap_or(state.base);
     kinematics.link_poses(&state.joints, &base, &mut poses);
     poses

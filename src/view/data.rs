@@ -5,7 +5,7 @@ use super::number::number;
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
 use crate::geometry::Pose;
-use crate::plan::verify::articulated::{CONTACTS_MAX, Moment, clearances, history};
+use crate::plan::verify::articulated::{CONTACTS_MAX, ClusterPaths, Moment, clearances, history};
 use crate::plan::{Body, Ground, ObjectiveValue, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
@@ -63,7 +63,8 @@ fn motion(input: &RenderInput, moments: &[Moment], end: f64, notes: &mut Vec<Str
     let body = match &plan.body {
         Body::Tracks(tracks) => {
             let base = ground_pose::base(moments, &tracks.start.base);
-            robot::body(tracks, base, &mut meshes, notes)
+            let paths = ClusterPaths::of(plan, end).map_or(vec![], |paths| paths.clusters);
+            robot::body(tracks, (base, &paths), &mut meshes, notes)
         }
         Body::Stages(stages) => lattice::body(stages, &plan.library),
         Body::NodePaths(paths) => truss::body(paths, &plan.library, &mut meshes),

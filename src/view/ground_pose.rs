@@ -22,44 +22,46 @@ const SUPPORTS_MAX: usize = 500;
 /// Returns base poses (`X_WB`) as `[time, x, y, z, qx, qy, qz, qw]`, in seconds and metres, in order of time; poses
 /// between them are linear in these numbers. Alone stands the start pose if the plan has no rollout.
 pub(super) fn base(moments: &[Moment], start: &Pose) -> Value {
-    let key = |time: f64, pose: &Pose| {
-        let (p, q) = (pose.translation.vector, pose.rotation);
-        list([time, p.x, p.y, p.z, q.i, q.j, q.k, q.w])
-    };
-    if moments.is_empty() {
-        return json!([key(0.0, start)]);
-    }
-    let kept = kept(moments);
-    Value::Array(kept.into_iter().map(|i| key(moments[i].time, &moments[i].base)).collect())
+    let poses: Vec<(f64, Pose)> = moments.iter().map(|moment| (moment.time, moment.base)).collect();
+    if poses.is_empty() { path(&[(0.0, *start)]) } else { path(&poses) }
 }
 
-/// Returns the indices of the moments between which linear interpolation is within tolerance, the first and the last
+/// Returns poses at times (s) in the form of [`base`].
+pub(super) fn path(poses: &[(f64, Pose)]) -> Value {
+    let key = |(time, pose): &(f64, Pose)| {
+        let (p, q) = (pose.translation.vector, pose.rotation);
+        list([*time, p.x, p.y, p.z, q.i, q.j, q.k, q.w])
+    };
+    Value::Array(kept(poses).into_iter().map(|i| key(&poses[i])).collect())
+}
+
+/// Returns the indices of the poses between which linear interpolation is within tolerance, the first and the last
 /// among them.
-fn kept(moments: &[Moment]) -> Vec<usize> {
+fn kept(poses: &[(f64, Pose)]) -> Vec<usize> {
     let mut kept = vec![0];
     let mut from = 0;
-    for to in 1..moments.len() {
-        let straight = to - from <= RUN_MAX && (from + 1..to).all(|i| between(moments, from, to, i));
+    for to in 1..poses.len() {
+        let straight = to - from <= RUN_MAX && (from + 1..to).all(|i| between(poses, from, to, i));
         if !straight {
             from = to - 1;
             kept.push(from);
         }
     }
-    if moments.len() > 1 {
-        kept.push(moments.len() - 1);
+    if poses.len() > 1 {
+        kept.push(poses.len() - 1);
     }
     kept
 }
 
-/// Returns true if moment `i` is within tolerance of the line between two others.
-fn between(moments: &[Moment], from: usize, to: usize, i: usize) -> bool {
+/// Returns true if pose `i` is within tolerance of the line between two others.
+fn between(poses: &[(f64, Pose)], from: usize, to: usize, i: usize) -> bool {
     let numbers = |at: usize| {
-        let (p, q) = (moments[at].base.translation.vector, moments[at].base.rotation);
+        let (p, q) = (poses[at].1.translation.vector, poses[at].1.rotation);
         [p.x, p.y, p.z, q.i, q.j, q.k, q.w]
     };
     let (a, b, c) = (numbers(from), numbers(to), numbers(i));
-    let whole = moments[to].time - moments[from].time;
-    let part = if whole > 0.0 { (moments[i].time - moments[from].time) / whole } else { 0.0 };
+    let whole = poses[to].0 - poses[from].0;
+    let part = if whole > 0.0 { (poses[i].0 - poses[from].0) / whole } else { 0.0 };
     let sign = if (3..7).map(|k| a[k] * b[k]).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     let near = |k: usize| {
         let end = if k < 3 { b[k] } else { sign * b[k] };

@@ -1,8 +1,10 @@
 //! The data of an articulated robot in a page: its modules, the steps of its kinematics, its tracks.
 
+use super::ground_pose;
 use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
 use crate::geometry::Pose;
+use crate::plan::verify::articulated::ClusterPath;
 use crate::plan::{DockingKind, LastingTrees, Segment, Track, Tracks, polynomial};
 use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
 use crate::robot::{Motion, Step};
@@ -16,13 +18,19 @@ pub(super) const SEGMENTS_MAX: usize = 60_000;
 const POSITIONS_MIN: usize = 16;
 
 /// Returns the robot and its motion as JSON, with lengths in metres, angles in radians and times in seconds; `base` are
-/// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them. Adds the meshes of links to `meshes`,
+/// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them, and `clusters` the paths of the parts of
+/// a robot that comes apart, none of one that does not. Adds the meshes of links to `meshes`,
 /// and to `notes` a sentence for each thing left out.
-pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mut Vec<String>) -> Value {
+pub(super) fn body(
+    tracks: &Tracks,
+    (base, clusters): (Value, &[ClusterPath]),
+    meshes: &mut Meshes,
+    notes: &mut Vec<String>,
+) -> Value {
     let robot = &tracks.robot;
     let mut forms = Forms::default();
-    let trees = trees(tracks, &mut forms);
-    json!({
+    let trees = trees(tracks, clusters, &mut forms);
+    let mut body = json!({
         "form": "tracks",
         "kinds": robot.library.modules.iter().map(|kind| module_type(kind, meshes)).collect::<Vec<_>>(),
         "modules": robot.modules.iter().map(|m| json!([m.name, m.kind])).collect::<Vec<_>>(),
@@ -34,7 +42,11 @@ pub(super) fn body(tracks: &Tracks, base: Value, meshes: &mut Meshes, notes: &mu
         "tracks": joint_tracks(tracks, notes),
         "docks": docks(tracks),
         "base": base,
-    })
+    });
+    if !clusters.is_empty() {
+        body["paths"] = clusters.iter().map(|cluster| ground_pose::path(cluster.poses())).collect();
+    }
+    body
 }
 
 /// Returns a module type: its links with their shapes, and its joints.
@@ -94,7 +106,7 @@ impl Forms {
 }
 
 /// Returns the kinematic trees, one for each instant at which bonds change.
-fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
+fn trees(tracks: &Tracks, clusters: &[ClusterPath], forms: &mut Forms) -> Vec<Value> {
     let mut times = vec![0.0];
     times.extend(tracks.events.iter().map(|dock| dock.time));
     times.dedup();
@@ -105,7 +117,11 @@ fn trees(tracks: &Tracks, forms: &mut Forms) -> Vec<Value> {
             bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
         if trees.last().is_none_or(|(before, _)| *before != bonds) {
-            let made = tree(&tracks.robot, &bonds, time, forms);
+            let mut made = tree(&tracks.robot, &bonds, time, forms);
+            let parts = parts(tracks, &bonds, time, clusters, forms);
+            if !parts.is_empty() {
+                made["parts"] = parts.into();
+            }
             trees.push((bonds, made));
         }
     }
@@ -118,6 +134,28 @@ fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value
     let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
     let loose = !kinematics.tree.loose.is_empty();
     json!({ "time": number(time), "root": kinematics.link(robot.base, 0), "steps": steps, "loose": loose })
+}
+
+/// Returns the trees of the parts that have come off the base by a time (s), as `{root, steps, path}`; `path` is the
+/// part's number in `clusters`.
+fn parts(
+    tracks: &Tracks,
+    bonds: &[bool],
+    time: f64,
+    clusters: &[ClusterPath],
+    forms: &mut Forms,
+) -> Vec<Value> {
+    let robot = &tracks.robot;
+    let off = |cluster: &ClusterPath| {
+        cluster.exists(time, tracks.duration) && !cluster.modules.contains(&robot.base)
+    };
+    let mut found = Vec::new();
+    for (path, cluster) in clusters.iter().enumerate().filter(|(_, cluster)| off(cluster)) {
+        let kinematics = Kinematics::new(robot, bonds, cluster.base);
+        let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
+        found.push(json!({ "root": kinematics.link(cluster.base, 0), "steps": steps, "path": path }));
+    }
+    found
 }
 
 /// The trees of what hangs together during a whole simulation, with the transforms of their steps.

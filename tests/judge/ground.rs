@@ -49,6 +49,8 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         settings: &settings,
         tolerances: &tolerances,
         held: None,
+        begin: None,
+        end: motion.tracks.duration,
     };
     let mut seen = Seen::default();
     let mut first: Option<(modl::geometry::Pose, Vec3)> = None;

@@ -4,6 +4,7 @@ pub mod collision;
 pub mod ground;
 pub mod lattice_judge;
 pub mod oracle;
+pub mod parting;
 pub mod slopes;
 pub mod truss_judge;
 pub mod verify;

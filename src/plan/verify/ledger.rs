@@ -4,6 +4,7 @@ use crate::plan::tolerances::TOLERANCES;
 use crate::plan::verdict::WORST_VALUES;
 use crate::plan::{Check, CheckKind, Exemption, ExemptionKind, Failure, Status, Verdict, Worst};
 use crate::units::{Dimension, quantity};
+use std::collections::BTreeMap;
 
 /// The greatest number of failures that are reported one by one; further ones are counted.
 const FAILURES_MAX: usize = 100;
@@ -110,17 +111,62 @@ impl<'a> Ledger<'a> {
         self.verdict.checks.push(Check { kind, status });
     }
 
+    /// Sets the status of a check that was made before to failed.
+    pub(super) fn fails(&mut self, kind: CheckKind) {
+        let made = self.verdict.checks.iter_mut().filter(|check| check.kind == kind);
+        made.for_each(|check| check.status = Status::Failed);
+    }
+
+    /// Adds the records of parts of the robot that were judged by themselves, with the exemptions of the same plan: all
+    /// their failures, notes and events, the worst of their worst values, the sums of their samples and energy, and for
+    /// each check the weakest status. Travel and heading stay as they are.
+    pub(super) fn merge(&mut self, parts: Vec<Ledger>) {
+        let mut checks: BTreeMap<CheckKind, Status> = BTreeMap::new();
+        for part in parts {
+            let verdict = part.verdict;
+            for kind in WORST_VALUES {
+                let own = (kind.of_mut)(&mut self.verdict);
+                let Some(theirs) = (kind.of)(&verdict) else { continue };
+                let worse = |a: f64, b: f64| if kind.greatest { a > b } else { a < b };
+                if own.as_ref().is_none_or(|own| worse(theirs.value, own.value)) {
+                    *own = Some(theirs.clone());
+                }
+            }
+            for check in verdict.checks {
+                let status = match checks.remove(&check.kind) {
+                    Some(known) => weaker(known, check.status),
+                    None => check.status,
+                };
+                checks.insert(check.kind, status);
+            }
+            verdict.failures.into_iter().for_each(|failure| self.fail(failure));
+            verdict.notes.into_iter().for_each(|note| self.note(note));
+            part.excused.into_iter().for_each(|kind| self.note_excuse(kind));
+            self.used.iter_mut().zip(part.used).for_each(|(used, also)| *used |= also);
+            self.unreported += part.unreported;
+            let sum = &mut self.verdict;
+            sum.samples += verdict.samples;
+            sum.energy += verdict.energy;
+            sum.events.extend(verdict.events);
+        }
+        self.verdict.checks.extend(checks.into_iter().map(|(kind, status)| Check { kind, status }));
+    }
+
+    /// Returns the time (s) from which the robot no longer moves as planned, with the check that fails there; `None` if it
+    /// does to the end.
+    pub(super) fn ended(&self) -> Option<(f64, CheckKind)> {
+        let endings = self.verdict.failures.iter().filter(|failure| ENDINGS.contains(&failure.kind));
+        let first = endings.min_by(|a, b| a.time.total_cmp(&b.time));
+        first.map(|failure| (failure.time, failure.kind))
+    }
+
     /// Drops failures of loads and travel that follow from others: those of a robot that before has collided, tipped
     /// over, fallen apart, missed a docking, torn a loop open or gone into the ground. The statuses of their checks
     /// then say from when on they were not checked.
     pub(super) fn drop_consequences(&mut self) {
+        let Some((ended, cause)) = self.ended() else { return };
         let failures = &mut self.verdict.failures;
-        let first = |kinds: &[CheckKind], failures: &[Failure]| {
-            let of = failures.iter().filter(|failure| kinds.contains(&failure.kind));
-            of.min_by(|a, b| a.time.total_cmp(&b.time)).map(|failure| (failure.time, failure.kind))
-        };
-        let Some((ended, cause)) = first(&ENDINGS, failures) else { return };
-        let tips = first(&[CheckKind::Stability], failures).is_some();
+        let tips = failures.iter().any(|failure| failure.kind == CheckKind::Stability);
         let mut dropped = Vec::new();
         failures.retain(|failure| {
             let moot = match failure.kind {
@@ -174,6 +220,24 @@ impl<'a> Ledger<'a> {
             self.note(format!("{} more failures are not listed", self.unreported));
         }
         self.verdict
+    }
+}
+
+/// Returns the weaker of two statuses of one check, of two parts of a robot; the samples of both, if both have some.
+fn weaker(a: Status, b: Status) -> Status {
+    let strength = |status: &Status| match status {
+        Status::Failed => 0,
+        Status::Exempt => 1,
+        Status::NotChecked(_) => 2,
+        Status::Sampled(_) => 3,
+        Status::WithinTolerance => 4,
+        Status::Proved => 5,
+        Status::NoLimit => 6,
+    };
+    match (a, b) {
+        (Status::Sampled(a), Status::Sampled(b)) => Status::Sampled(a + b),
+        (a, b) if strength(&b) < strength(&a) => b,
+        (a, _) => a,
     }
 }
 

@@ -83,11 +83,11 @@ function robotMotion(plan, body) {
     return state.q;
   }
 
-  /** Base position and rotation, from the judge's walk. */
-  function baseAt(t) {
-    const at = lastNotAbove(baseTimes, t);
-    const a = body.base[Math.max(at, 0)];
-    const b = body.base[Math.min(at + 1, body.base.length - 1)];
+  /** Position and rotation on a path, from the judge's walk. */
+  function baseAt(t, keys = body.base, times = baseTimes) {
+    const at = lastNotAbove(times, t);
+    const a = keys[Math.max(at, 0)];
+    const b = keys[Math.min(at + 1, keys.length - 1)];
     const u = b[0] > a[0] ? clamp((t - a[0]) / (b[0] - a[0]), 0, 1) : 0;
     const sign = a[4] * b[4] + a[5] * b[5] + a[6] * b[6] + a[7] * b[7] < 0 ? -1 : 1;
     const q = [4, 5, 6, 7].map(i => mix(a[i], sign * b[i], u));
@@ -116,12 +116,15 @@ function robotMotion(plan, body) {
     }
   }
 
-  /** Modules that fell off stay where they were when they did. */
+  const pathTimes = (body.paths || []).map(keys => keys.map(key => key[0]));
+
+  /** Parts that have come off follow their own paths; modules of which no path is known stay where they were. */
   function poses(t) {
     const at = Math.max(lastNotAbove(treeTimes, t), 0);
     for (let i = 0; i < at; i++)
       if (body.trees[i + 1].loose) walk(body.trees[i], jointsAt(treeTimes[i + 1]), baseAt(treeTimes[i + 1]));
     walk(body.trees[at], jointsAt(t), baseAt(t));
+    for (const part of body.trees[at].parts || []) walk(part, jointsAt(t), baseAt(t, body.paths[part.path], pathTimes[part.path]));
   }
 
   return {

@@ -65,10 +65,13 @@ pub(super) fn blame(rollout: &Rollout, checkpoints: &[Checkpoint], failures: &mu
                 }
             }
         }
-        if failure.blame.is_empty() && failure.time > 0.0 {
+        if failure.blame.is_empty() && failure.time > rollout.from() {
             // No one alone: those who move then do it together.
             let moving = suspects.iter().filter(|s| s.moving).map(|s| s.cause);
             failure.blame = distinct(moving);
+        }
+        if let Some(entry) = rollout.begin.filter(|_| failure.blame.is_empty()) {
+            failure.blame = distinct(entry.causes.iter().copied());
         }
         if failure.blame.is_empty() {
             failure.blames_start = true;
@@ -98,11 +101,12 @@ pub(super) fn suspects(tracks: &Tracks, t: f64) -> Vec<Candidate> {
 
 /// Returns true if the failure is gone when the candidate's joint is held from the start of its segment on.
 fn removes(rollout: &Rollout, checkpoints: &[Checkpoint], suspect: &Candidate, failure: &Failure) -> bool {
-    let held = Rollout { held: Some((suspect.joint, suspect.start)), ..*rollout };
+    // Motion from before the robot came off another stays as it was.
+    let held = Rollout { held: Some((suspect.joint, suspect.start.max(rollout.from()))), ..*rollout };
     let from = checkpoints.iter().rev().find(|w| w.time <= suspect.start);
     let until = rollout.tracks.duration.min(failure.time + rollout.settings.sample);
     let mut standing = stability::Monitor::new(rollout.settings, rollout.tolerances);
-    let mut ledger = Ledger::new(rollout.exemptions, rollout.tracks.duration);
+    let mut ledger = Ledger::new(rollout.exemptions, rollout.end);
     let mut failed = false;
     roll_out(held, from, rollout.tracks.duration, &mut |sample, _| {
         if sample.time > until {

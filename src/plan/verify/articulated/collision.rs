@@ -76,7 +76,7 @@ pub fn judge(
     exemptions: &[Exemption],
     precision: &Precision,
 ) -> Result<Findings, UnsoundLink> {
-    Ok(planned(tracks, &Bodies::of_plan(tracks)?, settings, exemptions, precision))
+    Ok(planned(tracks, &Bodies::of_plan(tracks)?, settings, exemptions, (precision, Span::of(tracks))))
 }
 
 /// Returns the collisions and the clearance as [`judge`] does, with the robot's bodies already compiled. `tracks`
@@ -86,9 +86,9 @@ pub(super) fn planned(
     bodies: &Bodies,
     settings: &Settings,
     exemptions: &[Exemption],
-    precision: &Precision,
+    (precision, span): (&Precision, Span),
 ) -> Findings {
-    search(tracks, exemptions, Advancement::new(tracks, bodies, *precision, settings.samples_max))
+    search(tracks, exemptions, span, Advancement::new(tracks, bodies, *precision, settings.samples_max))
 }
 
 /// Returns the collisions, without a clearance, of a robot whose joints follow `along` instead of the plan, at the
@@ -99,19 +99,19 @@ pub(super) fn deflected(
     bodies: &Bodies,
     settings: &Settings,
     exemptions: &[Exemption],
-    along: Polyline,
+    (along, span): (Polyline, Span),
 ) -> Findings {
-    search(tracks, exemptions, Advancement::deflected(tracks, bodies, along, settings.samples_max))
+    search(tracks, exemptions, span, Advancement::deflected(tracks, bodies, along, settings.samples_max))
 }
 
-fn search(tracks: &Tracks, exemptions: &[Exemption], mut advancement: Advancement) -> Findings {
+fn search(tracks: &Tracks, exemptions: &[Exemption], span: Span, mut advancement: Advancement) -> Findings {
     let mut bonds = tracks.start.bonds.clone();
     let mut docks = tracks.events.iter().peekable();
-    for window in windows(tracks, exemptions) {
+    for window in windows(tracks, exemptions, span) {
         while let Some(dock) = docks.next_if(|dock| dock.time <= window.0) {
             bonds[dock.bond] = dock.kind == DockingKind::Dock;
         }
-        let excused = excused(tracks, exemptions, window);
+        let excused = excused(exemptions, span, window);
         advancement.window(&bonds, window, &excused);
     }
     advancement.findings(exemptions)
@@ -181,26 +181,44 @@ fn reason(robot: &Assembly, bond: usize) -> String {
     )
 }
 
-/// Returns the plan cut where bonds change and where exemptions begin or end, and the instant of its end,
+/// The interval of time over which a robot is judged, in s from the start of the plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// The time from which the robot is judged.
+    pub from: f64,
+    /// The time up to which the robot is judged.
+    pub to: f64,
+    /// The end of the plan, which is never excused.
+    pub end: f64,
+}
+
+impl Span {
+    /// Returns the whole plan of a body.
+    fn of(tracks: &Tracks) -> Span {
+        Span { from: 0.0, to: tracks.duration, end: tracks.duration }
+    }
+}
+
+/// Returns the interval cut where bonds change and where exemptions begin or end, and the instant of the plan's end,
 /// which is never excused and in which the last docks hold.
-fn windows(tracks: &Tracks, exemptions: &[Exemption]) -> Vec<(f64, f64)> {
+fn windows(tracks: &Tracks, exemptions: &[Exemption], span: Span) -> Vec<(f64, f64)> {
     let docks = tracks.events.iter().map(|d| d.time);
     let excused = exemptions.iter().filter(|e| matches!(e.kind, ExemptionKind::Collision(_)));
     let mut cuts: Vec<f64> = docks
         .chain(excused.flat_map(|e| [e.from, e.to]))
-        .filter(|t| *t > 0.0 && *t < tracks.duration)
-        .chain([0.0, tracks.duration])
+        .filter(|t| *t > span.from && *t < span.to)
+        .chain([span.from, span.to])
         .collect();
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
     let mut windows: Vec<(f64, f64)> = cuts.windows(2).map(|w| (w[0], w[1])).collect();
-    windows.push((tracks.duration, tracks.duration));
+    windows.push((span.to, span.to));
     windows
 }
 
 /// Returns the exemptions that hold all through a window.
-fn excused(tracks: &Tracks, exemptions: &[Exemption], window: (f64, f64)) -> Vec<Excuse> {
-    let end = window.0 == window.1 && window.0 == tracks.duration;
+fn excused(exemptions: &[Exemption], span: Span, window: (f64, f64)) -> Vec<Excuse> {
+    let end = window.0 == window.1 && window.0 == span.end;
     let holding = exemptions.iter().enumerate().filter(|(_, e)| e.from <= window.0 && window.1 <= e.to);
     let of = |(index, e): (usize, &Exemption)| match e.kind {
         ExemptionKind::Collision(modules) if !end => Some(Excuse { index, modules }),

@@ -2,7 +2,7 @@
 
 use super::blame::{self, BLAMED_MAX};
 use super::bodies::{Bodies, UnsoundLink};
-use super::collision::{self, Collision, Findings};
+use super::collision::{self, Collision, Findings, Span};
 use super::docking;
 use super::dynamics::{self, DeflectedMotion};
 use super::polyline::Polyline;
@@ -27,8 +27,19 @@ pub(super) struct PlannedCollisions {
 pub(super) fn find(rollout: &Rollout) -> Result<PlannedCollisions, UnsoundLink> {
     let bodies = Bodies::of_plan(rollout.tracks)?;
     let precision = &rollout.tolerances.collision;
-    let found = collision::planned(rollout.tracks, &bodies, rollout.settings, rollout.exemptions, precision);
+    let found = collision::planned(
+        rollout.tracks,
+        &bodies,
+        rollout.settings,
+        rollout.exemptions,
+        (precision, span(rollout)),
+    );
     Ok(PlannedCollisions { bodies, found })
+}
+
+/// Returns the interval of time of a rollout.
+fn span(rollout: &Rollout) -> Span {
+    Span { from: rollout.from(), to: rollout.tracks.duration, end: rollout.end }
 }
 
 /// Judges the collisions of the whole plan, those that [`find`] returned: records failures with the actions to blame,
@@ -90,7 +101,8 @@ fn judge_deflected(
 ) {
     let (tracks, DeflectedMotion { along, instants }) = (rollout.tracks, deflected);
     let tolerances = rollout.tolerances;
-    let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along.clone());
+    let along_span = (along.clone(), span(rollout));
+    let found = collision::deflected(tracks, bodies, rollout.settings, rollout.exemptions, along_span);
     for index in &found.used {
         ledger.use_exemption(*index, CheckKind::Deflection);
     }

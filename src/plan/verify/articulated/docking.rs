@@ -9,31 +9,46 @@ use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
 /// Judges every docking of the plan, that the ports are then within capture of each other, and that bonds connect all
-/// modules with the base from the start to the end; records failures and the status of both checks. Returns the
-/// indices in the assembly of the bonds whose ports missed, in order of time.
-pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
+/// modules with the base at the start; records failures and the status of both checks. Returns the
+/// indices in the assembly of the bonds whose ports missed, in order of time. `joins`: the first event that joins parts
+/// that have come apart, which is refused; what comes after it is not judged.
+pub(super) fn judge(rollout: &Rollout, joins: Option<&DockingEvent>, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
     let mut missed = Vec::new();
     let mut bonds = tracks.start.bonds.clone();
-    in_one_piece(tracks, &bonds, None, ledger);
-    let mut docks = tracks.events.iter().peekable();
-    while let Some(dock) = docks.next() {
+    in_one_piece(tracks, &bonds, ledger);
+    for dock in &tracks.events {
+        if joins == Some(dock) {
+            ledger.fail(joining(&tracks.robot, dock));
+            break;
+        }
         if dock.kind == DockingKind::Dock && !near_enough(rollout, &bonds, dock, ledger) {
             missed.push(dock.bond);
         }
         bonds[dock.bond] = dock.kind == DockingKind::Dock;
-        if docks.peek().is_none_or(|next| next.time > dock.time) {
-            in_one_piece(tracks, &bonds, Some(dock), ledger);
-        }
     }
     ledger.check(CheckKind::Docking, Status::Proved);
     ledger.check(CheckKind::Connectedness, Status::Proved);
     missed
 }
 
-/// Records a failure if the bonds that hold leave modules without connection to the base. `dock`: the event after which
-/// they hold; `None` for the start.
-fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&DockingEvent>, ledger: &mut Ledger) {
+/// Returns the failure of a docking that joins parts that have come apart.
+fn joining(robot: &Assembly, dock: &DockingEvent) -> Failure {
+    let name = robot.bond_name(dock.bond);
+    let message = format!(
+        "{name} joins parts that have come apart: how they then stand to each other is not judged yet"
+    );
+    Failure {
+        kind: CheckKind::Docking,
+        time: dock.time,
+        at: vec![name],
+        blame: vec![dock.cause],
+        ..Failure::form(message)
+    }
+}
+
+/// Records a failure if the bonds that hold at the start leave modules without connection to the base.
+fn in_one_piece(tracks: &Tracks, bonds: &[bool], ledger: &mut Ledger) {
     let robot = &tracks.robot;
     let tree = Kinematics::new(robot, bonds, robot.base).tree;
     if tree.loose.is_empty() {
@@ -43,14 +58,14 @@ fn in_one_piece(tracks: &Tracks, bonds: &[bool], dock: Option<&DockingEvent>, le
     let message = format!("{} of {} modules hang on nothing: {}", at.len(), robot.modules.len(), listed(&at));
     ledger.fail(Failure {
         kind: CheckKind::Connectedness,
-        time: dock.map_or(0.0, |d| d.time),
+        time: 0.0,
         until: None,
         value: at.len() as f64,
         at,
         message,
         limit: 0.0,
-        blame: dock.map(|d| d.cause).into_iter().collect(),
-        blames_start: dock.is_none(),
+        blame: vec![],
+        blames_start: true,
     });
 }
 
@@ -62,13 +77,16 @@ fn listed(names: &[String]) -> String {
     if names.len() > NAMES_SHOWN { format!("{shown}, ...") } else { shown }
 }
 
-/// Returns true if the ports of a dock are within capture, or have no connection with the base; records a failure
+/// Returns true if the ports of a dock are within capture, or have no connection with each other; records a failure
 /// otherwise. `bonds`: for each bond, true if it holds before.
 fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &mut Ledger) -> bool {
     let robot = &rollout.tracks.robot;
-    let kinematics = Kinematics::new(robot, bonds, robot.base);
     let Bond { a, b, .. } = robot.bonds[dock.bond];
-    // Links that nothing connects with the base have no pose: that is another failure.
+    let mut kinematics = Kinematics::new(robot, bonds, robot.base);
+    if kinematics.tree.loose.contains(&a.module) {
+        kinematics = Kinematics::new(robot, bonds, a.module);
+    }
+    // Links that nothing connects have no relative pose: that is another failure.
     if [a, b].iter().any(|port| kinematics.tree.loose.contains(&port.module)) {
         return true;
     }
@@ -110,7 +128,7 @@ impl<'a> Monitor<'a> {
             return;
         }
         self.samples += 1;
-        if !sample.moved && sample.time > 0.0 {
+        if !sample.moved && sample.time > sample.before {
             return;
         }
         for residual in residuals(sample) {

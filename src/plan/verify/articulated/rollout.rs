@@ -5,15 +5,15 @@
 
 use super::contact;
 use super::dynamics::{GroundStep, Traction, TravelSummary};
+use super::entry::Entry;
+use super::in_force::{bonds_at, excused, world_at};
 use super::model::{Model, Posture};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
-use crate::plan::{
-    DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings, Tracks, World, WorldFrom, is_full,
-};
+use crate::plan::{Exemption, Ground, Plan, Settings, Tracks, World, WorldFrom, is_full};
 use crate::robot::dynamics::Dynamics;
 use crate::units::{Dimension, quantity};
 
@@ -33,6 +33,10 @@ pub struct Rollout<'a> {
     /// A joint, by the number in its `JointId`, that is held from a time on (s), to find the command to blame; `None`:
     /// all joints move.
     pub held: Option<(usize, f64)>,
+    /// The beginning of a part that has come off another robot; `None`: the robot begins with the plan.
+    pub begin: Option<&'a Entry>,
+    /// The end of the whole plan, s: later than that of `tracks` for a robot that comes apart before.
+    pub end: f64,
 }
 
 impl<'a> Rollout<'a> {
@@ -45,7 +49,19 @@ impl<'a> Rollout<'a> {
             settings: &plan.settings,
             tolerances,
             held: None,
+            begin: None,
+            end: tracks.duration,
         }
+    }
+
+    /// Returns the time at which the robot begins, s.
+    pub(super) fn from(&self) -> f64 {
+        self.begin.map_or(0.0, |entry| entry.time)
+    }
+
+    /// Returns the robot in words, for messages.
+    pub(super) fn subject(&self) -> &'a str {
+        self.begin.map_or("the robot", |entry| &entry.name)
     }
 
     /// Returns true if the plan is judged under full dynamics: in one of its worlds, and then in all.
@@ -106,6 +122,8 @@ pub struct TipOver {
     pub edge: Vec<usize>,
     /// True if an exemption excuses it.
     pub excused: bool,
+    /// True if the robot falls onto the ground and not over an edge: it came off another above it.
+    pub in_air: bool,
 }
 
 /// The reason why [`roll_out`] ended, which need not be the end of the plan.
@@ -122,16 +140,6 @@ pub enum RolloutEnd {
     },
     /// The observer ended the rollout.
     Stopped,
-}
-
-/// The number of ground features for which a sample counts once: a sample of a robot with k times as many takes longer,
-/// and counts k times.
-const FEATURES_PER_SAMPLE: usize = 100;
-
-/// Returns the number of samples that the rollout of a robot may take: `samples_max` of the settings, divided by the
-/// number of full hundreds of its ground `features` ([`Model::features`]) if there are any.
-pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
-    settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }
 
 /// The greatest number of halvings of one step: times are then so close that nothing moves between them.
@@ -187,7 +195,7 @@ pub fn roll_out(
         return RolloutEnd::Stopped;
     }
     let first = stepper.now;
-    let instants = sampling::instants(rollout.tracks, rollout.worlds, rollout.exemptions);
+    let instants = sampling::instants(rollout.tracks, rollout.from(), rollout.worlds, rollout.exemptions);
     for &instant in instants.iter().filter(|t| **t > first) {
         interrupt::progress_checkpoint(|| {
             let [now, until] = [stepper.now, until].map(|t| quantity(t, Dimension::TIME));
@@ -210,7 +218,7 @@ pub fn roll_out(
 impl<'a> Stepper<'a> {
     fn new(rollout: Rollout<'a>, from: Option<&Checkpoint>) -> Stepper<'a> {
         let tracks = rollout.tracks;
-        let now = from.map_or(0.0, |w| w.time);
+        let now = from.map_or(rollout.from(), |w| w.time);
         let bonds = bonds_at(tracks, now);
         let model = Model::new(&tracks.robot, &bonds);
         let world = world_at(rollout.worlds, now);
@@ -221,8 +229,11 @@ impl<'a> Stepper<'a> {
         let stance = match from {
             Some(checkpoint) => checkpoint.stance.clone(),
             None => {
-                let placement = (&world, unsettled(&world));
-                Stance::start(&model, posture, &tracks.start.base, placement, rollout.tolerances).0
+                let (base, placement) = match rollout.begin {
+                    Some(entry) => (&entry.base, Placement::Fixed),
+                    None => (&tracks.start.base, unsettled(&world)),
+                };
+                Stance::start(&model, posture, base, (&world, placement), rollout.tolerances).0
             }
         };
         let held_since = from.and_then(|w| w.held_since);
@@ -235,6 +246,10 @@ impl<'a> Stepper<'a> {
 
     /// Sets the robot into its world, and observes the sample at the start; returns false if that stops the rollout.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
+        if let Some(entry) = self.rollout.begin {
+            let step = self.come_off(entry);
+            return self.show(observe, self.now, &step);
+        }
         let pose = self.rollout.tracks.start.base;
         let placement = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
         let (settling, fall) = match self.world.is_sloped() {
@@ -242,6 +257,36 @@ impl<'a> Stepper<'a> {
             false => self.place_on_ground(&pose, placement),
         };
         self.show(observe, 0.0, &Step { settling: Some(settling), fall, moved: true, ..Step::default() })
+    }
+
+    /// Finds out whether the part, which stands where it came off another, stands by itself: it falls if there is
+    /// ground below it that it does not touch, and if it tips over on it. It then settles, unless it is held for
+    /// `unstable_for`.
+    fn come_off(&mut self, entry: &Entry) -> Step {
+        let mut step = Step { moved: true, ..Step::default() };
+        if !self.on_ground() {
+            return step;
+        }
+        let tolerances = self.rollout.tolerances;
+        let begun = self.stance.clone();
+        let posture = self.model.posture(&self.joints, &mut self.poses);
+        let placement = (&self.world, Placement::Lowered);
+        let lowered = Stance::start(&self.model, posture, &entry.base, placement, tolerances).0;
+        let drop = begun.height - lowered.height;
+        let (_, fall) = self.place_on_ground(&entry.base, Placement::Settled);
+        let in_air = drop > tolerances.fall_floor;
+        step.fall = fall + drop.max(0.0);
+        if step.fall <= tolerances.fall_floor {
+            return step;
+        }
+        let edge = if in_air { vec![] } else { edge(&begun, tolerances) };
+        let excused = entry.time < self.rollout.end && excused(self.rollout.exemptions, entry.time);
+        step.tip = Some(TipOver { time: entry.time, fall: step.fall, motion: 0.0, edge, excused, in_air });
+        if !excused && !in_air {
+            self.held_since = Some(entry.time);
+            self.stance = begun.held_here(tolerances);
+        }
+        step
     }
 
     /// Takes the samples from `now` to `target` (s), between which no segment, bond, world or exemption begins or ends.
@@ -275,7 +320,7 @@ impl<'a> Stepper<'a> {
         let mut targets = vec![target];
         while let Some(&t) = targets.last() {
             let features = if self.on_ground() { self.model.features.len() } else { 0 };
-            if self.samples >= samples_max(self.rollout.settings, features) {
+            if self.samples >= sampling::samples_max(self.rollout.settings, features) {
                 return RolloutEnd::Limit { time: self.now, features };
             }
             self.samples += 1;
@@ -388,19 +433,9 @@ impl<'a> Stepper<'a> {
         let posture = self.model.posture(&joints, &mut self.poses);
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
         let over = self.stance.holding(&self.model, attempt, tolerances);
-        let support =
-            contact::margin(&over.contact_points, over.foot(), |point| point.gap <= tolerances.gap_exact);
-        let mut edge = match support {
-            Some(margin) => {
-                vec![over.contact_points[margin.edge.0].link, over.contact_points[margin.edge.1].link]
-            }
-            None => {
-                over.contact_points.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect()
-            }
-        };
-        edge.dedup();
-        let excused = fallen < self.rollout.tracks.duration && excused(self.rollout.exemptions, fallen);
-        TipOver { time: fallen, fall, motion, edge, excused }
+        let edge = edge(&over, tolerances);
+        let excused = fallen < self.rollout.end && excused(self.rollout.exemptions, fallen);
+        TipOver { time: fallen, fall, motion, edge, excused, in_air: false }
     }
 
     /// Returns flags for the changes from the last sample to just after `t` (s).
@@ -530,9 +565,16 @@ struct Step {
     settling: Option<f64>,
 }
 
-/// Returns true if an exemption allows the robot to tip at `t` (s).
-pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
-    exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.covers(t))
+/// Returns the links at the ends of the edge of support nearest to the centre of mass of a stance, one if they are the
+/// same; all supporting links if the support has no area.
+fn edge(stance: &Stance, tolerances: &Tolerances) -> Vec<usize> {
+    let points = &stance.contact_points;
+    let mut edge = match contact::margin(points, stance.foot(), |point| point.gap <= tolerances.gap_exact) {
+        Some(margin) => vec![points[margin.edge.0].link, points[margin.edge.1].link],
+        None => points.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect(),
+    };
+    edge.dedup();
+    edge
 }
 
 /// Overwrites `joints` with the positions (rad or m) of all joints at a time (s), by the number in their `JointId`;
@@ -548,18 +590,4 @@ pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
         };
         joints[index] = track.position(joints[index], t);
     }
-}
-
-/// Returns for each bond of the robot, by its index, true if it holds just after a time (s).
-pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
-    let mut bonds = tracks.start.bonds.clone();
-    for dock in tracks.events.iter().take_while(|d| d.time <= t) {
-        bonds[dock.bond] = dock.kind == DockingKind::Dock;
-    }
-    bonds
-}
-
-/// Returns the world just after a time (s); the default world before the first change.
-pub(super) fn world_at(worlds: &[WorldFrom], t: f64) -> World {
-    worlds.iter().take_while(|w| w.from <= t).last().map_or_else(World::default, |w| w.world)
 }

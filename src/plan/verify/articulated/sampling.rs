@@ -5,13 +5,19 @@ use super::tolerances::Tolerances;
 use crate::plan::{Exemption, Settings, Tracks, WorldFrom};
 use crate::robot::JointId;
 
-/// Returns the instants (s) of a plan that are samples whatever the settings are, ascending, each once: its start and
-/// end, the ends of segments, dockings, changes of the world, and the ends of exemptions.
-pub(super) fn instants(tracks: &Tracks, worlds: &[WorldFrom], exemptions: &[Exemption]) -> Vec<f64> {
+/// Returns the instants (s) of a rollout that are samples whatever the settings are, ascending, each once: its start and
+/// end, the ends of segments, dockings, changes of the world, and the ends of exemptions. `from`: the start of the rollout, s.
+pub(super) fn instants(
+    tracks: &Tracks,
+    from: f64,
+    worlds: &[WorldFrom],
+    exemptions: &[Exemption],
+) -> Vec<f64> {
     let mut all = tracks.instants();
+    all.push(from);
     all.extend(worlds.iter().map(|w| w.from));
     all.extend(exemptions.iter().flat_map(|e| [e.from, e.to]));
-    all.retain(|t| (0.0..=tracks.duration).contains(t));
+    all.retain(|t| (from..=tracks.duration).contains(t));
     all.sort_by(f64::total_cmp);
     all.dedup();
     all
@@ -37,15 +43,14 @@ pub(super) fn divisions(
     by_time.max(by_turn).max(1.0) as usize
 }
 
-/// Returns the number of samples of a plan, without those by which the rollout halves a step.
+/// Returns the number of samples of a rollout, without those by which it halves a step. `instants`: those that
+/// [`instants`] returns.
 pub(super) fn count(
+    instants: &[f64],
     tracks: &Tracks,
-    worlds: &[WorldFrom],
-    exemptions: &[Exemption],
     settings: &Settings,
     tolerances: &Tolerances,
 ) -> usize {
-    let instants = instants(tracks, worlds, exemptions);
     let between = instants.windows(2).map(|w| divisions(tracks, w[0], w[1], settings, tolerances).max(1));
     between.fold(1, usize::saturating_add)
 }
@@ -78,4 +83,14 @@ fn before(tracks: &Tracks, joint: JointId, t: f64) -> f64 {
     let Some(track) = tracks.track(joint) else { return start };
     let begun = track.segments.partition_point(|s| s.start < t);
     begun.checked_sub(1).map_or(start, |i| track.segments[i].position(t))
+}
+
+/// The number of ground features for which a sample counts once: a sample of a robot with k times as many takes longer,
+/// and counts k times.
+const FEATURES_PER_SAMPLE: usize = 100;
+
+/// Returns the number of samples that the rollout of a robot may take: `samples_max` of the settings, divided by the
+/// number of full hundreds of its ground `features` ([`Model::features`]) if there are any.
+pub(super) fn samples_max(settings: &Settings, features: usize) -> usize {
+    settings.samples_max / (features / FEATURES_PER_SAMPLE).max(1)
 }

@@ -84,7 +84,11 @@ impl<'a> Monitor<'a> {
         if let Some(tip) = sample.tip.filter(|tip| !tip.excused) {
             let (edge, modules) = (edge_words(sample, &tip.edge), edge_names(sample, &tip.edge));
             let (since, drop) = (tip.time, Some(tip.fall));
-            self.loss = Some(SupportLoss { since, until: since, drop, margin: None, edge, modules });
+            let loss = SupportLoss { since, until: since, drop, margin: None, edge, modules };
+            if tip.in_air {
+                return Some(loss);
+            }
+            self.loss = Some(loss);
         }
         if sample.tip.is_some_and(|tip| tip.excused) {
             ledger.excuses(CheckKind::Stability, sample.tip.map_or(0.0, |t| t.time), excuse);
@@ -208,7 +212,13 @@ impl<'a> Monitor<'a> {
         if let Some(tip) = sample.tip {
             let edge = edge_words(sample, &tip.edge);
             let drop = quantity(tip.fall, Dimension::LENGTH);
-            ledger.verdict.events.push((tip.time, format!("tips over {edge}, drops {drop}")));
+            ledger.verdict.events.push((
+                tip.time,
+                match tip.in_air {
+                    true => format!("falls to the ground, {drop}"),
+                    false => format!("tips over {edge}, drops {drop}"),
+                },
+            ));
         }
     }
 }
@@ -220,14 +230,14 @@ fn judged_margin(sample: &Sample, support: Option<&(Margin, [usize; 2])>) -> Opt
 }
 
 impl SupportLoss {
-    /// Returns the failure of the check of stability that this loss is, without blame.
-    pub(super) fn failure(&self) -> Failure {
+    /// Returns the failure of the check of stability that this loss is, without blame. `subject`: the robot in words.
+    pub(super) fn failure(&self, subject: &str) -> Failure {
         let time = |t| quantity(t, Dimension::TIME);
         let edge = if self.edge.is_empty() { String::new() } else { format!(" over {}", self.edge) };
         let (message, value) = match (self.drop, self.margin) {
             (Some(drop), _) => {
                 let words = quantity(drop, Dimension::LENGTH);
-                (format!("the robot falls{edge} at {}, by {words}", time(self.since)), -drop)
+                (format!("{subject} falls{edge} at {}, by {words}", time(self.since)), -drop)
             }
             (None, Some(margin)) => {
                 let out = quantity(-margin, Dimension::LENGTH);

@@ -177,6 +177,14 @@ impl Stance {
         next
     }
 
+    /// Returns the stance as it is, with `held` set: later attempts follow its contact points within the tolerance
+    /// `gap_loaded`, with equal loads.
+    pub fn held_here(self, tolerances: &Tolerances) -> Stance {
+        let near = self.contact_points.iter().filter(|t| t.gap <= tolerances.gap_loaded);
+        let anchors = near.map(|t| ContactPoint { load: 1.0, ..*t }).collect();
+        Stance { held: true, anchors, ..self }
+    }
+
     /// Returns the stance with the same base pose in a new posture in a world, without settling.
     pub fn kept(&self, model: &Model, posture: Posture, world: &World, tolerances: &Tolerances) -> Stance {
         let X_WB = self.base_pose(model);

@@ -21,6 +21,8 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         settings: &Settings::default(),
         tolerances: &Tolerances::default(),
         held: None,
+        begin: None,
+        end: 0.0,
     };
     let mut corners = Vec::new();
     roll_out(rollout, None, 0.0, &mut |sample, _| {

@@ -11,6 +11,7 @@ use super::torque::{self, JudgedLoads};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{Body, Plan, validation};
+use crate::robot::JointOwner;
 
 /// The quantities that the judge computes of a robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,7 +128,22 @@ impl Gauge<'_> {
             (None, Detail::Loads) => self.torque.read(sample, &mut ledger),
             (None, Detail::Stance) => None,
         };
-        let loads = loads.unwrap_or_else(unknown);
+        let mut loads = loads.unwrap_or_else(unknown);
+        let loose = &sample.model.kinematics.tree.loose;
+        if !loose.is_empty() {
+            // The rollout is that of the part with the base: of others nothing is known here.
+            let robot = sample.model.robot;
+            for (effort, owner) in loads.efforts.iter_mut().zip(robot.joints()) {
+                let module = match owner {
+                    JointOwner::Module { module, .. } => module,
+                    JointOwner::Bond(bond) => robot.bonds[bond].a.module,
+                };
+                if loose.contains(&module) {
+                    *effort = None;
+                }
+            }
+            loads.forces = None;
+        }
         let force = |push: &super::statics::Wrench| GroundForce {
             module: sample.model.kinematics.module_of(push.link),
             point: sample.stance.world_point(&push.p),

@@ -72,6 +72,11 @@ pub struct Tolerances {
     /// The jump of a speed that counts as none, rad/s or m/s. Default 1e-6: rounding of control points over short
     /// segments.
     pub speed_jump: f64,
+    /// The speed of a base below which a robot counts as at rest as it comes apart, m/s. Default 1e-3: what docking at
+    /// rest allows.
+    pub rest_speed: f64,
+    /// The difference of distances up to which two modules are equally near a point, m. Default 1e-9: rounding alone.
+    pub nearest: f64,
     /// The jump of a rate below which a motion bound takes a rate as continuous, rad/s or m/s. Default 1e-9: a jump
     /// that is ignored is not bounded.
     pub rate_jump: f64,
@@ -124,6 +129,8 @@ impl Default for Tolerances {
             sample_count: 1e-6,
             limit: 1e-9,
             speed_jump: 1e-6,
+            rest_speed: 1e-3,
+            nearest: 1e-9,
             rate_jump: 1e-9,
             closure_distance: 1e-3,
             closure_angle: degree,

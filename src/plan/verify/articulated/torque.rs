@@ -7,9 +7,10 @@
 use super::contact::ContactPoint;
 use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
 use super::fixed_base::BetweenSamples;
+use super::in_force::bonds_at;
 use super::load_limits::{MotorWork, Overload, is_excused, keep_margin, note_open_motors};
 use super::model::Model;
-use super::rollout::{Rollout, Sample, bonds_at};
+use super::rollout::{Rollout, Sample};
 use super::statics::{LoadKind, Section, Structure, Wrench, effects};
 use super::tolerances::{NUMERICS, Tolerances};
 use crate::geometry::Vec3;

@@ -69,7 +69,7 @@ impl<'a> Posed<'a> {
             let joint = track.joint.0 as usize;
             let start = joints[joint];
             // The joint is at rest before the start of the plan, after its end, and from when it is held.
-            let end = rollout.held.filter(|held| held.0 == joint).map_or(tracks.duration, |held| held.1);
+            let end = rollout.held.filter(|held| held.0 == joint).map_or(rollout.end, |held| held.1);
             let at = |t: f64| track.position(start, t.clamp(0.0, end));
             let rate = |t: f64| if t >= 0.0 && t < end { track.velocity(t) } else { 0.0 };
             velocities[joint] = (at(to) - at(from)) / window;

@@ -359,7 +359,7 @@ impl<'a> RolloutLoads<'a> {
             let speed = heights[link] / elapsed;
             let known = &mut ledger.verdict.impact;
             if known.as_ref().is_none_or(|worst| speed > worst.value) {
-                let name = super::super::link_name(self.rollout, link);
+                let name = self.rollout.tracks.robot.link_name(link);
                 *known = Some(Worst { value: speed, time, at: vec![name] });
             }
         }

@@ -1,0 +1,31 @@
+//! The path of a robot's base over a rollout, between its samples.
+
+use super::tolerances::Tolerances;
+use crate::geometry::Pose;
+
+/// The path of a cluster's base over its rollout.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BasePath {
+    /// The world pose of the base module's body (`X_WB`, m) at each sample, as (time in s, pose), in order of time.
+    pub poses: Vec<(f64, Pose)>,
+}
+
+impl BasePath {
+    /// Returns the pose at a time (s), on a straight line and one turn between the samples around it. Panics without
+    /// samples.
+    pub(super) fn at(&self, time: f64, tolerances: &Tolerances) -> Pose {
+        let after = self.poses.partition_point(|(at, _)| *at < time).min(self.poses.len() - 1);
+        let (end, last) = &self.poses[after];
+        let Some((begin, first)) = after.checked_sub(1).map(|before| &self.poses[before]) else {
+            return *last;
+        };
+        let part = ((time - begin) / (end - begin)).min(1.0);
+        first.try_lerp_slerp(last, part, tolerances.nearest).unwrap_or(*last)
+    }
+
+    /// Returns true if the base moves faster than a speed (m/s) from the last sample but one to the last.
+    pub(super) fn ends_faster(&self, speed: f64) -> bool {
+        let [.., (before, from), (time, to)] = self.poses.as_slice() else { return false };
+        (to.translation.vector - from.translation.vector).norm() > speed * (time - before)
+    }
+}
