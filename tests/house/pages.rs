@@ -13,7 +13,6 @@ use std::path::Path;
 const NOT_BY_TEXT: &[Code] = &[
     code::NOT_UTF8,
     code::TOO_LARGE,
-    code::FALLS_APART,
     code::PENETRATION,
     code::UNSTABLE,
     code::NOT_VERIFIED,
