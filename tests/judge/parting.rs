@@ -202,3 +202,43 @@ fn parts_are_not_joined_again() {
     tracks.events[1].time = tracks.events[0].time;
     assert!(verify(&tower).ok());
 }
+
+/// Two feet, docked back to back, with the same upright arm each, which is too heavy for its motor as it leans.
+const ARMS: &str = "
+connector Face { mates Face, turns 4 }
+module Arm {
+  link foot = box(400mm, 400mm, 100mm, mass: 20kg, friction: 0.8)
+  link arm = box(300mm, 40mm, 40mm, mass: 2kg) at [0mm, 0mm, 80mm]
+  joint lift : foot -> arm = revolute(axis: Y, max_torque: 1N*m) at [-150mm, 0mm, 80mm]
+  port back : Face on foot at [200mm, 0mm, 0mm] facing +X up +Z
+}
+config Pair {
+  part m[2]: Arm
+  connect m[0].back -- m[1].back
+  base m[0]
+  for i in 0..2 { set m[i].lift = -90deg }
+  behavior part_ways allows overload(m[0].lift), overload(m[1].lift) = Sc(
+    undock(m[0].back), wait(500ms),
+    Pc([move(m[i].lift, to: -30deg, in: 2s) for i in 0..2]),
+    Pc([move(m[i].lift, to: -90deg, in: 2s) for i in 0..2]),
+  )
+}
+";
+
+/// The joints of a part have numbers of their own: an exemption is about the joint that it names, and no other.
+#[test]
+fn an_exemption_for_a_joint_of_one_part_excuses_none_of_another() {
+    let overloaded = |verdict: &Verdict| -> Vec<String> {
+        let torque = verdict.failures.iter().filter(|failure| failure.kind == CheckKind::Torque);
+        torque.flat_map(|failure| failure.at.clone()).collect()
+    };
+    let excused = plan(ARMS, "Pair().part_ways(), world: world(dynamics: statics)");
+    assert!(verify(&excused).ok(), "{:#?}", verify(&excused).failures);
+    for (joint, kept, other) in [(0, "m[0].lift", "m[1].lift"), (1, "m[1].lift", "m[0].lift")] {
+        let of = |e: &&Exemption| e.kind == ExemptionKind::Overload(Some(joint));
+        let exemptions: Vec<_> = excused.exemptions.iter().filter(of).cloned().collect();
+        assert_eq!(exemptions.len(), 1, "{:?}", excused.exemptions);
+        let verdict = verify(&Plan { exemptions, ..excused.clone() });
+        assert_eq!(overloaded(&verdict), [other], "with {kept} excused: {:#?}", verdict.failures);
+    }
+}

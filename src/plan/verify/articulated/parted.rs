@@ -51,7 +51,7 @@ pub(super) fn judge(rollout: &Rollout, clusters: &[Cluster], missed: &[usize], l
             begin: entry.as_ref(),
             ..*rollout
         };
-        let mut part = Ledger::new(rollout.exemptions, rollout.end);
+        let mut part = Ledger::new(&cluster.exemptions, rollout.end);
         let missed = missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
         let mut path = BasePath::default();
         one_robot::judge(&own, missed, &mut part, Some(&mut path));
