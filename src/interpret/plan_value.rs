@@ -32,6 +32,8 @@ pub struct PlanValue {
     instants: RefCell<[AtTimes<Instant>; 2]>,
     /// The least distances of links that may not touch at the times that were asked for last, m.
     clearances: RefCell<AtTimes<Option<f64>>>,
+    /// True if the robot comes apart; empty until it is asked for.
+    comes_apart: OnceCell<bool>,
 }
 
 /// Times (s) with what is known at them.
@@ -112,6 +114,7 @@ impl PlanValue {
             judged: RefCell::default(),
             instants: RefCell::default(),
             clearances: RefCell::default(),
+            comes_apart: OnceCell::new(),
         }
     }
 
@@ -152,6 +155,11 @@ impl PlanValue {
             *kept = (times.clone(), Rc::new(articulated::instants(&self.plan, times, detail)));
         }
         kept.1.clone()
+    }
+
+    /// Returns true if the robot of the plan comes apart, so that its parts have poses of their own.
+    pub fn comes_apart(&self) -> bool {
+        *self.comes_apart.get_or_init(|| articulated::comes_apart(&self.plan))
     }
 
     /// Returns the least signed distance of links that may not touch at each of these times (s), m; `None` where there

@@ -108,7 +108,9 @@ impl StateValue {
     pub fn poses(&self) -> Vec<Pose> {
         let stood = self.base();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
-        if let Some(paths) = ClusterPaths::of(&self.planned.plan, self.time) {
+        if self.planned.comes_apart()
+            && let Some(paths) = ClusterPaths::of(&self.planned.plan, self.time)
+        {
             paths.place(self.time, &mut poses);
             return poses;
         }

@@ -112,6 +112,15 @@ impl Assembly {
         of_modules.chain(of_bonds)
     }
 
+    /// Returns the index of the module that a joint belongs to; of a bond's hinge, that of its first port. Panics if there
+    /// is no such bond.
+    pub fn module_of(&self, owner: JointOwner) -> usize {
+        match owner {
+            JointOwner::Module { module, .. } => module,
+            JointOwner::Bond(bond) => self.bonds[bond].a.module,
+        }
+    }
+
     /// Returns the name of the link of this number among those of all modules, as in `leg[2].m[0].body`; no text if there
     /// is no such link.
     pub fn link_name(&self, link: usize) -> String {

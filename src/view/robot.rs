@@ -112,10 +112,7 @@ fn trees(tracks: &Tracks, clusters: &[ClusterPath], forms: &mut Forms) -> Vec<Va
     times.dedup();
     let mut trees: Vec<(Vec<bool>, Value)> = Vec::new();
     for time in times {
-        let mut bonds = tracks.start.bonds.clone();
-        for dock in tracks.events.iter().take_while(|dock| dock.time <= time) {
-            bonds[dock.bond] = dock.kind == DockingKind::Dock;
-        }
+        let bonds = tracks.bonds(time);
         if trees.last().is_none_or(|(before, _)| *before != bonds) {
             let mut made = tree(&tracks.robot, &bonds, time, forms);
             let parts = parts(tracks, &bonds, time, clusters, forms);
@@ -147,13 +144,13 @@ fn parts(
 ) -> Vec<Value> {
     let robot = &tracks.robot;
     let off = |cluster: &ClusterPath| {
-        cluster.exists(time, tracks.duration) && !cluster.modules.contains(&robot.base)
+        cluster.exists(time, tracks.duration) && !cluster.modules().contains(&robot.base)
     };
     let mut found = Vec::new();
     for (path, cluster) in clusters.iter().enumerate().filter(|(_, cluster)| off(cluster)) {
-        let kinematics = Kinematics::new(robot, bonds, cluster.base);
+        let kinematics = Kinematics::new(robot, bonds, cluster.base());
         let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
-        found.push(json!({ "root": kinematics.link(cluster.base, 0), "steps": steps, "path": path }));
+        found.push(json!({ "root": kinematics.link(cluster.base(), 0), "steps": steps, "path": path }));
     }
     found
 }

@@ -90,7 +90,12 @@ fn status(verdict: &Verdict, kind: CheckKind) -> Status {
 fn shifts(plan: &Plan) -> Vec<Pose> {
     let paths = ClusterPaths::of(plan, f64::INFINITY).expect("the robot comes apart");
     let moved = |poses: &[(f64, Pose)]| poses[0].1.inverse() * poses[poses.len() - 1].1;
-    paths.clusters.iter().filter(|cluster| cluster.from > 0.0).map(|cluster| moved(cluster.poses())).collect()
+    paths
+        .clusters
+        .iter()
+        .filter(|cluster| cluster.poses()[0].0 > 0.0)
+        .map(|cluster| moved(cluster.poses()))
+        .collect()
 }
 
 /// A car that has come off another drives as a car does that never was docked.

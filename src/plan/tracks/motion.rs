@@ -179,10 +179,17 @@ impl Tracks {
             let joint = &mut state.joints[track.joint.0 as usize];
             *joint = track.position(*joint, t);
         }
-        for dock in self.events.iter().take_while(|d| d.time <= t) {
-            state.bonds[dock.bond] = dock.kind == DockingKind::Dock;
-        }
+        state.bonds = self.bonds(t);
         state
+    }
+
+    /// Returns for each bond of the robot, by its index, true if it holds just after the time `t` (s).
+    pub fn bonds(&self, t: f64) -> Vec<bool> {
+        let mut bonds = self.start.bonds.clone();
+        for dock in self.events.iter().take_while(|d| d.time <= t) {
+            bonds[dock.bond] = dock.kind == DockingKind::Dock;
+        }
+        bonds
     }
 
     /// Returns the state in which the plan ends: joint positions, bonds, and the base at its start pose.

@@ -111,12 +111,6 @@ impl<'a> Ledger<'a> {
         self.verdict.checks.push(Check { kind, status });
     }
 
-    /// Sets the status of a check that was made before to failed.
-    pub(super) fn fails(&mut self, kind: CheckKind) {
-        let made = self.verdict.checks.iter_mut().filter(|check| check.kind == kind);
-        made.for_each(|check| check.status = Status::Failed);
-    }
-
     /// Adds the records of parts of the robot that were judged by themselves, with the exemptions of the same plan: all
     /// their failures, notes and events, the worst of their worst values, the sums of their samples and energy, and for
     /// each check the weakest status. Travel and heading stay as they are.

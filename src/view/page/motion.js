@@ -123,8 +123,9 @@ function robotMotion(plan, body) {
     const at = Math.max(lastNotAbove(treeTimes, t), 0);
     for (let i = 0; i < at; i++)
       if (body.trees[i + 1].loose) walk(body.trees[i], jointsAt(treeTimes[i + 1]), baseAt(treeTimes[i + 1]));
-    walk(body.trees[at], jointsAt(t), baseAt(t));
-    for (const part of body.trees[at].parts || []) walk(part, jointsAt(t), baseAt(t, body.paths[part.path], pathTimes[part.path]));
+    const q = jointsAt(t);
+    walk(body.trees[at], q, baseAt(t));
+    for (const part of body.trees[at].parts || []) walk(part, q, baseAt(t, body.paths[part.path], pathTimes[part.path]));
   }
 
   return {

@@ -33,7 +33,7 @@ pub(super) struct Candidate {
     /// The cause of the segment: the command in the source.
     pub cause: CauseId,
     /// True if it moves at the time of the failure.
-    moving: bool,
+    pub moving: bool,
 }
 
 /// Fills in the actions to blame for each failure that names none. An action is to blame if the failure is gone once
@@ -153,7 +153,8 @@ fn of_start(tracks: &Tracks, failure: &Failure) -> Vec<CauseId> {
     [distinct(near), distinct(all), distinct(bonds)].into_iter().find(|c| !c.is_empty()).unwrap_or_default()
 }
 
-fn distinct(causes: impl Iterator<Item = CauseId>) -> Vec<CauseId> {
+/// Returns the first [`BLAMED_MAX`] different causes, in order.
+pub(super) fn distinct(causes: impl Iterator<Item = CauseId>) -> Vec<CauseId> {
     let mut found = Vec::new();
     for cause in causes {
         if !found.contains(&cause) && found.len() < BLAMED_MAX {

@@ -183,6 +183,26 @@ impl Bodies {
         enclosed_point(self.solid(a), self.solid(b), X_AB)
     }
 
+    /// Returns the signed distance of two links, m, or `enough` (m) if it is no less: that of [`distance`](Self::distance),
+    /// but negative also for a link wholly inside another's mesh that is not convex. `a`, `b`: each link as (index of its
+    /// module in the assembly, index of the link in the module); `numbers` and `poses`: the numbers of the links, and
+    /// their poses by these, in one common frame.
+    pub(super) fn signed_distance(
+        &self,
+        numbers: &Kinematics,
+        (a, b): ((usize, usize), (usize, usize)),
+        poses: &[Pose],
+        enough: f64,
+    ) -> f64 {
+        let [i, j] = [a, b].map(|(module, link)| numbers.link(module, link));
+        let apart = self.distance(i, j, poses, enough);
+        if !self.may_enclose(a.0) && !self.may_enclose(b.0) {
+            return apart;
+        }
+        let enclosed = self.enclosed_depth(a, b, &(poses[i].inverse() * poses[j]));
+        if enclosed > 0.0 { apart.min(-enclosed) } else { apart }
+    }
+
     fn solid(&self, (module, link): (usize, usize)) -> &Solid {
         &self.kinds[self.kind_of[module]].solids[link]
     }

@@ -5,7 +5,9 @@
 //! its own, with its modules, bonds and joints alone and the times of the plan, so that all that judges a robot judges
 //! it, and as fast.
 
-use crate::plan::{DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks};
+use super::entry::Entry;
+use super::rollout::Rollout;
+use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
 
 /// A part of a robot that bonds connect over an interval of time.
@@ -13,20 +15,37 @@ use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
 pub(super) struct Cluster {
     /// The time from which the part is by itself, s from the start of the plan.
     pub from: f64,
-    /// The time up to which the part is by itself, s from the start of the plan: that of `tracks`.
-    pub to: f64,
     /// The number of the cluster of which it was a part before; `None` for the whole robot at the start.
     pub parent: Option<usize>,
     /// The modules, by their indices in the plan's robot, ascending.
     pub modules: Vec<usize>,
     /// The bonds between them, by their indices in the plan's robot, ascending.
     pub bonds: Vec<usize>,
-    /// The part as a robot of its own, with its motion from the start of the plan up to `to`. The bonds of its start hold
-    /// just after `from`; its events are those between.
+    /// The part as a robot of its own, with its motion from the start of the plan up to the time at which it comes apart
+    /// itself, its `duration`. The bonds of its start hold just after `from`; its events are those between.
     pub tracks: Tracks,
     /// The exemptions of the plan, by the same indices, with the parts of this robot; one about other parts is never in
     /// force.
     pub exemptions: Vec<Exemption>,
+}
+
+impl Cluster {
+    /// Returns the base by its index in the plan's robot.
+    pub(super) fn base(&self) -> usize {
+        self.modules[self.tracks.robot.base]
+    }
+
+    /// Returns true if the part is by itself just after a time (s), or at the end of the plan, at `end` (s).
+    pub(super) fn exists(&self, time: f64, end: f64) -> bool {
+        let to = self.tracks.duration;
+        self.from <= time && (time < to || to == end)
+    }
+
+    /// Returns the rollout of the part. `whole`: that of the plan; `begin`: where the part comes off another, `None` for
+    /// the whole robot at the start.
+    pub(super) fn rollout<'a>(&'a self, whole: &Rollout<'a>, begin: Option<&'a Entry>) -> Rollout<'a> {
+        Rollout { tracks: &self.tracks, exemptions: &self.exemptions, begin, ..*whole }
+    }
 }
 
 /// Returns the clusters of a plan whose robot comes apart, each after the one of which it was a part, with the first
@@ -53,7 +72,7 @@ pub(super) fn of(
         if after.iter().eq(now.iter().map(|(_, modules)| modules)) {
             continue;
         }
-        let before = |module: usize| now.iter().find(|(_, modules)| modules.contains(&module));
+        let before = |module: usize| now.iter().find(|(_, modules)| modules.binary_search(&module).is_ok());
         let joined = |event: &&DockingEvent| {
             let Bond { a, b, .. } = tracks.robot.bonds[event.bond];
             let docks = event.kind == DockingKind::Dock;
@@ -84,7 +103,7 @@ pub(super) fn of(
     let mut clusters: Vec<Cluster> = Vec::with_capacity(found.len());
     for (part, to) in found.into_iter().zip(ends) {
         let mut cluster = part.cluster(tracks, exemptions, to);
-        let held = part.parent.map(|parent| clusters[parent].modules[clusters[parent].tracks.robot.base]);
+        let held = part.parent.map(|parent| clusters[parent].base());
         let bases = [held, Some(tracks.robot.base)];
         let own = bases.into_iter().flatten().find_map(|base| cluster.modules.binary_search(&base).ok());
         cluster.tracks.robot.base = own.unwrap_or_else(|| reference(&cluster));
@@ -124,7 +143,9 @@ impl Part {
             modules: self.modules.iter().map(|&module| robot.modules[module].clone()).collect(),
             bonds: kept.iter().map(|(_, bond)| *bond).collect(),
             base: 0,
-            ..robot.clone()
+            name: robot.name.clone(),
+            library: robot.library.clone(),
+            closed: robot.closed,
         };
         let start = State {
             joints: joints.iter().map(|&joint| tracks.start.joints[joint]).collect(),
@@ -134,7 +155,11 @@ impl Part {
         let between = |event: &&DockingEvent| {
             (event.time > self.from || self.parent.is_none()) && (event.time < to || to == tracks.duration)
         };
-        let events = tracks.events.iter().filter(between);
+        let events = tracks
+            .events
+            .iter()
+            .filter(between)
+            .filter_map(|event| Some(DockingEvent { bond: bond(event.bond)?, ..event.clone() }));
         let exempt = |exemption: &Exemption| {
             let kind = match exemption.kind.clone() {
                 ExemptionKind::Collision(Some((a, b))) => {
@@ -151,26 +176,20 @@ impl Part {
             }
         };
         let motion = |track: &Track| Some(Track { joint: joint(track.joint)?, ..track.clone() });
-        let causes = tracks.start_causes.iter();
+        let start_cause = |(id, cause): &(JointId, CauseId)| Some((joint(*id)?, *cause));
+        let bond_cause = |(index, cause): &(usize, CauseId)| Some((bond(*index)?, *cause));
         Cluster {
             from: self.from,
-            to,
             parent: self.parent,
             modules: self.modules.clone(),
             tracks: Tracks {
                 robot: own,
                 start,
                 tracks: tracks.tracks.iter().filter_map(motion).collect(),
-                events: events
-                    .filter_map(|event| Some(DockingEvent { bond: bond(event.bond)?, ..event.clone() }))
-                    .collect(),
+                events: events.collect(),
                 duration: to,
-                start_causes: causes.filter_map(|(id, cause)| Some((joint(*id)?, *cause))).collect(),
-                bond_causes: tracks
-                    .bond_causes
-                    .iter()
-                    .filter_map(|(index, cause)| Some((bond(*index)?, *cause)))
-                    .collect(),
+                start_causes: tracks.start_causes.iter().filter_map(start_cause).collect(),
+                bond_causes: tracks.bond_causes.iter().filter_map(bond_cause).collect(),
             },
             bonds,
             exemptions: exemptions.iter().map(exempt).collect(),

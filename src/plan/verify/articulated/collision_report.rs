@@ -232,9 +232,6 @@ impl<'a> MeetingLinks<'a> {
 
     /// Returns the signed distance of two links (m) at the present poses, each given by its module's index and its own.
     fn between(&self, a: (usize, usize), b: (usize, usize)) -> f64 {
-        let [i, j] = [a, b].map(|(module, link)| self.kinematics.link(module, link));
-        let enclosed = self.bodies.enclosed_depth(a, b, &(self.poses[i].inverse() * self.poses[j]));
-        let apart = self.bodies.distance(i, j, &self.poses, f64::MAX);
-        if enclosed > 0.0 { apart.min(-enclosed) } else { apart }
+        self.bodies.signed_distance(&self.kinematics, (a, b), &self.poses, f64::MAX)
     }
 }

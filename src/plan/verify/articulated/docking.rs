@@ -82,12 +82,9 @@ fn listed(names: &[String]) -> String {
 fn near_enough(rollout: &Rollout, bonds: &[bool], dock: &DockingEvent, ledger: &mut Ledger) -> bool {
     let robot = &rollout.tracks.robot;
     let Bond { a, b, .. } = robot.bonds[dock.bond];
-    let mut kinematics = Kinematics::new(robot, bonds, robot.base);
-    if kinematics.tree.loose.contains(&a.module) {
-        kinematics = Kinematics::new(robot, bonds, a.module);
-    }
+    let kinematics = Kinematics::new(robot, bonds, a.module);
     // Links that nothing connects have no relative pose: that is another failure.
-    if [a, b].iter().any(|port| kinematics.tree.loose.contains(&port.module)) {
+    if kinematics.tree.loose.contains(&b.module) {
         return true;
     }
     let mut joints = Vec::new();

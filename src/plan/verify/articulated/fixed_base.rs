@@ -5,11 +5,10 @@
 //! beyond the joint no more than the angle times the arm; and the piece before turns against gravity by no more than
 //! all angles before it. Intervals are halved until that is enough.
 
-use super::in_force::{bonds_at, world_at};
+use super::in_force::world_at;
 use super::model::{Model, Posture};
 use super::motion_bounds::{Interval, JointMotion, MotionBounds};
 use super::rollout::Rollout;
-use super::sampling;
 use super::statics::{LoadKind, Structure, moves};
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
@@ -40,11 +39,11 @@ pub(super) fn prove(rollout: &Rollout) -> BetweenSamples {
     }
     // Between instants at which anything begins or ends the tree of bonds and the gravity stay.
     let bounds = MotionBounds::new(rollout.tracks);
-    let instants = sampling::instants(rollout.tracks, rollout.from(), rollout.worlds, rollout.exemptions);
-    let mut bonds = bonds_at(rollout.tracks, rollout.from());
+    let instants = rollout.instants();
+    let mut bonds = rollout.tracks.bonds(rollout.from());
     let mut loads = GravityLoads::new(rollout, &bonds);
     for ends in instants.windows(2) {
-        let now = bonds_at(rollout.tracks, ends[0]);
+        let now = rollout.tracks.bonds(ends[0]);
         if now != bonds {
             bonds = now;
             loads = GravityLoads::new(rollout, &bonds);

@@ -1,19 +1,10 @@
-//! The bonds that hold, the world, and the exemption from tipping at a time of a plan.
+//! The world and the exemption from tipping at a time of a plan.
 
-use crate::plan::{DockingKind, Exemption, ExemptionKind, Tracks, World, WorldFrom};
+use crate::plan::{Exemption, ExemptionKind, World, WorldFrom};
 
 /// Returns true if an exemption allows the robot to tip at `t` (s).
 pub(super) fn excused(exemptions: &[Exemption], t: f64) -> bool {
     exemptions.iter().any(|e| e.kind == ExemptionKind::Unstable && e.covers(t))
-}
-
-/// Returns for each bond of the robot, by its index, true if it holds just after a time (s).
-pub(super) fn bonds_at(tracks: &Tracks, t: f64) -> Vec<bool> {
-    let mut bonds = tracks.start.bonds.clone();
-    for dock in tracks.events.iter().take_while(|d| d.time <= t) {
-        bonds[dock.bond] = dock.kind == DockingKind::Dock;
-    }
-    bonds
 }
 
 /// Returns the world just after a time (s); the default world before the first change.

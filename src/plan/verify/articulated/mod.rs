@@ -62,12 +62,13 @@ mod history;
 mod in_force;
 mod one_robot;
 mod parted;
+mod placed_clusters;
 mod support_area;
 mod time_series;
 
 pub use bodies::{Bodies, UnsoundLink};
 pub use clearance::{clearances, clearances_at, collision_point};
-pub use cluster_paths::{ClusterPath, ClusterPaths};
+pub use cluster_paths::{ClusterPath, ClusterPaths, comes_apart};
 pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
 pub use entry::Entry;
@@ -102,6 +103,12 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
             }
         }
         None => one_robot::judge(&rollout, missed, &mut ledger, None),
+    }
+    if rollout.is_full() && ledger.verdict.slip.is_some() {
+        ledger.note(dynamics::travel_tolerance(&ledger.verdict));
+    }
+    if let Some((clusters, _)) = &clusters {
+        ledger.note(parted::in_words(clusters));
     }
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.

@@ -16,9 +16,7 @@ use crate::units::{Dimension, quantity};
 /// assembly of the bonds whose ports missed when they docked. `path` takes the path of the base; `None` where nobody
 /// needs it.
 pub(super) fn judge(rollout: &Rollout, missed: Vec<usize>, ledger: &mut Ledger, path: Option<&mut BasePath>) {
-    let Rollout { tracks, settings, tolerances, .. } = *rollout;
-    let instants = sampling::instants(tracks, rollout.from(), rollout.worlds, rollout.exemptions);
-    let samples = sampling::count(&instants, tracks, settings, tolerances);
+    let samples = sampling::count(&rollout.instants(), rollout.tracks, rollout.settings, rollout.tolerances);
     let features = ground_features_of(rollout, samples);
     if samples > sampling::samples_max(rollout.settings, features) {
         return ledger.fail(too_many_samples(samples, rollout.settings, features));
@@ -102,11 +100,6 @@ fn check_samples(
     standing.finish(ledger);
     let names = |link| rollout.tracks.robot.link_name(link);
     base_motion.finish(names, ledger);
-    // The travel of a robot that comes apart is the sum of that of its parts.
-    let whole = rollout.begin.is_none() && rollout.tracks.duration == rollout.end;
-    if full && whole && ledger.verdict.slip.is_some() {
-        ledger.note(dynamics::travel_tolerance(&ledger.verdict));
-    }
     loops.finish(ledger);
     (checkpoints.into_kept(), deflected)
 }

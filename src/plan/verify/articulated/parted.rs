@@ -4,7 +4,6 @@
 use super::base_path::BasePath;
 use super::between_clusters;
 use super::clusters::{self, Cluster};
-use super::dynamics;
 use super::entry::Entry;
 use super::model::Model;
 use super::one_robot;
@@ -14,7 +13,7 @@ use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, Failure, Ground, Status, Tracks};
 use crate::robot::Kinematics;
-use crate::units::{Dimension, quantity};
+use crate::units::{Dimension, counted, quantity};
 
 /// Returns the clusters of a plan, and the event that joins two of them again, as [`clusters::of`] does: the base of a
 /// part that comes off without the plan's is the module nearest to its centre of mass.
@@ -45,23 +44,18 @@ pub(super) fn judge(rollout: &Rollout, clusters: &[Cluster], missed: &[usize], l
     for cluster in clusters {
         let parent = cluster.parent.map(|parent| (&clusters[parent], &paths[parent]));
         let entry = parent.map(|(before, path)| entry(rollout, cluster, before, path));
-        let own = Rollout {
-            tracks: &cluster.tracks,
-            exemptions: &cluster.exemptions,
-            begin: entry.as_ref(),
-            ..*rollout
-        };
+        let own = cluster.rollout(rollout, entry.as_ref());
         let mut part = Ledger::new(&cluster.exemptions, rollout.end);
         let missed = missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
         let mut path = BasePath::default();
+        let came_off = entry.as_ref().zip(parent);
+        if let Some((entry, _)) = came_off.filter(|(_, (before, _))| cluster.base() != before.base()) {
+            unheld(&own, entry, &mut part);
+        }
         one_robot::judge(&own, missed, &mut part, Some(&mut path));
-        if let (Some(entry), Some((before, path))) = (&entry, parent) {
-            if base_of(cluster) != base_of(before) {
-                unheld(&own, entry, &mut part);
-            }
-            if own.is_full() && moves(&before.tracks, path, rollout.tolerances) {
-                momentum_is_lost(entry, &mut part);
-            }
+        let moves = |before: &Cluster, path| own.is_full() && moves(&before.tracks, path, rollout.tolerances);
+        if let Some((entry, _)) = came_off.filter(|(_, (before, path))| moves(before, path)) {
+            momentum_is_lost(entry, &mut part);
         }
         if cluster.modules.contains(&rollout.tracks.robot.base) {
             let (sum, own) = (&mut ledger.verdict, &part.verdict);
@@ -81,24 +75,16 @@ pub(super) fn judge(rollout: &Rollout, clusters: &[Cluster], missed: &[usize], l
     between_clusters::judge(rollout, (clusters, &paths), ended, &mut between);
     parts.push(between);
     ledger.merge(parts);
-    if rollout.is_full() && ledger.verdict.slip.is_some() {
-        ledger.note(dynamics::travel_tolerance(&ledger.verdict));
-    }
-    ledger.note(format!("the robot comes apart: {}", in_words(clusters)));
 }
 
-/// Returns the base of a cluster by its index in the plan's robot.
-pub(super) fn base_of(cluster: &Cluster) -> usize {
-    cluster.modules[cluster.tracks.robot.base]
-}
-
-/// Returns the clusters that come off others in words, with their times.
-fn in_words(clusters: &[Cluster]) -> String {
+/// Returns in words which parts the robot comes apart into, with their times.
+pub(super) fn in_words(clusters: &[Cluster]) -> String {
     let part = |cluster: &Cluster| {
-        let count = crate::units::counted(cluster.modules.len(), "module");
+        let count = counted(cluster.modules.len(), "module");
         format!("{} ({count}) from {}", name(cluster), quantity(cluster.from, Dimension::TIME))
     };
-    clusters.iter().filter(|cluster| cluster.parent.is_some()).map(part).collect::<Vec<_>>().join(", ")
+    let off = clusters.iter().filter(|cluster| cluster.parent.is_some());
+    format!("the robot comes apart: {}", off.map(part).collect::<Vec<_>>().join(", "))
 }
 
 /// Returns a cluster in words, by its base.
@@ -113,7 +99,7 @@ pub(super) fn entry(rollout: &Rollout, cluster: &Cluster, before: &Cluster, path
     let kinematics = Kinematics::new(&before.tracks.robot, &state.bonds, before.tracks.robot.base);
     let mut poses = vec![Pose::identity(); kinematics.link_count()];
     kinematics.link_poses(&state.joints, &path.at(cluster.from, rollout.tolerances), &mut poses);
-    let base = before.modules.binary_search(&base_of(cluster)).expect("a part is of its parent's modules");
+    let base = before.modules.binary_search(&cluster.base()).expect("a part is of its parent's modules");
     let causes: Vec<CauseId> = rollout
         .tracks
         .events
@@ -126,13 +112,13 @@ pub(super) fn entry(rollout: &Rollout, cluster: &Cluster, before: &Cluster, path
 
 /// Records that nothing holds a part: in a world whose fixture holds the base of another, it falls.
 fn unheld(rollout: &Rollout, entry: &Entry, ledger: &mut Ledger) {
-    let span = entry.time..=rollout.tracks.duration;
-    let worlds = rollout.worlds.iter().enumerate().filter(|(index, from)| {
+    let mut worlds = rollout.worlds.iter().enumerate();
+    let found = worlds.find(|(index, from)| {
         let until = rollout.worlds.get(index + 1).map_or(f64::INFINITY, |next| next.from);
         let fixed = matches!(from.world.ground, Ground::Held | Ground::Fixed) && from.world.gravity > 0.0;
-        fixed && from.from <= *span.end() && until > entry.time
+        fixed && from.from <= rollout.tracks.duration && until > entry.time
     });
-    let Some((_, from)) = worlds.into_iter().next() else { return };
+    let Some((_, from)) = found else { return };
     let time = from.from.max(entry.time);
     let message = format!("{} falls at {}: nothing holds it", entry.name, quantity(time, Dimension::TIME));
     let robot = &rollout.tracks.robot;
@@ -143,7 +129,6 @@ fn unheld(rollout: &Rollout, entry: &Entry, ledger: &mut Ledger) {
         blame: entry.causes.clone(),
         ..Failure::form(message)
     });
-    ledger.fails(CheckKind::Stability);
 }
 
 /// Returns true if joints of a robot turn or slide as its motion ends, or its base moves.
@@ -151,8 +136,8 @@ fn moves(tracks: &Tracks, path: &BasePath, tolerances: &Tolerances) -> bool {
     let end = tracks.duration;
     let fast = |velocity: f64| velocity.abs() > tolerances.speed_jump;
     let turns = tracks.tracks.iter().any(|track| {
-        let around = track.segments.iter().filter(|segment| segment.start <= end && end <= segment.end);
-        around.into_iter().any(|segment| fast(segment.velocity(end)))
+        let mut around = track.segments.iter().filter(|segment| segment.start <= end && end <= segment.end);
+        around.any(|segment| fast(segment.velocity(end)))
     });
     turns || path.ends_faster(tolerances.rest_speed)
 }

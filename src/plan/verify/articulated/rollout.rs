@@ -6,7 +6,7 @@
 use super::contact;
 use super::dynamics::{GroundStep, Traction, TravelSummary};
 use super::entry::Entry;
-use super::in_force::{bonds_at, excused, world_at};
+use super::in_force::{excused, world_at};
 use super::model::{Model, Posture};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
@@ -57,6 +57,11 @@ impl<'a> Rollout<'a> {
     /// Returns the time at which the robot begins, s.
     pub(super) fn from(&self) -> f64 {
         self.begin.map_or(0.0, |entry| entry.time)
+    }
+
+    /// Returns the instants (s) that are samples whatever the settings are; see [`sampling::instants`].
+    pub(super) fn instants(&self) -> Vec<f64> {
+        sampling::instants(self.tracks, self.from(), self.worlds, self.exemptions)
     }
 
     /// Returns the robot in words, for messages.
@@ -195,7 +200,7 @@ pub fn roll_out(
         return RolloutEnd::Stopped;
     }
     let first = stepper.now;
-    let instants = sampling::instants(rollout.tracks, rollout.from(), rollout.worlds, rollout.exemptions);
+    let instants = rollout.instants();
     for &instant in instants.iter().filter(|t| **t > first) {
         interrupt::progress_checkpoint(|| {
             let [now, until] = [stepper.now, until].map(|t| quantity(t, Dimension::TIME));
@@ -219,7 +224,7 @@ impl<'a> Stepper<'a> {
     fn new(rollout: Rollout<'a>, from: Option<&Checkpoint>) -> Stepper<'a> {
         let tracks = rollout.tracks;
         let now = from.map_or(rollout.from(), |w| w.time);
-        let bonds = bonds_at(tracks, now);
+        let bonds = tracks.bonds(now);
         let model = Model::new(&tracks.robot, &bonds);
         let world = world_at(rollout.worlds, now);
         let mut poses = Vec::new();
@@ -440,14 +445,14 @@ impl<'a> Stepper<'a> {
 
     /// Returns flags for the changes from the last sample to just after `t` (s).
     fn changes(&self, t: f64) -> Changes {
-        let bonds = bonds_at(self.rollout.tracks, t) != self.bonds;
+        let bonds = self.rollout.tracks.bonds(t) != self.bonds;
         Changes { bonds, world: world_at(self.rollout.worlds, t) != self.world }
     }
 
     /// Brings the state, and the step that led to `t` (s), past the changes at that time.
     fn changed(&mut self, t: f64, changes: Changes, mut step: Step) -> Step {
         if changes.bonds {
-            self.bonds = bonds_at(self.rollout.tracks, t);
+            self.bonds = self.rollout.tracks.bonds(t);
             self.model = Model::new(&self.rollout.tracks.robot, &self.bonds);
             step.moved = true;
             self.rebuild_stance();

@@ -11,7 +11,6 @@ use super::torque::{self, JudgedLoads};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{Body, Plan, validation};
-use crate::robot::JointOwner;
 
 /// The quantities that the judge computes of a robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,11 +133,7 @@ impl Gauge<'_> {
             // The rollout is that of the part with the base: of others nothing is known here.
             let robot = sample.model.robot;
             for (effort, owner) in loads.efforts.iter_mut().zip(robot.joints()) {
-                let module = match owner {
-                    JointOwner::Module { module, .. } => module,
-                    JointOwner::Bond(bond) => robot.bonds[bond].a.module,
-                };
-                if loose.contains(&module) {
+                if loose.contains(&robot.module_of(owner)) {
                     *effort = None;
                 }
             }

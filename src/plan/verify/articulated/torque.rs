@@ -7,7 +7,6 @@
 use super::contact::ContactPoint;
 use super::contact_forces::{ContactForces, ContactQuery, WarmStart};
 use super::fixed_base::BetweenSamples;
-use super::in_force::bonds_at;
 use super::load_limits::{MotorWork, Overload, is_excused, keep_margin, note_open_motors};
 use super::model::Model;
 use super::rollout::{Rollout, Sample};
@@ -305,7 +304,7 @@ impl<'a> Monitor<'a> {
     pub(super) fn between(&mut self, between: &BetweenSamples, rollout: &Rollout) {
         self.proved = *between == BetweenSamples::Proved;
         if let (BetweenSamples::Over { time, load, ratio }, true) = (between, self.failures.is_empty()) {
-            let model = Model::new(&rollout.tracks.robot, &bonds_at(rollout.tracks, *time));
+            let model = Model::new(&rollout.tracks.robot, &rollout.tracks.bonds(*time));
             let load = &Structure::new(&model).loads[*load];
             self.failures.push(Overload::new(load, ratio * load.limit, *time));
         }
