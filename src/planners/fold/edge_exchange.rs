@@ -85,7 +85,8 @@ pub fn improved_by(
     rules: &Rules,
 ) -> Layout {
     let gain = layout.energy(weights) * TOLERANCES.gain;
-    while let Some(better) = exchange(target, weights, &layout, gain, steps, rules) {
+    let mut branches = Branches::default();
+    while let Some(better) = exchange(target, weights, &layout, (gain, &mut branches), steps, rules) {
         crate::interrupt::checkpoint();
         layout = better;
     }
@@ -93,43 +94,56 @@ pub fn improved_by(
 }
 
 /// The costs of the branches of a layout, by which an exchange is evaluated without making its layout.
+#[derive(Default)]
 struct Branches {
-    hinges: usize,
     faces: usize,
-    /// The cost that a hinge would spend on carrying a face and all below it, by face, then by hinge.
+    /// The cost that a hinge would spend on carrying a face and all below it, by hinge, then by face.
     below: Vec<f64>,
-    /// The cost that the hinges between the root and b would spend on carrying c and all below it, by face c,
-    /// then by face b.
+    /// The cost that the hinges between the root and b would spend on carrying c and all below it, by face b,
+    /// then by face c.
     along: Vec<f64>,
 }
 
 impl Branches {
-    fn new(target: &Target, weights: &Weights, layout: &Layout) -> Branches {
-        let (faces, hinges) = (target.faces.len(), target.hinges.len());
-        let mut below: Vec<f64> =
-            (0..faces * hinges).map(|at| weights.at(at % hinges, at / hinges)).collect();
-        for &face in layout.order[1..].iter().rev() {
-            let parent = layout.parent[face];
-            for hinge in 0..hinges {
-                below[parent * hinges + hinge] += below[face * hinges + hinge];
+    /// Computes the costs for a layout; the memory of another one is used again.
+    fn compute(&mut self, target: &Target, weights: &Weights, layout: &Layout) {
+        let faces = target.faces.len();
+        self.faces = faces;
+        self.below.clear();
+        (0..target.hinges.len()).for_each(|hinge| self.below.extend_from_slice(weights.of_hinge(hinge)));
+        let upwards: Vec<(usize, usize)> =
+            layout.order[1..].iter().rev().map(|&face| (face, layout.parent[face])).collect();
+        for row in self.below.chunks_exact_mut(faces) {
+            for &(face, parent) in &upwards {
+                row[parent] += row[face];
             }
         }
-        let mut along = vec![0.0; faces * faces];
-        for c in 0..faces {
-            for &b in &layout.order[1..] {
-                let hinge = layout.hinge[b].expect("only the root has none");
-                along[c * faces + b] = along[c * faces + layout.parent[b]] + below[c * hinges + hinge];
+        self.along.resize(faces * faces, 0.0);
+        self.along[layout.root * faces..][..faces].fill(0.0);
+        for &b in &layout.order[1..] {
+            let hinge = layout.hinge[b].expect("only the root has none");
+            let carried = &self.below[hinge * faces..][..faces];
+            let (b, parent) = (b * faces, layout.parent[b] * faces);
+            let (before, after) = self.along.split_at_mut(b.max(parent));
+            let (to, from) = if b < parent {
+                (&mut before[b..][..faces], &after[..faces])
+            } else {
+                (&mut after[..faces], &before[parent..][..faces])
+            };
+            for ((to, from), carried) in to.iter_mut().zip(from).zip(carried) {
+                *to = from + carried;
             }
         }
-        Branches { hinges, faces, below, along }
     }
 
+    #[inline]
     fn below(&self, face: usize, hinge: usize) -> f64 {
-        self.below[face * self.hinges + hinge]
+        self.below[hinge * self.faces + face]
     }
 
+    #[inline]
     fn along(&self, c: usize, b: usize) -> f64 {
-        self.along[c * self.faces + b]
+        self.along[b * self.faces + c]
     }
 }
 
@@ -142,16 +156,17 @@ fn exchange(
     target: &Target,
     weights: &Weights,
     layout: &Layout,
-    gain: f64,
+    (gain, branches): (f64, &mut Branches),
     steps: &mut u64,
     rules: &Rules,
 ) -> Option<Layout> {
-    let branches = Branches::new(target, weights, layout);
+    branches.compute(target, weights, layout);
     *steps = steps.saturating_sub(((branches.below.len() + branches.along.len()) / SUMS) as u64);
     let depths = layout.depths();
     let folding = |face: usize| layout.hinge[face].expect("only the root has none");
     let mut better: Vec<(f64, usize, usize)> = Vec::new();
     let mut way = Vec::new();
+    let mut turned: Vec<(usize, f64)> = Vec::new();
     for (added, hinge) in target.hinges.iter().enumerate() {
         let [p, q] = hinge.faces;
         if layout.hinge[p] == Some(added) || layout.hinge[q] == Some(added) {
@@ -159,14 +174,13 @@ fn exchange(
         }
         for (a, b) in [(p, q), (q, p)] {
             side_of_cycle(layout, &depths, a, b, &mut way);
-            for (i, &c) in way.iter().enumerate() {
+            turned.clear();
+            for &c in &way {
                 *steps = steps.checked_sub(1)?;
-                let turned = way[..i].iter().map(|&x| {
-                    let between = folding(x);
-                    branches.below(c, between) - 2.0 * branches.below(x, between)
-                });
-                let now = branches.along(c, b) + branches.below(c, added) + turned.sum::<f64>();
+                let turns = turned.iter().map(|&(between, twice)| branches.below(c, between) - twice);
+                let now = branches.along(c, b) + branches.below(c, added) + turns.sum::<f64>();
                 let change = now - branches.along(c, c);
+                turned.push((folding(c), 2.0 * branches.below(c, folding(c))));
                 if change < -gain && (rules.fits)(layout, [folding(c), added]) {
                     better.push((change, added, folding(c)));
                 }

@@ -18,11 +18,11 @@
 //! functionals*). The greatest L is the bound of the linear program of multicommodity
 //! flows.
 
-use super::shortest_paths::{self, Allowed, Arc, QueueEntry};
+use super::frontier::Frontier;
+use super::shortest_paths::{self, Allowed, Arc};
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
-use std::collections::BinaryHeap;
 
 /// The number of rounds without progress after which steps are shortened.
 const STALLED_ROUNDS_MAX: usize = 30;
@@ -67,13 +67,23 @@ pub struct AscentLimits {
     pub length: f64,
 }
 
+/// An arc out of a face: where it leads.
+#[derive(Clone, Copy, Debug, Default)]
+struct Exit {
+    /// The face that it enters.
+    into: u32,
+    arc: Arc,
+    /// The bit of its side in [`Allowed`]; 0 of a side without a hinge, which is never allowed.
+    bit: u8,
+}
+
 /// The Lagrangian relaxation of one target under its weights, with its working memory.
 pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
     arcs: usize,
-    /// The faces around each face and the arcs that lead there.
-    out: Vec<Vec<(usize, usize)>>,
+    /// The arcs that leave each face.
+    out: Vec<[Exit; 3]>,
     /// The face from which each arc comes.
     tail: Vec<usize>,
     /// The cost with the multiplier, by face, then by arc.
@@ -84,7 +94,7 @@ pub struct Lagrangian<'t> {
     /// The arc by which a goal's path enters a face, by goal, then by face.
     entered: Vec<Arc>,
     distance: Vec<f64>,
-    queue: BinaryHeap<QueueEntry>,
+    queue: Frontier,
     /// The arc into each face that was chosen.
     chosen: Vec<usize>,
 }
@@ -94,14 +104,17 @@ impl<'t> Lagrangian<'t> {
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
         let arcs = 3 * faces;
-        let mut out = vec![Vec::new(); faces];
+        let mut out = vec![[Exit::default(); 3]; faces];
         let mut tail = vec![usize::MAX; arcs];
         let mut costs = vec![f64::INFINITY; faces * arcs];
         for (index, hinge) in target.hinges.iter().enumerate() {
             for end in 0..2 {
                 let (into, from) = (hinge.faces[end], hinge.faces[1 - end]);
-                let arc = shortest_paths::arc(into, hinge.sides[end]) as usize;
-                out[from].push((into, arc));
+                let arc = shortest_paths::arc(into, hinge.sides[end]);
+                let free = out[from].iter_mut().find(|exit: &&mut Exit| exit.bit == 0);
+                *free.expect("a face has three sides") =
+                    Exit { into: into as u32, arc, bit: 1 << hinge.sides[end] };
+                let arc = arc as usize;
                 tail[arc] = from;
                 for face in 0..faces {
                     costs[face * arcs + arc] = weights.at(index, face);
@@ -119,7 +132,7 @@ impl<'t> Lagrangian<'t> {
             reached: vec![[f64::INFINITY; 3]; faces],
             entered: vec![Arc::MAX; faces * faces],
             distance: vec![0.0; faces],
-            queue: BinaryHeap::new(),
+            queue: Frontier::default(),
             chosen: vec![usize::MAX; faces],
         }
     }
@@ -209,37 +222,40 @@ impl<'t> Lagrangian<'t> {
         let costs = &self.costs[goal * self.arcs..][..self.arcs];
         let multipliers = &self.multipliers[goal * self.arcs..][..self.arcs];
         let entered = &mut self.entered[goal * self.faces..][..self.faces];
+        let distance = &mut self.distance[..self.faces];
         let mut found = [f64::INFINITY; 3];
         let mut sides_left = allowed[goal].count_ones();
-        self.distance.fill(f64::INFINITY);
-        self.distance[root] = 0.0;
-        self.queue.clear();
-        self.queue.push(QueueEntry { cost: 0.0, face: root });
-        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
-            if cost > self.distance[face] {
+        let mut settled = 0;
+        distance.fill(f64::INFINITY);
+        distance[root] = 0.0;
+        self.queue.begin(root);
+        while let Some((cost, face)) = self.queue.pop() {
+            if cost > distance[face] {
                 continue;
             }
-            *steps = steps.saturating_sub(1);
-            for &(other, arc) in &self.out[face] {
-                if allowed[other] & (1 << (arc % 3)) == 0 {
+            settled += 1;
+            for &Exit { into, arc, bit } in &self.out[face] {
+                let (into, arc) = (into as usize, arc as usize);
+                if allowed[into] & bit == 0 {
                     continue;
                 }
-                if other == goal {
+                if into == goal {
                     found[arc % 3] = cost + costs[arc];
                     sides_left -= 1;
                     continue;
                 }
                 let further = cost + costs[arc] + multipliers[arc];
-                if further < self.distance[other] {
-                    self.distance[other] = further;
-                    entered[other] = arc as Arc;
-                    self.queue.push(QueueEntry { cost: further, face: other });
+                if further < distance[into] {
+                    distance[into] = further;
+                    entered[into] = arc as Arc;
+                    self.queue.push(further, into);
                 }
             }
             if sides_left == 0 {
                 break;
             }
         }
+        *steps = steps.saturating_sub(settled);
         self.reached[goal] = found;
     }
 
@@ -320,9 +336,10 @@ impl<'t> Lagrangian<'t> {
                     up.push((goal, row + arc));
                 }
             });
-            for face in (0..self.faces).filter(|face| *face != root && *face != goal) {
-                let arc = self.chosen[face];
-                if used[arc] != goal && self.multipliers[row + arc] > 0.0 {
+            let multipliers = &self.multipliers[row..][..self.arcs];
+            for (face, &arc) in self.chosen.iter().enumerate() {
+                // Few multipliers are not zero.
+                if face != root && multipliers[arc] > 0.0 && face != goal && used[arc] != goal {
                     down.push((goal, row + arc));
                 }
             }

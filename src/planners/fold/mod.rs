@@ -40,6 +40,7 @@ mod weights;
 pub mod branch_and_bound;
 pub mod edge_exchange;
 pub mod enumerate;
+mod frontier;
 pub mod heuristic;
 pub mod lagrangian;
 pub mod local_search;

@@ -3,11 +3,10 @@
 //! A layout's energy is a sum over faces of what their own path costs for them. Without the demand
 //! that the paths be one tree, each face takes its cheapest path: no layout costs less.
 
+use super::frontier::Frontier;
 use super::layout::Layout;
 use super::target::Target;
 use super::weights::Weights;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 /// An arc into a face across one of its sides (0 to 2): `3 * face + side`.
@@ -84,39 +83,10 @@ pub struct ShortestPaths<'t> {
     toward: Vec<Vec<f64>>,
     distance: Vec<f64>,
     entered: Vec<Arc>,
-    queue: BinaryHeap<QueueEntry>,
+    queue: Frontier,
     /// The greatest number of hinges on a path that [`route`](Self::route) returns; no limit at first.
     pub longest: usize,
 }
-
-/// An entry of the priority queue of Dijkstra's algorithm and of A*. Its order is reversed for [`BinaryHeap`]: the
-/// cheapest entry is the greatest, and of equal ones that of the smaller face.
-pub struct QueueEntry {
-    /// The cost of the path to the face so far, with A* plus the least cost from there to the goal; N·m for steps of
-    /// one second.
-    pub cost: f64,
-    /// The index in [`Target::faces`] of the face that the path has reached.
-    pub face: usize,
-}
-
-impl Ord for QueueEntry {
-    #[inline]
-    fn cmp(&self, other: &QueueEntry) -> Ordering {
-        other.cost.total_cmp(&self.cost).then(other.face.cmp(&self.face))
-    }
-}
-impl PartialOrd for QueueEntry {
-    #[inline]
-    fn partial_cmp(&self, other: &QueueEntry) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for QueueEntry {
-    fn eq(&self, other: &QueueEntry) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for QueueEntry {}
 
 const UNREACHED: Arc = Arc::MAX;
 
@@ -132,7 +102,7 @@ impl<'t> ShortestPaths<'t> {
             toward: vec![Vec::new(); n],
             distance: vec![f64::INFINITY; n],
             entered: vec![UNREACHED; n],
-            queue: BinaryHeap::new(),
+            queue: Frontier::default(),
             longest: usize::MAX,
         };
         for face in 0..n {
@@ -155,9 +125,8 @@ impl<'t> ShortestPaths<'t> {
         crate::interrupt::checkpoint();
         self.distance.fill(f64::INFINITY);
         self.distance[goal] = 0.0;
-        self.queue.clear();
-        self.queue.push(QueueEntry { cost: 0.0, face: goal });
-        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
+        self.queue.begin(goal);
+        while let Some((cost, face)) = self.queue.pop() {
             if cost > self.distance[face] {
                 continue;
             }
@@ -165,7 +134,7 @@ impl<'t> ShortestPaths<'t> {
                 let further = cost + self.weights.at(hinge, goal);
                 if further < self.distance[other] {
                     self.distance[other] = further;
-                    self.queue.push(QueueEntry { cost: further, face: other });
+                    self.queue.push(further, other);
                 }
             }
         }
@@ -183,9 +152,8 @@ impl<'t> ShortestPaths<'t> {
         self.distance.fill(f64::INFINITY);
         self.distance[root] = 0.0;
         self.entered[root] = UNREACHED;
-        self.queue.clear();
-        self.queue.push(QueueEntry { cost: ahead[root], face: root });
-        while let Some(QueueEntry { cost, face }) = self.queue.pop() {
+        self.queue.begin(root);
+        while let Some((cost, face)) = self.queue.pop() {
             if face == goal {
                 return Some((self.distance[goal], self.path_to(root, goal)));
             }
@@ -203,7 +171,7 @@ impl<'t> ShortestPaths<'t> {
                 if further < self.distance[other] {
                     self.distance[other] = further;
                     self.entered[other] = arc(other, side);
-                    self.queue.push(QueueEntry { cost: further + ahead[other], face: other });
+                    self.queue.push(further + ahead[other], other);
                 }
             }
         }
