@@ -98,7 +98,7 @@ pub struct Settings {
     pub seed: u64,
     /// The greatest number of search steps. One is, in branch and bound, a node of the search tree, a face settled on a
     /// path, the evaluation of an exchange of two hinges, or as many sums as take that long; in local search, a layout
-    /// measured with one root; in enumeration, a layout visited. Default 100 million, which take 5 to 8 s.
+    /// measured with one root; in enumeration, a layout visited. Default 100 million, which take 3 to 5 s.
     pub budget: u64,
     /// The settings of the judge that every plan has to pass. Default [`plan::Settings::default`].
     pub judge: plan::Settings,
