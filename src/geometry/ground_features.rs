@@ -66,15 +66,6 @@ impl Feature {
         }
     }
 
-    /// Returns the height of [`point`](Self::point) `k` along the unit vector `up` (in the feature's frame), m, from the
-    /// origin of that frame.
-    pub fn height(&self, k: u8, up: &Vec3) -> f64 {
-        let Form::Circle(axis, radius) = self.form else { return self.lowest(up) };
-        let along = up.dot(&axis);
-        let (_, cosine) = EIGHTHS[usize::from(k % CIRCLE_POINTS)];
-        up.dot(&self.centre) - radius * cosine * libm::sqrt((1.0 - along * along).max(0.0))
-    }
-
     /// Returns point `k` of those that represent the feature, in its frame, m; 0 is the lowest along the unit vector
     /// `up` (in that frame), the others of a circle, 1 to 7, follow at eighths of a turn.
     pub fn point(&self, k: u8, up: &Vec3) -> Vec3 {
@@ -85,6 +76,29 @@ impl Feature {
                 let e = downhill(&axis, up);
                 let (s, c) = EIGHTHS[usize::from(k % CIRCLE_POINTS)];
                 self.centre + (e * c + axis.cross(&e) * s) * radius
+            }
+        }
+    }
+
+    /// Calls `found` with the number and the position ([`point`](Self::point), m) of each of the feature's points whose
+    /// height along the unit vector `up` (in the feature's frame) is less than `limit`, m from the origin of that frame.
+    pub fn points_below(&self, up: &Vec3, limit: f64, mut found: impl FnMut(u8, Vec3)) {
+        let Form::Circle(axis, radius) = self.form else {
+            if self.lowest(up) < limit {
+                found(0, self.point(0, up));
+            }
+            return;
+        };
+        let (along, height) = (up.dot(&axis), up.dot(&self.centre));
+        let fall = libm::sqrt((1.0 - along * along).max(0.0));
+        if height - radius * fall >= limit {
+            return;
+        }
+        let e = downhill(&axis, up);
+        let across = axis.cross(&e);
+        for (k, (s, c)) in (0..CIRCLE_POINTS).zip(EIGHTHS) {
+            if height - radius * c * fall < limit {
+                found(k, self.centre + (e * c + across * s) * radius);
             }
         }
     }

@@ -4,11 +4,11 @@
 //! [`ArticulatedBodies`] takes trees of bodies with axes and inertias in the world, as a simulation has them;
 //! [`ForwardDynamics`] the state of one robot, as a question about an instant has it.
 
-use super::dynamics::{Dynamics, MotionState, Twist, Wrench};
+use super::dynamics::{Dynamics, MotionState, RigidBody, Twist, Wrench};
 use super::kinematics::Kinematics;
 use super::spatial::{SpatialInertia, SpatialVector};
 use crate::geometry::{Pose, Vec3};
-use nalgebra::{Cholesky, Const, DVector};
+use nalgebra::{Cholesky, Const, DVector, Matrix3};
 
 /// The way in which a body hangs on others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub enum Attachment {
 #[derive(Clone, Copy, Debug)]
 struct Body {
     attachment: Attachment,
+    /// True if the body carries others; if not, its articulated inertia is its own.
+    carries: bool,
     /// The twist of the body for a unit velocity of its joint; zero without one.
     axis: SpatialVector,
     velocity: SpatialVector,
@@ -43,13 +45,21 @@ struct Body {
     /// The articulated inertia and bias force.
     inertia: SpatialInertia,
     bias: SpatialVector,
-    /// The articulated inertia times the axis, and the axis times that with the armature.
+    /// The articulated inertia times the axis, and one divided by the axis times that with the armature.
     force: SpatialVector,
-    joint_inertia: f64,
+    joint_mobility: f64,
     /// The effort that is left to accelerate the joint.
     joint_effort: f64,
     acceleration: SpatialVector,
     joint_acceleration: f64,
+}
+
+impl Body {
+    /// Returns the articulated inertia.
+    #[inline]
+    fn articulated(&self) -> &SpatialInertia {
+        if self.carries { &self.inertia } else { &self.own_inertia }
+    }
 }
 
 /// Trees of rigid bodies with the memory that their forward dynamics needs. Bodies go by their indices; those that
@@ -71,6 +81,7 @@ impl ArticulatedBodies {
             }
             Body {
                 attachment: *attachment,
+                carries: false,
                 axis: SpatialVector::default(),
                 velocity: SpatialVector::default(),
                 mid_velocity: SpatialVector::default(),
@@ -82,13 +93,18 @@ impl ArticulatedBodies {
                 inertia: SpatialInertia::default(),
                 bias: SpatialVector::default(),
                 force: SpatialVector::default(),
-                joint_inertia: 0.0,
+                joint_mobility: 0.0,
                 joint_effort: 0.0,
                 acceleration: SpatialVector::default(),
                 joint_acceleration: 0.0,
             }
         };
-        let bodies: Vec<Body> = attachments.iter().enumerate().map(body).collect();
+        let mut bodies: Vec<Body> = attachments.iter().enumerate().map(body).collect();
+        for attachment in attachments {
+            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = attachment {
+                bodies[*parent].carries = true;
+            }
+        }
         let base = |b: &Body| matches!(b.attachment, Attachment::Floating | Attachment::Held);
         let bases = (0..bodies.len()).filter(|&b| base(&bodies[b])).map(|b| (b, None)).collect();
         ArticulatedBodies { bodies, bases }
@@ -114,11 +130,12 @@ impl ArticulatedBodies {
     /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `mid_rate` the one of which velocity products are taken.
     #[inline]
     pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, mid_rate: f64) {
-        let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = self.bodies[body].attachment else {
+        let (before, after) = self.bodies.split_at_mut(body);
+        let body = &mut after[0];
+        let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = body.attachment else {
             return;
         };
-        let Body { velocity, mid_velocity: carried, .. } = self.bodies[parent];
-        let body = &mut self.bodies[body];
+        let Body { velocity, mid_velocity: carried, .. } = &before[parent];
         body.axis = axis;
         body.velocity = velocity.plus(&axis, rate);
         let own = SpatialVector { angular: axis.angular * mid_rate, linear: axis.linear * mid_rate };
@@ -133,6 +150,30 @@ impl ArticulatedBodies {
         let body = &mut self.bodies[body];
         body.own_bias = body.mid_velocity.cross_force(&inertia.times(&body.mid_velocity)).plus(wrench, -1.0);
         body.own_inertia = inertia;
+    }
+
+    /// Sets inertia and weight of a rigid body, whose motion must have been set; what was added to it before is gone. `R`: the
+    /// rotation from its frame to the world; `com`: its centre of mass, from O in the world (m); `gravity`: the acceleration
+    /// of free fall in the world, m/s².
+    #[inline]
+    pub fn set_rigid(
+        &mut self,
+        body: usize,
+        rigid: &RigidBody,
+        R: &Matrix3<f64>,
+        com: &Vec3,
+        gravity: &Vec3,
+    ) {
+        let body = &mut self.bodies[body];
+        body.own_inertia = SpatialInertia::of_rigid(rigid, R, com);
+        let SpatialVector { angular, linear } = body.mid_velocity;
+        let (mass, first) = (rigid.mass, com * rigid.mass);
+        let momentum = SpatialVector {
+            angular: body.own_inertia.angular.times(&angular) + first.cross(&linear),
+            linear: linear * mass + angular.cross(&first),
+        };
+        let weight = SpatialVector { angular: first.cross(gravity), linear: gravity * mass };
+        body.own_bias = body.mid_velocity.cross_force(&momentum).plus(&weight, -1.0);
     }
 
     /// Adds an inertia, such as that of an implicit contact, to a body, and a wrench that acts on it (N·m, N).
@@ -150,9 +191,9 @@ impl ArticulatedBodies {
     }
 
     /// Sets inertia and bias force of a body back to what they were: takes back what was added since.
-    pub fn restore(&mut self, body: usize, (inertia, bias): (SpatialInertia, SpatialVector)) {
-        self.bodies[body].own_inertia = inertia;
-        self.bodies[body].own_bias = bias;
+    pub fn restore(&mut self, body: usize, (inertia, bias): &(SpatialInertia, SpatialVector)) {
+        self.bodies[body].own_inertia = *inertia;
+        self.bodies[body].own_bias = *bias;
     }
 
     /// Sets the effort of a body's joint (N·m or N), and its armature: the inertia (kg·m² or kg) that it has besides that
@@ -164,17 +205,20 @@ impl ArticulatedBodies {
     }
 
     /// Returns the twist of a body about O, rad/s and m/s.
+    #[inline]
     pub fn velocity(&self, body: usize) -> &SpatialVector {
         &self.bodies[body].velocity
     }
 
     /// Returns the spatial acceleration of a body about O, rad/s² and m/s², as found last. The acceleration of the body's
     /// point at `p` is that of [`SpatialVector::at`] with `ω × v` of that point besides.
+    #[inline]
     pub fn acceleration(&self, body: usize) -> &SpatialVector {
         &self.bodies[body].acceleration
     }
 
     /// Returns the acceleration of a body's joint, rad/s² or m/s², as found last; 0 without a joint.
+    #[inline]
     pub fn joint_acceleration(&self, body: usize) -> f64 {
         self.bodies[body].joint_acceleration
     }
@@ -183,7 +227,7 @@ impl ArticulatedBodies {
     /// holds it, which is zero if it floats.
     pub fn transmitted(&self, body: usize) -> SpatialVector {
         let body = &self.bodies[body];
-        body.inertia.times(&body.acceleration).plus(&body.bias, 1.0)
+        body.articulated().times(&body.acceleration).plus(&body.bias, 1.0)
     }
 
     /// Finds the accelerations of all bodies, in time linear in their number (Featherstone 2008, table 7.1). `None` where
@@ -191,30 +235,37 @@ impl ArticulatedBodies {
     #[must_use]
     pub fn accelerate(&mut self) -> Option<()> {
         for body in &mut self.bodies {
-            body.inertia = body.own_inertia;
             body.bias = body.own_bias;
+            if body.carries {
+                body.inertia = body.own_inertia;
+            }
         }
         for index in (0..self.bodies.len()).rev() {
             let (before, after) = self.bodies.split_at_mut(index);
             let body = &mut after[0];
             match body.attachment {
                 Attachment::Joint(parent) => {
-                    body.force = body.inertia.times(&body.axis);
-                    body.joint_inertia = body.axis.dot(&body.force) + body.armature;
-                    body.joint_effort = body.effort - body.axis.dot(&body.bias);
-                    if body.joint_inertia.is_nan() || body.joint_inertia <= 0.0 {
+                    let (inertia, bias) = (body.articulated(), body.bias);
+                    let force = inertia.times(&body.axis);
+                    let joint_inertia = body.axis.dot(&force) + body.armature;
+                    if joint_inertia.is_nan() || joint_inertia <= 0.0 {
                         return None;
                     }
-                    let left = body.inertia.less(&body.force, body.joint_inertia);
-                    let bias = body.bias.plus(&left.times(&body.product), 1.0);
+                    let joint_effort = body.effort - body.axis.dot(&bias);
+                    let mobility = 1.0 / joint_inertia;
+                    let left = inertia.less(&force, mobility);
+                    let pushed =
+                        bias.plus(&left.times(&body.product), 1.0).plus(&force, joint_effort * mobility);
                     let parent = &mut before[parent];
                     parent.inertia.add(&left);
-                    let pushed = bias.plus(&body.force, body.joint_effort / body.joint_inertia);
                     parent.bias = parent.bias.plus(&pushed, 1.0);
+                    body.force = force;
+                    body.joint_mobility = mobility;
+                    body.joint_effort = joint_effort;
                 }
                 Attachment::Fixed(parent) => {
                     let parent = &mut before[parent];
-                    parent.inertia.add(&body.inertia);
+                    parent.inertia.add(body.articulated());
                     parent.bias = parent.bias.plus(&body.bias, 1.0);
                 }
                 Attachment::Floating | Attachment::Held => {}
@@ -224,7 +275,7 @@ impl ArticulatedBodies {
             let body = &mut self.bodies[*base];
             *decomposed = None;
             if body.attachment == Attachment::Floating {
-                let cholesky = body.inertia.matrix().cholesky()?;
+                let cholesky = body.articulated().matrix().cholesky()?;
                 let solved = cholesky.solve(&-body.bias.vector());
                 body.acceleration = SpatialVector::from_vector(&solved);
                 *decomposed = Some(cholesky);
@@ -236,7 +287,7 @@ impl ArticulatedBodies {
             match body.attachment {
                 Attachment::Joint(parent) => {
                     let carried = before[parent].acceleration.plus(&body.product, 1.0);
-                    let relative = (body.joint_effort - body.force.dot(&carried)) / body.joint_inertia;
+                    let relative = (body.joint_effort - body.force.dot(&carried)) * body.joint_mobility;
                     body.joint_acceleration = relative;
                     body.acceleration = carried.plus(&body.axis, relative);
                 }
@@ -270,7 +321,7 @@ impl ArticulatedBodies {
                 Attachment::Joint(parent) => {
                     let effort = out.efforts[index] - body.axis.dot(&bias);
                     out.efforts[index] = effort;
-                    let pushed = bias.plus(&body.force, effort / body.joint_inertia);
+                    let pushed = bias.plus(&body.force, effort * body.joint_mobility);
                     out.bias[parent] = out.bias[parent].plus(&pushed, 1.0);
                 }
                 Attachment::Fixed(parent) => out.bias[parent] = out.bias[parent].plus(&bias, 1.0),
@@ -286,7 +337,7 @@ impl ArticulatedBodies {
             match body.attachment {
                 Attachment::Joint(parent) => {
                     let carried = out.bodies[parent];
-                    let relative = (out.efforts[index] - body.force.dot(&carried)) / body.joint_inertia;
+                    let relative = (out.efforts[index] - body.force.dot(&carried)) * body.joint_mobility;
                     out.joints[index] = relative;
                     out.bodies[index] = carried.plus(&body.axis, relative);
                 }

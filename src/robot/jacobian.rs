@@ -5,7 +5,7 @@ use super::assembly::{Assembly, PortRef};
 use super::kinematics::Kinematics;
 use super::step::{Motion, Step};
 use crate::geometry::{Pose, Vec3};
-use nalgebra::{DMatrix, Matrix6};
+use nalgebra::{DMatrix, Matrix3, Matrix6};
 
 /// A frame that is fixed to a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +82,22 @@ impl Step {
             }
             (_, None) => None,
         }
+    }
+
+    /// Returns the axis as [`axis_between`](Self::axis_between) does; `R_WB`: the rotation of the child's pose as a matrix.
+    #[inline]
+    pub fn axis_turned(&self, X_WA: &Pose, X_WB: &Pose, R_WB: &Matrix3<f64>) -> Option<JointAxis> {
+        let axis = match self.motion {
+            Motion::Along(direction) => {
+                return Some(JointAxis::Prismatic { axis: X_WA.rotation * direction });
+            }
+            Motion::Fixed => return None,
+            Motion::X(sign) => R_WB.column(0) * sign,
+            Motion::Y(sign) => R_WB.column(1) * sign,
+            Motion::Z(sign) => R_WB.column(2) * sign,
+            Motion::Axis(axis) => R_WB * axis,
+        };
+        Some(JointAxis::Revolute { axis, point: X_WB.translation.vector - R_WB * self.offset })
     }
 }
 

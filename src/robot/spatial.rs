@@ -3,8 +3,9 @@
 //!
 //! All quantities of a computation are along the axes of the world and about one point O: an inertia is added to that of
 //! the body that carries it as it is, without any change of frame.
+#![allow(non_snake_case)]
 
-use super::dynamics::{Composite, Wrench};
+use super::dynamics::{Composite, RigidBody, Wrench};
 use super::jacobian::JointAxis;
 use crate::geometry::Vec3;
 use nalgebra::{Matrix3, Matrix6, Vector6};
@@ -79,62 +80,156 @@ impl From<Wrench> for SpatialVector {
     }
 }
 
+/// A symmetric 3 × 3 matrix, by the six entries that may differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Symmetric {
+    /// The entries xx, xy, xz, yy, yz and zz, in the unit of the matrix.
+    pub entries: [f64; 6],
+}
+
+impl Symmetric {
+    /// Returns the matrix with the upper triangle of another.
+    #[inline]
+    pub fn of_upper(m: &Matrix3<f64>) -> Symmetric {
+        Symmetric { entries: [m[(0, 0)], m[(0, 1)], m[(0, 2)], m[(1, 1)], m[(1, 2)], m[(2, 2)]] }
+    }
+
+    /// Returns the product with a vector.
+    #[inline]
+    pub fn times(&self, v: &Vec3) -> Vec3 {
+        let [xx, xy, xz, yy, yz, zz] = self.entries;
+        Vec3::new(
+            xx * v.x + xy * v.y + xz * v.z,
+            xy * v.x + yy * v.y + yz * v.z,
+            xz * v.x + yz * v.y + zz * v.z,
+        )
+    }
+
+    /// Adds another matrix.
+    #[inline]
+    pub fn add(&mut self, other: &Symmetric) {
+        self.entries.iter_mut().zip(other.entries).for_each(|(sum, entry)| *sum += entry);
+    }
+
+    /// Returns the matrix less `u uᵀ` times a factor.
+    #[inline]
+    pub fn less(&self, u: &Vec3, factor: f64) -> Symmetric {
+        let f = u * factor;
+        let [xx, xy, xz, yy, yz, zz] = self.entries;
+        Symmetric {
+            entries: [
+                xx - f.x * u.x,
+                xy - f.x * u.y,
+                xz - f.x * u.z,
+                yy - f.y * u.y,
+                yz - f.y * u.z,
+                zz - f.z * u.z,
+            ],
+        }
+    }
+
+    /// Returns all nine entries.
+    pub fn matrix(&self) -> Matrix3<f64> {
+        let [xx, xy, xz, yy, yz, zz] = self.entries;
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+}
+
 /// A symmetric spatial inertia about O, or an impedance: it maps a twist to a momentum, or to a wrench. Rows are angular
 /// and linear: `[[angular, mixed], [mixedᵀ, linear]]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpatialInertia {
     /// The moments of inertia about O, kg·m².
-    pub angular: Matrix3<f64>,
+    pub angular: Symmetric,
     /// The first moment of mass as a cross product, kg·m.
     pub mixed: Matrix3<f64>,
     /// The mass along each axis, kg.
-    pub linear: Matrix3<f64>,
+    pub linear: Symmetric,
 }
 
 impl SpatialInertia {
-    /// Returns the inertia that a symmetric matrix `linear` (kg) at one point of a body makes; `point`: that point, from
-    /// O (m).
-    pub fn at_point(linear: &Matrix3<f64>, point: &Vec3) -> SpatialInertia {
-        let cross = point.cross_matrix();
-        let mixed = cross * linear;
-        SpatialInertia { angular: mixed * cross.transpose(), mixed, linear: *linear }
+    /// Returns the inertia that one point of a body makes which is as heavy as `across` (kg), and by `along` (kg) heavier along
+    /// a unit vector `normal`; `point`: that point, from O (m).
+    #[inline]
+    pub fn at_point(across: f64, along: f64, normal: &Vec3, point: &Vec3) -> SpatialInertia {
+        let arm = point.cross(normal);
+        let even = Symmetric { entries: [across, 0.0, 0.0, across, 0.0, across] };
+        let about = across * point.norm_squared();
+        let turning = Symmetric { entries: [about, 0.0, 0.0, about, 0.0, about] };
+        SpatialInertia {
+            angular: turning.less(point, across).less(&arm, -along),
+            mixed: (point * across).cross_matrix() + arm * (normal * along).transpose(),
+            linear: even.less(normal, -along),
+        }
+    }
+
+    /// Returns the inertia of a rigid body about O; `R`: the rotation from its frame to the world; `com`: its centre of mass,
+    /// from O in the world (m).
+    #[inline]
+    pub fn of_rigid(body: &RigidBody, R: &Matrix3<f64>, com: &Vec3) -> SpatialInertia {
+        let I = &body.inertia;
+        let row = |i: usize| {
+            let (x, y, z) = (R[(i, 0)], R[(i, 1)], R[(i, 2)]);
+            let turned = Vec3::new(
+                x * I[(0, 0)] + y * I[(0, 1)] + z * I[(0, 2)],
+                x * I[(0, 1)] + y * I[(1, 1)] + z * I[(1, 2)],
+                x * I[(0, 2)] + y * I[(1, 2)] + z * I[(2, 2)],
+            );
+            (turned, Vec3::new(x, y, z))
+        };
+        let ((ax, x), (ay, y), (az, z)) = (row(0), row(1), row(2));
+        let first = com * body.mass;
+        let about = first.dot(com);
+        let entries = [
+            ax.dot(&x) + about - first.x * com.x,
+            ax.dot(&y) - first.x * com.y,
+            ax.dot(&z) - first.x * com.z,
+            ay.dot(&y) + about - first.y * com.y,
+            ay.dot(&z) - first.y * com.z,
+            az.dot(&z) + about - first.z * com.z,
+        ];
+        SpatialInertia {
+            angular: Symmetric { entries },
+            mixed: first.cross_matrix(),
+            linear: Symmetric { entries: [body.mass, 0.0, 0.0, body.mass, 0.0, body.mass] },
+        }
     }
 
     /// Returns the momentum of a twist, or the wrench of an acceleration.
     #[inline]
     pub fn times(&self, v: &SpatialVector) -> SpatialVector {
         SpatialVector {
-            angular: self.angular * v.angular + self.mixed * v.linear,
-            linear: self.mixed.tr_mul(&v.angular) + self.linear * v.linear,
+            angular: self.angular.times(&v.angular) + self.mixed * v.linear,
+            linear: self.mixed.tr_mul(&v.angular) + self.linear.times(&v.linear),
         }
     }
 
     /// Adds another inertia.
     #[inline]
     pub fn add(&mut self, other: &SpatialInertia) {
-        self.angular += other.angular;
+        self.angular.add(&other.angular);
         self.mixed += other.mixed;
-        self.linear += other.linear;
+        self.linear.add(&other.linear);
     }
 
-    /// Returns the inertia less `u uᵀ / d`.
+    /// Returns the inertia less `u uᵀ` times a factor.
     #[inline]
-    pub fn less(&self, u: &SpatialVector, d: f64) -> SpatialInertia {
-        let (angular, linear) = (u.angular / d, u.linear / d);
+    pub fn less(&self, u: &SpatialVector, factor: f64) -> SpatialInertia {
+        let angular = u.angular * factor;
         SpatialInertia {
-            angular: self.angular - angular * u.angular.transpose(),
+            angular: self.angular.less(&u.angular, factor),
             mixed: self.mixed - angular * u.linear.transpose(),
-            linear: self.linear - linear * u.linear.transpose(),
+            linear: self.linear.less(&u.linear, factor),
         }
     }
 
     /// Returns the 6 × 6 matrix, angular rows first.
     pub fn matrix(&self) -> Matrix6<f64> {
         let mut matrix = Matrix6::zeros();
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.angular);
+        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.angular.matrix());
         matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.mixed);
         matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.mixed.transpose());
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.linear);
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.linear.matrix());
         matrix
     }
 }
@@ -143,9 +238,9 @@ impl From<Composite> for SpatialInertia {
     /// Returns the inertia of bodies that move as one, about the point that theirs is about.
     fn from(composite: Composite) -> SpatialInertia {
         SpatialInertia {
-            angular: composite.inertia,
+            angular: Symmetric::of_upper(&composite.inertia),
             mixed: composite.first.cross_matrix(),
-            linear: Matrix3::from_diagonal_element(composite.mass),
+            linear: Symmetric { entries: [composite.mass, 0.0, 0.0, composite.mass, 0.0, composite.mass] },
         }
     }
 }

@@ -41,6 +41,8 @@ pub(super) struct Contact {
     pub pushes: bool,
     /// The part of the spring's force across the normal that friction bears.
     pub share: f64,
+    /// True if the last round changed whether it pushes, or that part.
+    pub changed: bool,
     /// The force on the body, N: that of the last round, for the velocity that the round found.
     pub force: Vec3,
 }
@@ -68,6 +70,7 @@ impl Contact {
             shift,
             pushes: true,
             share,
+            changed: false,
             force: Vec3::zeros(),
         }
     }
@@ -83,10 +86,12 @@ impl Contact {
             true => self.normal * pressing + tried * self.share,
             false => Vec3::zeros(),
         };
+        let before = (self.pushes, self.share);
         self.pushes = pressing > 0.0;
         let pressing = pressing.max(0.0);
         let ([slides, sticks], size) = (self.friction.map(|friction| friction * pressing), tried.norm());
         self.share = if size <= sticks { 1.0 } else { slides / size };
+        self.changed = before != (self.pushes, self.share);
         (self.normal * pressing + tried * self.share - self.force).norm()
     }
 

@@ -6,7 +6,7 @@
 use super::contact::{Contact, Spring};
 use super::model::{Model, Surface};
 use crate::geometry::ground_features::{CIRCLE_POINTS, Feature, tread};
-use crate::geometry::{HeightField, Mat3, Pose, Vec3};
+use crate::geometry::{HeightField, Pose, Vec3};
 use crate::robot::articulated_bodies::ArticulatedBodies;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
 use std::sync::Arc;
@@ -20,8 +20,9 @@ pub(super) struct GroundContact {
     spring: usize,
     /// The position from the point that spatial vectors are about, m.
     pub point: Vec3,
-    /// The velocity of the body's point after the step if nothing accelerates, m/s.
+    /// The velocity of the body's point after the step if nothing accelerates, and for the accelerations found last, m/s.
     coasting: Vec3,
+    velocity: Vec3,
     /// True if the body did not touch the ground in the step before.
     is_new: bool,
     /// The contact itself.
@@ -50,8 +51,8 @@ pub(super) struct GroundContacts {
     springs: Vec<Spring>,
     /// The points that touch now.
     pub contacts: Vec<GroundContact>,
-    /// The bodies that touched in the step before, ascending.
-    touched: Vec<usize>,
+    /// The number of the last step in which each body touched the ground; 0: none.
+    touched: Vec<u64>,
     /// The height field with its greatest height, m; `None`: the ground is level.
     terrain: Option<(Arc<HeightField>, f64)>,
     /// The way that each body has slid over the ground since the start, m: of its points that slide, the fastest counts.
@@ -68,7 +69,7 @@ impl GroundContacts {
         GroundContacts {
             springs: vec![Spring::default(); springs],
             contacts: Vec::new(),
-            touched: Vec::new(),
+            touched: vec![0; model.bodies.len()],
             slid: vec![0.0; model.bodies.len()],
             terrain: terrain.map(|field| (field.clone(), field.highest())),
             step,
@@ -85,8 +86,6 @@ impl GroundContacts {
         origin: &Vec3,
         now: u64,
     ) {
-        self.touched.clear();
-        self.touched.extend(self.contacts.iter().map(|contact| contact.body));
         self.contacts.clear();
         let terrain = self.terrain.take();
         let mut first = 0;
@@ -108,6 +107,9 @@ impl GroundContacts {
             match &terrain {
                 None => level(&body.features, pose, &own_up, found),
                 Some((field, _)) => uneven(&body.features, pose, field, found),
+            }
+            if self.contacts.last().is_some_and(|contact| contact.body == index) {
+                self.touched[index] = now;
             }
         }
         self.terrain = terrain;
@@ -131,7 +133,8 @@ impl GroundContacts {
             spring: touch.spring,
             point,
             coasting: twist.at(&point) + turning,
-            is_new: self.touched.binary_search(&touch.body).is_err(),
+            velocity: Vec3::zeros(),
+            is_new: self.touched[touch.body] == 0 || self.touched[touch.body] + 1 < now,
             contact: Contact::new(
                 touch.normal,
                 touch.depth,
@@ -153,9 +156,24 @@ impl GroundContacts {
         coming.map(|contact| -contact.contact.normal.dot(&contact.coasting)).fold(0.0, f64::max)
     }
 
-    /// Adds the contacts to their bodies: each counts as an inertia `h C` besides its force.
-    pub(super) fn add_to(&self, bodies: &mut ArticulatedBodies) {
-        self.contacts.iter().for_each(|contact| contact.add_to(bodies, self.step));
+    /// Adds the contacts to their bodies: each counts as an inertia `h C` besides its force. In rounds after the first one
+    /// (`again`) only the bodies are set anew of which a contact changed. `owns`: the bodies that touch, in the order of
+    /// their contacts, each with its own inertia and bias force.
+    pub(super) fn add_to(
+        &self,
+        bodies: &mut ArticulatedBodies,
+        owns: &[(usize, (SpatialInertia, SpatialVector))],
+        again: bool,
+    ) {
+        for (of_body, (body, own)) in self.contacts.chunk_by(|a, b| a.body == b.body).zip(owns) {
+            if again {
+                if !of_body.iter().any(|contact| contact.contact.changed) {
+                    continue;
+                }
+                bodies.restore(*body, own);
+            }
+            of_body.iter().for_each(|contact| contact.add_to(bodies, self.step));
+        }
     }
 
     /// Finds the forces of the contacts for the accelerations of a round, and how they go on. Returns the greatest change
@@ -163,21 +181,21 @@ impl GroundContacts {
     pub(super) fn update(&mut self, bodies: &ArticulatedBodies) -> f64 {
         let mut greatest: f64 = 0.0;
         for contact in &mut self.contacts {
-            let velocity = contact.velocity(bodies, self.step);
-            greatest = greatest.max(contact.contact.update(&velocity));
+            contact.velocity =
+                contact.coasting + bodies.acceleration(contact.body).at(&contact.point) * self.step;
+            greatest = greatest.max(contact.contact.update(&contact.velocity));
         }
         greatest
     }
 
     /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
-    pub(super) fn keep(&mut self, bodies: &ArticulatedBodies, now: u64) {
+    pub(super) fn keep(&mut self, now: u64) {
         // The contacts of a body follow each other.
         for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
             let mut fastest: f64 = 0.0;
             for contact in of_body {
-                let velocity = contact.velocity(bodies, self.step);
-                self.springs[contact.spring] = contact.contact.kept(&velocity, self.step, now);
-                fastest = fastest.max(contact.contact.slip(&velocity));
+                self.springs[contact.spring] = contact.contact.kept(&contact.velocity, self.step, now);
+                fastest = fastest.max(contact.contact.slip(&contact.velocity));
             }
             self.slid[of_body[0].body] += fastest * self.step;
         }
@@ -198,14 +216,16 @@ fn level(
         if height + feature.lowest(up) >= 0.0 {
             continue;
         }
-        let below = |k: &u8| height + feature.height(*k, up) < 0.0;
-        let points = (0..feature.points()).filter(below).map(|k| (k, feature.point(k, up)));
-        for (k, p) in points.chain(between_rims(features, number, up)) {
+        let centre = pose.transform_point(&feature.centre.into()).coords;
+        let mut touches = |k, p: Vec3| {
             let at = pose.transform_point(&p.into()).coords;
             if at.z < 0.0 {
-                let centre = pose.transform_point(&feature.centre.into()).coords;
                 found((number, k), at, centre, Vec3::z(), -at.z);
             }
+        };
+        feature.points_below(up, -height, &mut touches);
+        if let Some((k, p)) = between_rims(features, number, up) {
+            touches(k, p);
         }
     }
 }
@@ -240,11 +260,6 @@ fn between_rims(features: &[Feature], number: usize, up: &Vec3) -> Option<(u8, V
 }
 
 impl GroundContact {
-    /// Returns the velocity of the body's point at the end of the step, m/s.
-    fn velocity(&self, bodies: &ArticulatedBodies, step: f64) -> Vec3 {
-        self.coasting + bodies.acceleration(self.body).at(&self.point) * step
-    }
-
     /// Adds the contact to its body.
     fn add_to(&self, bodies: &mut ArticulatedBodies, step: f64) {
         let Contact { normal, depth, stiffness, resistance, shift, pushes, share, .. } = self.contact;
@@ -253,12 +268,12 @@ impl GroundContact {
         }
         let across = share * resistance;
         let along = resistance - across;
-        let matrix = Mat3::from_diagonal_element(across) + normal * normal.transpose() * along;
         let offset = normal * (stiffness * depth) - shift * (share * stiffness);
+        let resisted = self.coasting * across + normal * (along * normal.dot(&self.coasting));
         bodies.add(
             self.body,
-            &SpatialInertia::at_point(&(matrix * step), &self.point),
-            &SpatialVector::of_force(offset - matrix * self.coasting, &self.point),
+            &SpatialInertia::at_point(across * step, along * step, &normal, &self.point),
+            &SpatialVector::of_force(offset - resisted, &self.point),
         );
     }
 }

@@ -30,6 +30,8 @@ struct Pair {
     gap: f64,
     /// The pose of the second body in the frame of the first then.
     X_AB: Pose,
+    /// The sphere around the second shape, in the frame of its body: the centre and the radius, m.
+    around: (Vec3, f64),
     /// The direction of their distance then, in the frame of the first.
     normal: Option<Vec3>,
     /// The spring across the contact.
@@ -63,8 +65,18 @@ pub(super) struct LinkContacts {
     /// The pairs of bodies that bonds in no tree hold together now, likewise.
     bonded: BTreeSet<(usize, usize)>,
     pairs: Vec<Pair>,
-    /// The bodies of each pair, and the length of both their paths together up to which its shapes can't meet, m.
+    /// The places in `pairs` that are not used now.
+    unused: Vec<usize>,
+    /// The pairs that are near each other, ascending: their shapes, and their places in `pairs`.
+    listed: Vec<(usize, usize, usize)>,
+    /// The bodies of each pair in that order, and the length of both their paths together up to which its shapes can't meet,
+    /// m.
     asleep: Vec<(u32, u32, f64)>,
+    /// Both as they were before the last listing; only their memory is used.
+    listed_before: Vec<(usize, usize, usize)>,
+    asleep_before: Vec<(u32, u32, f64)>,
+    /// The places in `listed` of the pairs that do not sleep in this step, and then others.
+    awake: Vec<u32>,
     /// The length of the path of each body since the start, m, with [`TURNING`]: no point of its shapes has gone farther.
     gone: Vec<f64>,
     /// The lengths of the paths when the pairs were listed, m; -∞ where they must be listed anew.
@@ -167,6 +179,12 @@ impl LinkContacts {
             Aabb { low: centre - half, high: centre + half }
         };
         let boxes: Vec<Aabb> = self.shapes.iter().map(around).collect();
+        // A sphere lies within its box.
+        let apart = |a: usize, b: usize| {
+            let (a, b) = (&boxes[a], &boxes[b]);
+            let centres = ((a.low + a.high) - (b.low + b.high)).norm() / 2.0;
+            centres - ((a.high.x - a.low.x) + (b.high.x - b.low.x)) / 2.0
+        };
         let (standing, moving) = boxes.split_at(self.standing);
         let links = &self.shapes[self.standing..];
         let size = links.iter().map(|shape| 2.0 * shape.part.radius).fold(NEAR, f64::max);
@@ -179,7 +197,8 @@ impl LinkContacts {
             let (a, b) = (a + self.standing, b + self.standing);
             let bodies = (self.shapes[a].body, self.shapes[b].body);
             let bodies = (bodies.0.min(bodies.1), bodies.0.max(bodies.1));
-            if bodies.0 != bodies.1 && !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {
+            let near = bodies.0 != bodies.1 && apart(a, b) < NEAR;
+            if near && !self.excluded.contains(&bodies) && !self.bonded.contains(&bodies) {
                 found.push((a, b));
             }
         });
@@ -206,22 +225,28 @@ impl LinkContacts {
         if 2.0 * farthest >= NEAR {
             self.list(at);
         }
-        for index in 0..self.pairs.len() {
-            let (first, second, until) = self.asleep[index];
-            let gone = self.gone[first as usize] + self.gone[second as usize];
-            if gone < until {
-                continue;
-            }
+        // Without a jump for each pair, which would often be guessed wrong.
+        self.awake.resize(self.asleep.len(), 0);
+        let mut count = 0;
+        for (number, (first, second, until)) in self.asleep.iter().enumerate() {
+            self.awake[count] = number as u32;
+            count += usize::from(self.gone[*first as usize] + self.gone[*second as usize] >= *until);
+        }
+        for awake in 0..count {
+            let number = self.awake[awake] as usize;
+            let (first, second) = (self.asleep[number].0 as usize, self.asleep[number].1 as usize);
+            let gone = self.gone[first] + self.gone[second];
+            let index = self.listed[number].2;
             let pair = &self.pairs[index];
-            let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
-            let X_AB = at.poses[a.body].inv_mul(&at.poses[b.body]);
+            let X_AB = at.poses[first].inv_mul(&at.poses[second]);
             if pair.gap > 0.0 {
-                let left = pair.gap - displacement(&b.part, &pair.X_AB, &X_AB);
+                let left = pair.gap - displacement(&pair.around, &pair.X_AB, &X_AB);
                 if left > 0.0 {
-                    self.asleep[index].2 = gone + left;
+                    self.asleep[number].2 = gone + left;
                     continue;
                 }
             }
+            let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
             let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
             let depth = -found.distance - a.touch.min(b.touch);
             if depth > 0.0 {
@@ -238,27 +263,43 @@ impl LinkContacts {
             }
             let pair = &mut self.pairs[index];
             (pair.gap, pair.X_AB, pair.normal) = (-depth, X_AB, Some(found.normal));
-            self.asleep[index].2 = if depth < 0.0 { gone - depth } else { 0.0 };
+            self.asleep[number].2 = if depth < 0.0 { gone - depth } else { 0.0 };
         }
     }
 
-    /// Lists the pairs that are near each other now; those that were listed keep what is known of them.
+    /// Lists the pairs that are near each other now; of those that were listed all that is known stays, and they sleep on.
     fn list(&mut self, at: &Instant) {
-        let known = std::mem::take(&mut self.pairs);
         let mut near = self.near(at.poses);
         near.sort_unstable();
+        std::mem::swap(&mut self.listed, &mut self.listed_before);
+        std::mem::swap(&mut self.asleep, &mut self.asleep_before);
+        self.listed.clear();
+        self.asleep.clear();
+        let mut before = self.listed_before.iter().zip(&self.asleep_before).peekable();
         for (first, second) in near {
-            let kept = known.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second));
-            self.pairs.push(kept.map_or_else(
-                |_| {
-                    let (X_AB, spring) = (Pose::identity(), Spring::default());
-                    Pair { first, second, gap: -1.0, X_AB, normal: None, spring }
-                },
-                |index| known[index].clone(),
-            ));
+            while let Some((known, _)) = before.next_if(|(known, _)| (known.0, known.1) < (first, second)) {
+                self.unused.push(known.2);
+            }
+            if let Some((known, asleep)) = before.next_if(|(known, _)| (known.0, known.1) == (first, second))
+            {
+                self.listed.push(*known);
+                self.asleep.push(*asleep);
+                continue;
+            }
+            let part = &self.shapes[second].part;
+            let around = (part.centre, part.radius);
+            let (X_AB, spring) = (Pose::identity(), Spring::default());
+            let pair = Pair { first, second, gap: -1.0, X_AB, around, normal: None, spring };
+            let slot = self.unused.pop().unwrap_or(self.pairs.len());
+            match self.pairs.get_mut(slot) {
+                Some(unused) => *unused = pair,
+                None => self.pairs.push(pair),
+            }
+            self.listed.push((first, second, slot));
+            let body = |shape: usize| self.shapes[shape].body as u32;
+            self.asleep.push((body(first), body(second), 0.0));
         }
-        let body = |shape: usize| self.shapes[shape].body as u32;
-        self.asleep = self.pairs.iter().map(|pair| (body(pair.first), body(pair.second), 0.0)).collect();
+        self.unused.extend(before.map(|(known, _)| known.2));
         self.gone_listed.clone_from(&self.gone);
     }
 
@@ -316,12 +357,14 @@ impl LinkContact {
     }
 }
 
-/// Returns an upper bound on the distance (m) by which a point of a part moves from one pose of its frame to another.
-fn displacement(part: &Part, before: &Pose, after: &Pose) -> f64 {
-    let shift = after.transform_point(&part.centre.into()) - before.transform_point(&part.centre.into());
+/// Returns an upper bound on the distance (m) by which a point within a sphere, given by its centre and radius (m), moves from
+/// one pose of its frame to another.
+#[inline]
+fn displacement((centre, radius): &(Vec3, f64), before: &Pose, after: &Pose) -> f64 {
+    let shift = after.transform_point(&(*centre).into()) - before.transform_point(&(*centre).into());
     // A turn by θ moves a point at the distance r by 2 r sin(θ / 2), which is at most 4 r sin(θ / 4); quaternions that
     // are so far apart differ by 2 sin(θ / 4), and have either sign.
     let (q, p) = (after.rotation.coords, before.rotation.coords);
     let apart = (q - p).norm_squared().min((q + p).norm_squared());
-    shift.norm() + 2.0 * part.radius * apart.sqrt()
+    shift.norm() + 2.0 * radius * apart.sqrt()
 }

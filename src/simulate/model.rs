@@ -368,14 +368,6 @@ impl Model {
         };
         self.bodies.iter().map(of).collect()
     }
-
-    /// Returns the centre of mass of all bodies for their world poses, m; the origin without mass.
-    pub(super) fn centre(&self, poses: &[Pose]) -> Vec3 {
-        let moment = self.bodies.iter().zip(poses).fold(Vec3::zeros(), |sum, (body, pose)| {
-            sum + pose.transform_point(&body.rigid.com.into()).coords * body.rigid.mass
-        });
-        if self.mass > 0.0 { moment / self.mass } else { moment }
-    }
 }
 
 /// Returns the joint of an id that moves a step.

@@ -13,7 +13,7 @@ use super::link_contact::LinkContacts;
 use super::model::{CarryingBond, CoupledMotor, DrivenServo, Model};
 use super::parameters::PARAMETERS;
 use crate::geometry::pose::turned;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::{Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
@@ -60,6 +60,8 @@ pub(super) struct Stepper<'a> {
     touched: Vec<(usize, (SpatialInertia, SpatialVector))>,
     /// The point that spatial vectors were about in the step taken last, m.
     pub origin: Vec3,
+    /// The height of the centre of mass at the start of the step taken last, m.
+    centre_height: f64,
     /// The number of steps taken.
     number: u64,
 }
@@ -99,6 +101,7 @@ impl<'a> Stepper<'a> {
             servos: vec![ServoState::default(); count],
             touched: Vec::new(),
             origin: Vec3::zeros(),
+            centre_height: 0.0,
             number: 0,
         }
     }
@@ -127,13 +130,10 @@ impl<'a> Stepper<'a> {
         self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
         self.servos.iter_mut().for_each(|servo| servo.stop = None);
         let weight = self.model.mass * self.gravity.norm().max(1.0);
-        for _ in 0..PARAMETERS.rounds_max {
-            self.set_servos(commands);
-            for (body, own) in &self.touched {
-                self.bodies.restore(*body, *own);
-            }
+        (0..self.servos.len()).for_each(|at| self.set_servo(at, commands));
+        for round in 0..PARAMETERS.rounds_max {
             if let Some(ground) = &self.ground {
-                ground.add_to(&mut self.bodies);
+                ground.add_to(&mut self.bodies, &self.touched, round > 0);
             }
             self.bodies.accelerate().ok_or(NoInertia)?;
             let solved = self.couplings.solve(self.model, &mut self.bodies, self.step, &self.rates);
@@ -146,7 +146,7 @@ impl<'a> Stepper<'a> {
             }
         }
         if let Some(ground) = &mut self.ground {
-            ground.keep(&self.bodies, self.number);
+            ground.keep(self.number);
         }
         self.couplings.keep(self.model, &self.bodies, self.step, self.number);
         self.move_on(&origin)
@@ -154,17 +154,21 @@ impl<'a> Stepper<'a> {
 
     /// Finds the poses, twists and rigid inertias of all bodies; spatial vectors are about `origin`.
     fn place(&mut self, origin: &Vec3) {
+        let mut first = 0.0;
         for (at, body) in self.model.bodies.iter().enumerate() {
+            let turn: Mat3;
             match (&body.step, body.attachment) {
                 (Some(step), Attachment::Joint(parent) | Attachment::Fixed(parent)) => {
                     self.poses[at] = step.child_pose_at(&self.poses[parent], self.coordinates[at]);
-                    let axis = step.axis_between(&self.poses[parent], &self.poses[at]);
+                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
+                    let axis = step.axis_turned(&self.poses[parent], &self.poses[at], &turn);
                     let axis =
                         axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
                     self.bodies.set_joint(at, axis, self.rates[at], self.mid_rates[at]);
                 }
                 _ => {
                     self.poses[at] = self.bases[at];
+                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
                     let from = origin - self.poses[at].translation.vector;
                     let about = |Twist { linear, angular }: Twist| SpatialVector {
                         angular,
@@ -174,39 +178,50 @@ impl<'a> Stepper<'a> {
                     self.bodies.set_base(at, about(self.twists[at]), about(self.mid_twists[at]), held);
                 }
             }
-            let composite = body.rigid.composite(&self.poses[at], origin);
-            let weight = SpatialVector::weight(&composite, &self.gravity);
-            self.bodies.set_inertia(at, composite.into(), &weight);
+            let com = self.poses[at].translation.vector + turn * body.rigid.com - origin;
+            first += com.z * body.rigid.mass;
+            self.bodies.set_rigid(at, &body.rigid, &turn, &com, &self.gravity);
         }
+        self.centre_height = if self.model.mass > 0.0 { origin.z + first / self.model.mass } else { 0.0 };
     }
 
-    /// Sets the efforts of all joints as their servos are now.
-    fn set_servos(&mut self, commands: &[(f64, f64)]) {
+    /// Sets the effort of a body's joint, if it has one, as its servo is now.
+    #[inline]
+    fn set_servo(&mut self, at: usize, commands: &[(f64, f64)]) {
         let h = self.step;
-        for (at, body) in self.model.bodies.iter().enumerate() {
-            let Some(joint) = &body.joint else { continue };
-            let (q, v) = (self.coordinates[at], self.rates[at]);
-            let (mut effort, mut armature) = (-joint.damping * v, joint.armature + h * joint.damping);
-            match (joint.servo, self.servos[at].limited) {
-                (Some(_), Some((limited, falling))) => {
-                    effort += limited - falling * v;
-                    armature += h * falling;
-                }
-                (Some(servo), None) => {
-                    let command = command(commands, joint.id, joint.factor);
-                    effort += spring(&servo, h, q, v, command);
-                    armature += h * (h * servo.stiffness + servo.damping);
-                }
-                (None, _) => {}
+        let Some(joint) = &self.model.bodies[at].joint else { return };
+        let (q, v) = (self.coordinates[at], self.rates[at]);
+        let (mut effort, mut armature) = (-joint.damping * v, joint.armature + h * joint.damping);
+        match (joint.servo, self.servos[at].limited) {
+            (Some(_), Some((limited, falling))) => {
+                effort += limited - falling * v;
+                armature += h * falling;
             }
-            if let Some(end) = self.servos[at].stop {
-                let stiffness = PARAMETERS.stop_stiffness;
-                let damping = PARAMETERS.contact_damping * stiffness;
-                effort += stiffness * (end - q - h * v) - damping * v;
-                armature += h * (h * stiffness + damping);
+            (Some(servo), None) => {
+                let command = command(commands, joint.id, joint.factor);
+                effort += spring(&servo, h, q, v, command);
+                armature += h * (h * servo.stiffness + servo.damping);
             }
-            self.bodies.set_effort(at, effort, armature);
+            (None, _) => {}
         }
+        if let Some(end) = self.servos[at].stop {
+            let stiffness = PARAMETERS.stop_stiffness;
+            let damping = PARAMETERS.contact_damping * stiffness;
+            effort += stiffness * (end - q - h * v) - damping * v;
+            armature += h * (h * stiffness + damping);
+        }
+        self.bodies.set_effort(at, effort, armature);
+    }
+
+    /// Sets a servo to another state. Returns true if it is not another.
+    #[inline]
+    fn change_servo(&mut self, at: usize, now: ServoState, commands: &[(f64, f64)]) -> bool {
+        let same = now == self.servos[at];
+        if !same {
+            self.servos[at] = now;
+            self.set_servo(at, commands);
+        }
+        same
     }
 
     /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
@@ -228,8 +243,7 @@ impl<'a> Stepper<'a> {
                 let next = q + h * v;
                 now.stop = if next > high { Some(high) } else { (next < low).then_some(low) };
             }
-            settled &= now == self.servos[at];
-            self.servos[at] = now;
+            settled &= self.change_servo(at, now, commands);
         }
         for coupled in &self.model.coupled {
             let of = |(body, sign): &(usize, f64)| self.efforts[*body] * sign;
@@ -246,8 +260,7 @@ impl<'a> Stepper<'a> {
                 let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
                 self.efforts[*body] = effort;
                 let now = ServoState { limited: Some((effort, 0.0)), ..self.servos[*body] };
-                settled &= now == self.servos[*body];
-                self.servos[*body] = now;
+                settled &= self.change_servo(*body, now, commands);
             }
         }
         settled
@@ -350,7 +363,7 @@ impl<'a> Stepper<'a> {
 
     /// Returns the height of the centre of mass at the start of the step taken last, m.
     pub(super) fn centre_height(&self) -> f64 {
-        self.model.centre(&self.poses).z
+        self.centre_height
     }
 
     /// Returns the way that each body has slid over the ground since the start, m; nothing without ground.
