@@ -65,11 +65,35 @@ class Tracks:
         return position, velocity
 
 
-def load(text, kp=None, kv=None, friction_scale=1.0, limits=True, ground_only=False, step=None, slope=0.0):
-    """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan."""
+def load(
+    text,
+    kp=None,
+    kv=None,
+    friction_scale=1.0,
+    limits=True,
+    ground_only=False,
+    step=None,
+    slope=0.0,
+    impratio=None,
+    softness=None,
+    pyramidal=False,
+    noslip=0,
+):
+    """The model with servo gains, friction, torque limits, contacts and time step changed, at the start of the plan.
+
+    `impratio`, `noslip`: MuJoCo's options; `softness`: the time constant of contacts, s; `pyramidal`: cones of friction
+    are pyramids.
+    """
     model = mujoco.MjModel.from_xml_string(text)
     if step is not None:
         model.opt.timestep = step
+    if impratio is not None:
+        model.opt.impratio = impratio
+    if softness is not None:
+        model.geom_solref[:] = softness, 1.0
+    if pyramidal:
+        model.opt.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    model.opt.noslip_iterations = noslip
     slides = model.jnt_type[model.actuator_trnid[:, 0]] == int(mujoco.mjtJoint.mjJNT_SLIDE)
     lever = numpy.where(slides, 1 / LEVER**2, 1.0)
     if kp is not None:

@@ -2,7 +2,7 @@
 
 use super::fixtures::{CART, GRAVITY, LEVEL, at, close, plan, play, step, train};
 use modl::plan::World;
-use modl::simulate::{Settings, Simulation};
+use modl::simulate::{ServoGains, Settings, Simulation};
 use std::f64::consts::TAU;
 
 /// The radius of the cart's wheels, m, and their coefficient of friction.
@@ -17,6 +17,24 @@ fn wheels_that_do_not_slip_carry_their_cart_by_their_circumference() {
     close(simulation.travel.x, way, 1e-3 * way);
     close(simulation.travel.y, 0.0, 1e-5);
     close(simulation.heading, 0.0, 1e-5);
+}
+
+#[test]
+fn four_discs_that_scrub_turn_as_friction_has_it() {
+    // Each of four discs, at (x, y) and its mirror images, presses the ground at one point as the others do, and slides:
+    // forward at y ω less its rim's speed v, sideways at x ω. Friction is as great at all of them and against the way, so
+    // that the moment of all vanishes at y (y ω - v) + x² ω = 0, whatever friction and weight are. By a twentieth of x
+    // and y it changes by a thousandth, as ω = v y / (x² + y²) is greatest at y = x.
+    let (speed, time, acceleration, rim) = (2.0, 2.0, 12.0, 0.042);
+    let way = rim * (speed * time - speed * speed / acceleration);
+    let (x, y): (f64, f64) = (0.1, 0.105);
+    let expected = (way * y / (x * x + y * y)).to_degrees();
+    let plan = plan("use std.smores.Tank7\nlet x = Tank7()\nlet b = x.turn(2rad/s, 2s)\n", LEVEL);
+    for (stiffness, friction) in [(60.0, 1.0), (150.0, 1.0), (500.0, 1.0), (150.0, 0.5)] {
+        let servo = ServoGains { stiffness: Some(stiffness), ..ServoGains::default() };
+        let simulation = play(&plan, &Settings { servo, friction, ..Settings::default() });
+        close(simulation.heading.to_degrees(), expected, 0.01 * expected);
+    }
 }
 
 #[test]
