@@ -84,7 +84,7 @@ fn plan(robot: Assembly, motions: Vec<(usize, Vec<Segment>)>, duration: f64) -> 
     motions.iter().for_each(|(joint, segments)| start.joints[*joint] = segments[0].control[0]);
     let track = |(joint, segments)| Track { joint: JointId(joint as u32), segments };
     let tracks = motions.into_iter().map(track).collect();
-    Tracks { robot, start, tracks, events: vec![], duration, start_causes: vec![], bond_causes: vec![] }
+    Tracks { tracks, duration, ..Tracks::at_rest(robot, start) }
 }
 
 /// Two diagonal pairs of legs lift, swing and stand in turn; one step takes a second.

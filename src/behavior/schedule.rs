@@ -115,15 +115,25 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     assert_eq!(facts.len(), start.joints.len(), "a state has one position for every joint");
     assert_eq!(robot.bonds.len(), start.bonds.len(), "a state has one flag for every bond");
     let motions = start.joints.iter().map(|&q| Motion::at_rest(q)).collect();
+    let obstacles = Default::default();
     let run = Run::new(Arc::new(robot), facts, motions, start.bonds.clone(), settings);
     let Played { robot, tracks, joints, docks, duration, exemptions, actions, issues, .. } =
         run.play(&program)?;
     let robot = Arc::unwrap_or_clone(robot);
     let bonds = robot.bonds.iter().enumerate().map(|(i, _)| start.bonds.get(i).copied().unwrap_or(false));
-    let start = State { bonds: bonds.collect(), joints, base: start.base };
+    let start = State { bonds: bonds.collect(), joints, ..start };
     drop(graph);
     Ok(Scheduled {
-        tracks: Tracks { robot, start, tracks, events: docks, duration, start_causes, bond_causes },
+        tracks: Tracks {
+            robot,
+            start,
+            tracks,
+            events: docks,
+            duration,
+            obstacles,
+            start_causes,
+            bond_causes,
+        },
         program: Program { root: program },
         exemptions,
         nominal,

@@ -69,6 +69,7 @@ impl Interpreter<'_> {
             bonds: bonds.collect(),
             base: named.unwrap_or(0),
             closed: design.config().is_some_and(|config| config.closed),
+            misalignments: vec![],
         };
         let holds = vec![true; assembly.bonds.len()];
         let mut kinematics = Kinematics::new(&assembly, &holds, assembly.base);
@@ -81,7 +82,7 @@ impl Interpreter<'_> {
             kinematics = Kinematics::new(&assembly, &holds, assembly.base);
             kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
         }
-        let start = State { joints, bonds: holds, base: Pose::identity() };
+        let start = State { joints, bonds: holds, base: Pose::identity(), clusters: vec![] };
         Ok(Some(Robot { assembly: Arc::new(assembly), start, kinematics, poses }))
     }
 

@@ -175,9 +175,9 @@ pub enum PlanFault {
 /// A fault of the plan of an articulated robot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TracksFault {
-    /// Two modules that have one name.
+    /// Two modules, or a module and an obstacle, that have one name.
     SharedName {
-        /// The path name that both modules have.
+        /// The name that both have.
         name: String,
     },
     /// A start pose without one position for each joint.
@@ -229,6 +229,18 @@ pub enum TracksFault {
     FarJoint {
         /// The greatest absolute value of a joint's position that is allowed, rad or m.
         limit: f64,
+    },
+    /// Two clusters at the start that bonds connect, or one with the base.
+    OneCluster {
+        /// The path name of the module that stands for the cluster.
+        reference: String,
+    },
+    /// An obstacle that is no solid.
+    Obstacle {
+        /// The name of the obstacle.
+        name: String,
+        /// The fault of its shapes.
+        fault: Unsound,
     },
     /// A track of a joint that takes no commands.
     NoCommands {
@@ -464,7 +476,7 @@ impl fmt::Display for PlanFault {
 impl fmt::Display for TracksFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            TracksFault::SharedName { name } => write!(f, "two modules have the name `{name}`"),
+            TracksFault::SharedName { name } => write!(f, "two modules or obstacles have the name `{name}`"),
             TracksFault::StartJoints { joints } => {
                 write!(f, "the start pose must have {joints} joint positions")
             }
@@ -486,6 +498,10 @@ impl fmt::Display for TracksFault {
                 )
             }
             TracksFault::FarJoint { limit } => write!(f, "a joint is moved beyond {limit} rad or m"),
+            TracksFault::OneCluster { reference } => {
+                write!(f, "`{reference}` stands for a cluster that is part of another")
+            }
+            TracksFault::Obstacle { name, fault } => write!(f, "the obstacle `{name}`: {fault}"),
             TracksFault::NoCommands { joint } => write!(f, "{joint} takes no commands"),
             TracksFault::PortTaken { port } => write!(f, "{port} is taken twice"),
             TracksFault::NoMate { a, b } => write!(f, "{a} does not mate with {b}"),

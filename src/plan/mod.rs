@@ -54,7 +54,9 @@ pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };
 pub use tolerances::{TOLERANCES, Tolerances};
-pub use tracks::{DockingEvent, DockingKind, LastingTrees, Remap, Segment, Track, Tracks, timeline};
+pub use tracks::{
+    DockingEvent, DockingKind, LastingTrees, Obstacle, Remap, Segment, Track, Tracks, timeline,
+};
 pub use validation::Unwritable;
 pub use verdict::{
     Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,

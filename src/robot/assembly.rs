@@ -27,6 +27,11 @@ pub struct Assembly {
     pub base: usize,
     /// True if the connections may close loops.
     pub closed: bool,
+    /// The misalignments of bonds that joined robots which stood by themselves, as (index of the bond, pose of its second
+    /// port in the frame that a perfect mate would give it, m); ascending by bond. Other bonds mate perfectly. The judge
+    /// finds them: they are no part of a plan.
+    #[serde(skip)]
+    pub misalignments: Vec<(usize, Pose)>,
 }
 
 /// A module of an assembly: a path name and a module type.
@@ -82,7 +87,20 @@ pub enum JointOwner {
     Bond(usize),
 }
 
-/// The state of a robot: the positions of all joints, the bonds that hold, and the pose of the base.
+/// The pose of a cluster: modules that bonds connect with each other, and not with the base.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClusterPose {
+    /// The index in [`Assembly::modules`] of the module whose body's pose stands for that of the cluster.
+    pub reference: usize,
+    /// The world pose of that body, `X_WR`, in metres.
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
+    pub pose: Pose,
+}
+
+/// The state of a robot, or of several that are modelled as one assembly of several clusters: the positions of all joints,
+/// the bonds that hold, and the pose of the base and of each further cluster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct State {
@@ -94,6 +112,9 @@ pub struct State {
     #[serde(with = "crate::geometry::json")]
     #[schemars(with = "crate::geometry::json::PoseText")]
     pub base: Pose,
+    /// The poses of the clusters that the base does not belong to, ascending by reference; empty for one robot.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clusters: Vec<ClusterPose>,
 }
 
 impl Assembly {
@@ -172,6 +193,13 @@ impl Assembly {
             }
             JointOwner::Bond(_) => false,
         }
+    }
+
+    /// Returns the misalignment of a bond, given by its index ([`Assembly::misalignments`]); the identity for one that
+    /// mates perfectly.
+    pub fn misalignment(&self, bond: usize) -> Pose {
+        let known = self.misalignments.binary_search_by_key(&bond, |(bond, _)| *bond);
+        known.map_or(Pose::identity(), |index| self.misalignments[index].1)
     }
 
     /// Returns the hinge of a bond, given by its index: that of the connector at its first port; `None` for a bond

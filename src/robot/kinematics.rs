@@ -320,11 +320,13 @@ struct Pair {
 }
 
 /// Returns the pose `X_PQ` of the second port in the frame of the first for a bond (by index) whose hinge, if it has
-/// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`. `robot`: the assembly. Panics if there is no such bond.
+/// one, is at zero: `Rz(180°) · Rx(turn · 360° / turns)`, and then its misalignment ([`Assembly::misalignments`]).
+/// `robot`: the assembly. Panics if there is no such bond.
 pub fn mate(robot: &Assembly, bond: usize) -> Pose {
-    let bond = &robot.bonds[bond];
-    let turns = f64::from(robot.connector(bond.a).turns);
-    turned(Vec3::z(), PI) * turned(Vec3::x(), TAU * f64::from(bond.turn) / turns)
+    let declared = &robot.bonds[bond];
+    let turns = f64::from(robot.connector(declared.a).turns);
+    let perfect = turned(Vec3::z(), PI) * turned(Vec3::x(), TAU * f64::from(declared.turn) / turns);
+    if robot.misalignments.is_empty() { perfect } else { perfect * robot.misalignment(bond) }
 }
 
 /// Returns running sums over the modules, from 0 to the whole.

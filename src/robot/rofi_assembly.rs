@@ -81,7 +81,12 @@ pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
         let [alpha, beta, gamma] = module.joints.map(f64::to_radians);
         [alpha, gamma, beta]
     });
-    let state = State { joints: joints.collect(), bonds: vec![true; bonds.len()], base: Pose::identity() };
+    let state = State {
+        joints: joints.collect(),
+        bonds: vec![true; bonds.len()],
+        base: Pose::identity(),
+        clusters: vec![],
+    };
     let modules =
         world.modules.iter().map(|module| ModuleInstance { name: format!("m[{}]", module.id), kind: 0 });
     let assembly = Assembly {
@@ -90,6 +95,7 @@ pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
         bonds,
         base: 0,
         closed: true,
+        misalignments: vec![],
         library: Arc::new(Library { connectors: vec![dock], modules: vec![kind], ..Library::default() }),
     };
     (assembly, state)

@@ -68,7 +68,15 @@ fn robot(n: &mut Numbers, library: &Arc<Library>, most: usize) -> Assembly {
         }
         free.extend(own);
     }
-    Assembly { name: String::new(), library: library.clone(), modules, bonds, base: 0, closed: true }
+    Assembly {
+        name: String::new(),
+        library: library.clone(),
+        modules,
+        bonds,
+        base: 0,
+        closed: true,
+        misalignments: vec![],
+    }
 }
 
 /// Returns a library of two module types that differ in nothing but the name.
@@ -130,6 +138,7 @@ fn patterns_in_pieces_have_no_embeddings_that_one_image_fixes() {
         bonds: Vec::new(),
         base: 0,
         closed: false,
+        misalignments: vec![],
     };
     assert!(embeddings(&pieces(0), &pieces(2)).is_none());
     assert!(embeddings(&pieces(2), &pieces(2)).is_none());

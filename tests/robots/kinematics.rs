@@ -299,7 +299,7 @@ fn hinged(swap: bool) -> Assembly {
     let (p, q) = (PortRef { module: 0, port: robots::L }, PortRef { module: 1, port: robots::T });
     let (a, b) = if swap { (q, p) } else { (p, q) };
     let bonds = vec![Bond { a, b, turn: 1 }];
-    Assembly { name: "Hinged".into(), library, modules, bonds, base: 0, closed: false }
+    Assembly { name: "Hinged".into(), library, modules, bonds, base: 0, closed: false, misalignments: vec![] }
 }
 
 #[test]

@@ -158,7 +158,15 @@ pub struct Design(pub Assembly);
 impl Design {
     pub fn new(name: &str, library: Arc<Library>) -> Design {
         let (modules, bonds) = (vec![], vec![]);
-        Design(Assembly { name: name.into(), library, modules, bonds, base: 0, closed: false })
+        Design(Assembly {
+            name: name.into(),
+            library,
+            modules,
+            bonds,
+            base: 0,
+            closed: false,
+            misalignments: vec![],
+        })
     }
 
     pub fn index(&self, module: &str) -> usize {
@@ -272,6 +280,7 @@ pub fn at_rest(robot: &Assembly) -> State {
         joints: vec![0.0; robot.joints().count()],
         bonds: vec![true; robot.bonds.len()],
         base: Pose::identity(),
+        clusters: vec![],
     }
 }
 

@@ -12,6 +12,9 @@ use crate::robot::matching;
 /// # Errors
 /// [`OperationError::Robots`] if the robots differ, or are the same in different poses.
 pub(in crate::plan) fn fitted(a: &Tracks, b: &Tracks, causes: u32) -> Result<Remap, OperationError> {
+    if a.obstacles != b.obstacles {
+        return Err(OperationError::Surroundings);
+    }
     let found = matching((&a.robot, &a.end()), (&b.robot, &b.start), TOLERANCES.join_joint)
         .map_err(OperationError::Robots)?;
     Ok(Remap::new(a, b, &found, causes))

@@ -3,9 +3,10 @@
 
 use super::motion::{DockingEvent, DockingKind, Segment, Track, Tracks};
 use super::names::RobotNames;
+use super::obstacle::Obstacle;
 use crate::plan::cause::CauseId;
 use crate::plan::stated::Stated;
-use crate::robot::{Assembly, Bond, JointId, Library, ModuleInstance, PortRef, State};
+use crate::robot::{Assembly, Bond, JointId, Kinematics, Library, ModuleInstance, PortRef, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -17,7 +18,7 @@ use std::sync::Arc;
 #[serde(rename = "Tracks", deny_unknown_fields)]
 pub(in crate::plan) struct TracksJson<'a> {
     robot: RobotJson<'a>,
-    /// The connected parts of the robot at the start; one, as long as plans have one robot.
+    /// The connected parts of the robot at the start, that of its base first: each is a robot by itself.
     clusters: Vec<ClusterJson>,
     /// The pose before the first motion; positions are in the order of `robot.joints`, flags in the order
     /// of `robot.bonds`.
@@ -29,6 +30,9 @@ pub(in crate::plan) struct TracksJson<'a> {
     tracks: Vec<TrackJson<'a>>,
     /// Changes of which bonds hold, in order of time.
     events: Vec<EventJson>,
+    /// The solids that stand fast among the robots.
+    #[serde(default, skip_serializing_if = "<[Obstacle]>::is_empty")]
+    obstacles: Cow<'a, [Obstacle]>,
     /// The causes of the start pose, each as (joint, cause).
     start_causes: Cow<'a, [(JointId, CauseId)]>,
     /// The causes of bonds, each as (index of the bond in the robot, cause); a bond may have none.
@@ -141,14 +145,12 @@ impl<'a> TracksJson<'a> {
         };
         TracksJson {
             robot: RobotJson::of(&tracks.robot, &names),
-            clusters: vec![ClusterJson {
-                reference: names.module(tracks.robot.base),
-                modules: tracks.robot.modules.iter().map(|module| module.name.clone()).collect(),
-            }],
+            clusters: clusters(tracks, &names),
             start: Cow::Borrowed(&tracks.start),
             duration: tracks.duration,
             tracks: tracks.tracks.iter().map(track).collect(),
             events: tracks.events.iter().map(event).collect(),
+            obstacles: Cow::Borrowed(&tracks.obstacles),
             start_causes: Cow::Borrowed(&tracks.start_causes),
             bond_causes: Cow::Borrowed(&tracks.bond_causes),
         }
@@ -187,10 +189,31 @@ impl<'a> TracksJson<'a> {
             tracks: self.tracks.into_iter().map(track).collect(),
             events: self.events.into_iter().map(dock).collect(),
             duration: self.duration,
+            obstacles: self.obstacles.into_owned().into(),
             start_causes: self.start_causes.into_owned(),
             bond_causes: self.bond_causes.into_owned(),
         }
     }
+}
+
+/// Returns the clusters of a plan at its start; one of all modules where no others are stated.
+fn clusters(tracks: &Tracks, names: &RobotNames) -> Vec<ClusterJson> {
+    let robot = &tracks.robot;
+    if tracks.start.clusters.is_empty() {
+        let modules = robot.modules.iter().map(|module| module.name.clone()).collect();
+        return vec![ClusterJson { reference: names.module(robot.base), modules }];
+    }
+    let references = std::iter::once(robot.base).chain(tracks.start.clusters.iter().map(|c| c.reference));
+    let cluster = |reference: usize| {
+        let tree = Kinematics::new(robot, &tracks.start.bonds, reference).tree;
+        let mut modules: Vec<usize> = tree.order.iter().map(|(module, _)| *module).collect();
+        modules.sort_unstable();
+        ClusterJson {
+            reference: names.module(reference),
+            modules: modules.into_iter().map(|module| robot.modules[module].name.clone()).collect(),
+        }
+    };
+    references.map(cluster).collect()
 }
 
 impl<'a> RobotJson<'a> {
@@ -229,6 +252,7 @@ impl<'a> RobotJson<'a> {
             bonds: self.bonds.into_iter().map(bond).collect(),
             base: self.base,
             closed: self.closed,
+            misalignments: vec![],
         }
     }
 }

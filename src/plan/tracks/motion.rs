@@ -1,10 +1,12 @@
 //! The body of plans of articulated robots: joint trajectories, piecewise polynomial, with docking and undocking.
 
+use super::obstacle::Obstacle;
 use crate::plan::cause::CauseId;
 use crate::plan::polynomial;
 use crate::robot::{Assembly, JointId, State};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The trajectory of an articulated robot: the position of each joint over time, as piecewise polynomials in Bernstein
 /// form, and the bonds that hold.
@@ -21,6 +23,8 @@ pub struct Tracks {
     pub events: Vec<DockingEvent>,
     /// The duration of the motion, s.
     pub duration: f64,
+    /// The obstacles that the robots must not touch.
+    pub obstacles: Arc<[Obstacle]>,
     /// The causes of the start pose, each as (joint, cause).
     pub start_causes: Vec<(JointId, CauseId)>,
     /// The causes of bonds, each as (index of the bond in the robot, cause); a bond may have none.
@@ -159,6 +163,7 @@ impl Tracks {
             tracks: Vec::new(),
             events: Vec::new(),
             duration: 0.0,
+            obstacles: Arc::default(),
             start_causes: Vec::new(),
             bond_causes: Vec::new(),
         }

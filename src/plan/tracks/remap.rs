@@ -105,6 +105,7 @@ impl Remap {
             events: a.events.iter().cloned().chain(docks).collect(),
             tracks,
             duration: a.duration + b.duration,
+            obstacles: a.obstacles.clone(),
             start_causes: a.start_causes.clone(),
             bond_causes: a.bond_causes.clone(),
             robot: self.robot.clone(),

@@ -1,13 +1,14 @@
 //! The validation of tracks: references, orders and ranges.
 
 use super::motion::{DockingEvent, DockingKind, Track, Tracks};
-use crate::geometry::soundness::check_pose;
+use super::obstacle::Obstacle;
+use crate::geometry::soundness::{check_placed, check_pose};
 use crate::plan::cause::CauseId;
 use crate::plan::fault::{PlanFault, TracksFault, need, need_bounded, need_finite, need_index};
 use crate::plan::polynomial::DEGREE_MAX;
 use crate::plan::tolerances::TOLERANCES;
 use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, check_library};
-use crate::robot::{Assembly, JointKind, JointOwner, Library, PortRef};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Library, PortRef};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -25,6 +26,7 @@ impl Tracks {
         let (joints, bonds) = (self.robot.joints().count(), self.robot.bonds.len());
         need(self.start.joints.len() == joints, || TracksFault::StartJoints { joints })?;
         need(self.start.bonds.len() == bonds, || TracksFault::StartBonds { bonds })?;
+        self.clusters()?;
         let ascending = self.tracks.windows(2).all(|w| w[0].joint < w[1].joint);
         need(ascending, || TracksFault::TrackOrder)?;
         for track in &self.tracks {
@@ -39,6 +41,26 @@ impl Tracks {
         }
         let known = |&(bond, id): &(usize, CauseId)| need_index(bond, bonds, "bond").and(cause(id, causes));
         self.bond_causes.iter().try_for_each(known)
+    }
+
+    /// Checks that each cluster stated at the start is one by itself, and obstacles have names of their own.
+    fn clusters(&self) -> Result<(), PlanFault> {
+        let references = self.start.clusters.iter().map(|cluster| cluster.reference);
+        let mut known = BTreeSet::new();
+        for reference in std::iter::once(self.robot.base).chain(references) {
+            need_index(reference, self.robot.modules.len(), "module")?;
+            let new = !known.contains(&reference);
+            need(new, || TracksFault::OneCluster { reference: self.robot.modules[reference].name.clone() })?;
+            if !self.start.clusters.is_empty() {
+                let tree = Kinematics::new(&self.robot, &self.start.bonds, reference).tree;
+                known.extend(tree.order.iter().map(|(module, _)| *module));
+            }
+        }
+        let mut names: BTreeSet<&String> = self.robot.modules.iter().map(|module| &module.name).collect();
+        for Obstacle { name, .. } in &*self.obstacles {
+            need(names.insert(name), || TracksFault::SharedName { name: name.clone() })?;
+        }
+        Ok(())
     }
 
     fn segments(&self, track: &Track, causes: usize) -> Result<(), PlanFault> {
@@ -82,6 +104,7 @@ impl Tracks {
         need_finite("the start", &self.start)?;
         need_finite("the tracks", &self.tracks)?;
         need_finite("the docks", &self.events)?;
+        need_finite("the obstacles", &self.obstacles)?;
         need_finite("the robot", &*self.robot.library)
     }
 
@@ -96,6 +119,13 @@ impl Tracks {
             check_library(&self.robot.library).map_err(PlanFault::Library)?;
         }
         check_pose(&self.start.base).map_err(|fault| PlanFault::Pose { of: "the base", fault })?;
+        for cluster in &self.start.clusters {
+            check_pose(&cluster.pose).map_err(|fault| PlanFault::Pose { of: "a cluster", fault })?;
+        }
+        for Obstacle { name, shapes } in &*self.obstacles {
+            let sound = shapes.iter().try_for_each(check_placed);
+            sound.map_err(|fault| TracksFault::Obstacle { name: name.clone(), fault })?;
+        }
         let owners: Vec<JointOwner> = self.robot.joints().collect();
         let farthest =
             |owner: JointOwner| if self.robot.slides(owner) { MODULE_EXTENT_MAX } else { POSITION_MAX };

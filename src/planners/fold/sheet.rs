@@ -45,13 +45,18 @@ impl Sheet {
             bonds: layout.order[1..].iter().map(bond).collect(),
             base: layout.root,
             closed: false,
+            misalignments: vec![],
         };
         let holds = vec![true; assembly.bonds.len()];
         let kinematics = Kinematics::new(&assembly, &holds, assembly.base);
         let joint = |bond: usize| kinematics.hinge(bond).map(|joint| JointId(joint as u32)).ok_or(NoHinge);
         let joints = (0..assembly.bonds.len()).map(joint).collect::<Result<Vec<_>, _>>()?;
-        let flat =
-            State { joints: vec![0.0; assembly.joints().count()], bonds: holds, base: Pose::identity() };
+        let flat = State {
+            joints: vec![0.0; assembly.joints().count()],
+            bonds: holds,
+            base: Pose::identity(),
+            clusters: vec![],
+        };
         Ok(Sheet { assembly, joints, flat })
     }
 

@@ -146,11 +146,13 @@ impl Part {
             name: robot.name.clone(),
             library: robot.library.clone(),
             closed: robot.closed,
+            misalignments: vec![],
         };
         let start = State {
             joints: joints.iter().map(|&joint| tracks.start.joints[joint]).collect(),
             bonds: bonds.iter().map(|&bond| self.bonds[bond]).collect(),
             base: tracks.start.base,
+            clusters: vec![],
         };
         let between = |event: &&DockingEvent| {
             (event.time > self.from || self.parent.is_none()) && (event.time < to || to == tracks.duration)
@@ -188,6 +190,7 @@ impl Part {
                 tracks: tracks.tracks.iter().filter_map(motion).collect(),
                 events: events.collect(),
                 duration: to,
+                obstacles: tracks.obstacles.clone(),
                 start_causes: tracks.start_causes.iter().filter_map(start_cause).collect(),
                 bond_causes: tracks.bond_causes.iter().filter_map(bond_cause).collect(),
             },
