@@ -1,6 +1,6 @@
 //! The effect of each command on the joints at the instant it is given.
 
-use super::docking;
+use super::docking::{self, Docked};
 use super::joints;
 use super::law::{self, MotionLimits, Piece};
 use super::limits::{Issue, IssueKind, Part};
@@ -232,11 +232,13 @@ impl Run<'_> {
             return self.dock_known(a, b, cause);
         }
         let joints: Vec<f64> = self.motions.iter().map(|m| m.position(self.now)).collect();
-        let (bond, hinge) = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
+        let Docked { bond, hinge, apart } = docking::docked(&self.robot, &self.holds, &joints, a, b)?;
+        // From the first docking of robots that stand by themselves on, kinematics does not tell turns.
+        let open = apart || !self.open_turns.is_empty();
         // A bond whose hinge may have turned since is a new one; without a hinge its ends are alike.
         let swapped = Bond { a: bond.b, b: bond.a, turn: bond.turn };
         let same = |known: &Bond| (*known == bond || *known == swapped) && hinge.is_none();
-        let known = self.robot.bonds.iter().position(same);
+        let known = self.robot.bonds.iter().position(same).filter(|_| !open);
         let index = known.unwrap_or_else(|| {
             Arc::make_mut(&mut self.robot).bonds.push(bond);
             self.holds.push(false);
@@ -247,6 +249,9 @@ impl Run<'_> {
             }
             self.robot.bonds.len() - 1
         });
+        if open {
+            self.open_turns.push(index);
+        }
         self.holds[index] = true;
         self.docks.push(DockingEvent { time: self.now, kind: DockingKind::Dock, bond: index, cause });
         Ok(())

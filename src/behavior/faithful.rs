@@ -2,7 +2,7 @@
 //! the judge judges the tracks.
 
 use super::conflict::conflicts;
-use super::schedule::{Problem, Settings, schedule};
+use super::schedule::{Problem, Scheduled, Settings, schedule};
 use super::tolerances::TOLERANCES;
 use crate::plan::polynomial::elevated;
 use crate::plan::{Failure, Plan, Track, Tracks};
@@ -38,11 +38,12 @@ pub fn unfaithful(plan: &Plan) -> Option<Failure> {
         let word = if played.nominal { "depends" } else { "does not depend" };
         return Some(Failure::form(format!("the program {word} on sensors, and the file says otherwise")));
     }
-    differs(&played.tracks, tracks).map(Failure::form)
+    differs(&played, tracks).map(Failure::form)
 }
 
 /// Returns the first difference of two motions in words; `None` if they are the same up to rounding.
-fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
+fn differs(played: &Scheduled, stated: &Tracks) -> Option<String> {
+    let made = &played.tracks;
     if (made.duration - stated.duration).abs() > TOLERANCES.faithful {
         let time = |t| quantity(t, Dimension::TIME);
         let (made, stated) = (time(made.duration), time(stated.duration));
@@ -50,7 +51,11 @@ fn differs(made: &Tracks, stated: &Tracks) -> Option<String> {
     }
     let same_docks = made.events.len() == stated.events.len()
         && made.events.iter().zip(&stated.events).all(|(a, b)| {
-            (a.kind, a.bond) == (b.kind, b.bond) && (a.time - b.time).abs() <= TOLERANCES.faithful
+            let [one, other] = [&made.robot.bonds[a.bond], &stated.robot.bonds[b.bond]];
+            let ports = (one.a, one.b) == (other.a, other.b) || (one.a, one.b) == (other.b, other.a);
+            // Turns that depend on how robots stand are the judge's affair.
+            let same = a.bond == b.bond || (ports && played.open_turns.contains(&a.bond));
+            a.kind == b.kind && same && (a.time - b.time).abs() <= TOLERANCES.faithful
         });
     if !same_docks {
         return Some("the program docks or undocks otherwise than the motion of the file".to_owned());

@@ -29,6 +29,9 @@ pub(super) struct Run<'a> {
     pub(super) holds: Vec<bool>,
     /// The changes of bonds so far, in order of time.
     pub(super) docks: Vec<DockingEvent>,
+    /// The bonds by which robots have docked that stood by themselves, and those closed after that, in order of time: their
+    /// turns depend on how the robots stand.
+    pub(super) open_turns: Vec<usize>,
     /// The intervals so far that are excused from a check.
     pub(super) exemptions: Vec<Exemption>,
     /// Stated durations so far that are shorter than the limits allow.
@@ -72,6 +75,8 @@ pub(super) struct Played {
     pub(super) end: Vec<f64>,
     /// The changes of bonds, in order of time.
     pub(super) docks: Vec<DockingEvent>,
+    /// The bonds whose turns depend on how robots stand; see [`Run::open_turns`].
+    pub(super) open_turns: Vec<usize>,
     /// The time at which all is done and at rest, s.
     pub(super) duration: f64,
     /// The intervals that are excused from a check.
@@ -168,6 +173,7 @@ impl<'a> Run<'a> {
             start,
             holds,
             docks: vec![],
+            open_turns: vec![],
             exemptions: vec![],
             issues: vec![],
             settings,
@@ -567,6 +573,7 @@ impl<'a> Run<'a> {
             joints: self.start,
             end,
             docks: self.docks,
+            open_turns: self.open_turns,
             duration,
             exemptions: self.exemptions,
             issues: self.issues,

@@ -82,6 +82,9 @@ pub struct Scheduled {
     pub nominal: bool,
     /// The number of actions that were carried out, repetitions included.
     pub actions: u64,
+    /// The bonds whose turns are not known, in order of time, by their indices: robots that stood by themselves dock by them,
+    /// or they were closed after that. The turns stand as 0, or as bonds before had made them.
+    pub open_turns: Vec<usize>,
     /// Stated durations that are shorter than the joints' limits allow, at most one for each cause.
     pub issues: Vec<Issue>,
 }
@@ -117,7 +120,7 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     let motions = start.joints.iter().map(|&q| Motion::at_rest(q)).collect();
     let obstacles = Default::default();
     let run = Run::new(Arc::new(robot), facts, motions, start.bonds.clone(), settings);
-    let Played { robot, tracks, joints, docks, duration, exemptions, actions, issues, .. } =
+    let Played { robot, tracks, joints, docks, open_turns, duration, exemptions, actions, issues, .. } =
         run.play(&program)?;
     let robot = Arc::unwrap_or_clone(robot);
     let bonds = robot.bonds.iter().enumerate().map(|(i, _)| start.bonds.get(i).copied().unwrap_or(false));
@@ -138,6 +141,7 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
         exemptions,
         nominal,
         actions,
+        open_turns,
         issues,
     })
 }

@@ -3,9 +3,6 @@
 /// The tolerances with which behaviours are scheduled and transformed; those that a caller may set are in
 /// [`Settings`](super::Settings).
 pub(super) struct Tolerances {
-    /// The difference of angle errors, rad, below which two turns of a bond fit equally well: rounding must not
-    /// choose.
-    pub turn_tie: f64,
     /// The greatest distance of an image from a joint in a mirrored robot, m: parts are placed with less care
     /// than this only by mistake, and the masses of the two halves of a module may differ a little.
     pub image_place: f64,
@@ -18,4 +15,4 @@ pub(super) struct Tolerances {
 
 /// The tolerances with which every behaviour is scheduled and transformed.
 pub(super) const TOLERANCES: Tolerances =
-    Tolerances { turn_tie: 1e-9, image_place: 2e-3, image_direction: 1e-3, faithful: 1e-9 };
+    Tolerances { image_place: 2e-3, image_direction: 1e-3, faithful: 1e-9 };

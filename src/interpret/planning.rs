@@ -116,10 +116,11 @@ impl Interpreter<'_> {
         causes: &PlanCauses,
         world: World,
     ) -> (PlanValue, Vec<behavior::Issue>) {
-        let Scheduled { tracks, program, exemptions, nominal, actions, issues } = scheduled;
+        let Scheduled { tracks, program, exemptions, nominal, actions, open_turns, issues } = scheduled;
         let library = tracks.robot.library.clone();
         let bare = self.bare_plan("behavior", Body::Tracks(tracks), library, world, causes);
-        let plan = Plan { program: Some(program), nominal, exemptions, ..bare };
+        let mut plan = Plan { program: Some(program), nominal, exemptions, ..bare };
+        settle_turns(&mut plan, &open_turns);
         (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
     }
 
@@ -269,6 +270,7 @@ impl Interpreter<'_> {
             exemptions: Vec::new(),
             nominal: false,
             actions: 0,
+            open_turns: Vec::new(),
             issues: Vec::new(),
         };
         Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
@@ -337,6 +339,18 @@ impl Interpreter<'_> {
     /// the plan.
     pub fn refused(&self, refusal: &behavior::Refusal, ids: &[CauseId], span: Span) -> Stop {
         super::verdicts::refused(self, refusal, ids, span)
+    }
+}
+
+/// Gives bonds of a plan, by their indices, the turns that are nearest to how their ports stand when they dock, as the robots
+/// have come there.
+fn settle_turns(plan: &mut Plan, bonds: &[usize]) {
+    if bonds.is_empty() {
+        return;
+    }
+    let turns = crate::plan::verify::articulated::dock_turns(plan, bonds);
+    if let Body::Tracks(tracks) = &mut plan.body {
+        turns.into_iter().for_each(|(bond, turn)| tracks.robot.bonds[bond].turn = turn);
     }
 }
 

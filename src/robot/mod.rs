@@ -28,6 +28,7 @@ pub mod spatial;
 
 mod embedding;
 mod matching;
+mod mating;
 mod symmetry;
 
 mod banded_qr;
@@ -48,6 +49,7 @@ pub use library::{
 };
 pub use mass::Mass;
 pub use matching::{Matching, Mismatch, matching};
+pub use mating::nearest_turn;
 pub use step::{Motion, Step, driven};
 pub use symmetry::{Symmetry, symmetries};
 pub use tree::Tree;

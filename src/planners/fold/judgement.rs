@@ -57,7 +57,7 @@ pub(crate) fn judged(motion: Motion) -> Result<Solution<Judged>, Fault> {
         bond_causes: (0..bonds).map(|bond| (bond, CauseId(0))).collect(),
         settings: behavior::Settings::default(),
     };
-    let Scheduled { tracks, program, exemptions, nominal, actions, issues } =
+    let Scheduled { tracks, program, exemptions, nominal, actions, issues, .. } =
         behavior::schedule(problem).map_err(Fault::Schedule)?;
     if !issues.is_empty() {
         return Err(Fault::TooFast);

@@ -23,6 +23,15 @@ impl BasePath {
         first.try_lerp_slerp(last, part, tolerances.nearest).unwrap_or(*last)
     }
 
+    /// Returns the mean speed of the base between the samples before `index` and of `index`, which must not be the first, m/s;
+    /// turning counts with one metre for a radian.
+    pub(super) fn mean_speed(&self, index: usize) -> f64 {
+        let ((before, from), (time, to)) = (&self.poses[index - 1], &self.poses[index]);
+        let moved =
+            (to.translation.vector - from.translation.vector).norm() + from.rotation.angle_to(&to.rotation);
+        if time > before { moved / (time - before) } else { 0.0 }
+    }
+
     /// Returns true if the base moves faster than a speed (m/s) from the last sample but one to the last.
     pub(super) fn ends_faster(&self, speed: f64) -> bool {
         let [.., (before, from), (time, to)] = self.poses.as_slice() else { return false };

@@ -1,132 +1,231 @@
-//! Collisions between the clusters of a robot that has come apart, from sample to sample.
+//! Collisions between clusters, and of clusters with obstacles.
 //!
-//! The base of each cluster moves over the ground by itself, and nothing here bounds its motion between samples: what is
-//! said is said of the samples.
+//! The base of each cluster moves over the ground by itself: it is taken to stay as near to the straight line and one turn
+//! from sample to sample as these are long. With that, and bounds on the joints' motion, pairs are separated between samples;
+//! where they are not, what is said is said of the samples.
 
 use super::base_path::BasePath;
 use super::blame::{Candidate, distinct, suspects};
 use super::bodies::Bodies;
+use super::cluster_balls::ClusterBalls;
 use super::clusters::Cluster;
 use super::collision::Collision;
+use super::docking;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::Rollout;
-use crate::geometry::Pose;
+use super::tolerances::Tolerances;
+use crate::geometry::{Pose, Vec3};
 use crate::interrupt;
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Status, Tracks};
-use crate::robot::{JointOwner, Kinematics};
+use crate::robot::{JointOwner, Kinematics, Link, ModuleInstance, ModuleType, Surface, mate};
 use crate::units::{Dimension, quantity};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// Judges whether links of two clusters meet that are apart at the same time, at all samples of either: records
-/// collisions, the least distance, and the number of samples. `rollout`: that of the whole plan; `paths`: those of the
-/// clusters' bases, one for each. `ended`: the time from which a cluster no longer moves as planned (s) and the check
-/// that says so; `None` if all do.
+/// Judges whether links of two clusters meet that are there at the same time, or of a cluster and an obstacle, at all samples
+/// of either and between them: records collisions, the least distance, and the number of samples. `rollout`: that of the
+/// whole plan; `paths`: those of the clusters' bases, one for each. `ended`: the time from which a cluster no longer moves as
+/// planned (s) and the check that says so; `None` if all do.
 pub(super) fn judge(
     rollout: &Rollout,
     (clusters, paths): (&[Cluster], &[BasePath]),
     ended: Option<(f64, CheckKind)>,
     ledger: &mut Ledger,
 ) {
-    let tracks = rollout.tracks;
+    let surrounded = with_obstacles(rollout.tracks);
+    let tracks = &surrounded;
     // An unsound shape is a failure of the cluster that has it.
     let Ok(bodies) = Bodies::of_plan(tracks) else { return };
-    let split = clusters.iter().filter(|c| c.parent.is_some()).map(|c| c.from).fold(f64::INFINITY, f64::min);
+    let alone = |time: f64| {
+        tracks.obstacles.is_empty()
+            && clusters.iter().filter(|cluster| cluster.exists(time, rollout.end)).count() < 2
+    };
     let mut times: Vec<f64> = paths
         .iter()
         .flat_map(|path| path.poses.iter().map(|pose| pose.0))
-        .filter(|t| *t >= split && ended.is_none_or(|(end, _)| *t < end))
+        .filter(|t| ended.is_none_or(|(end, _)| *t < end))
         .collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    let pairs_of = clusters.iter().zip(paths).collect();
+    times.retain(|time| !alone(*time));
+    let pairs_of: Vec<(&Cluster, &BasePath)> = clusters.iter().zip(paths).collect();
     let mut placed = PlacedClusters::new(tracks, pairs_of, rollout.tolerances);
     let numbers = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
-    let mut links =
-        PlacedLinks { tracks, bodies: &bodies, poses: vec![Pose::identity(); numbers.link_count()], numbers };
-    let mut found: BTreeMap<(usize, usize), Collision> = BTreeMap::new();
+    let mut links = PlacedLinks {
+        tracks,
+        bodies: &bodies,
+        explained: explained(tracks, clusters, &bodies),
+        poses: vec![Pose::identity(); numbers.link_count()],
+        numbers,
+        found: BTreeMap::new(),
+    };
+    let mut balls = ClusterBalls::new(tracks, clusters, paths, &bodies);
+    let mut unproved = 0;
     for &time in &times {
         interrupt::checkpoint();
         let existing = placed.place(time, &mut links.poses);
+        balls.place(&existing, time, &bodies, &links.numbers, &links.poses);
         for (i, &a) in existing.iter().enumerate() {
-            for &b in &existing[i + 1..] {
-                for pair in pairs(&clusters[a], &clusters[b]) {
-                    links.observe(pair, time, &mut found, ledger);
+            for &b in existing[i + 1..].iter().chain(&balls.obstacles()) {
+                // The motion of both until half way to the next sample, and from half way from the one before.
+                let moved = balls.motion(a) + balls.motion(b);
+                let enough =
+                    ledger.verdict.clearance.as_ref().map_or(f64::INFINITY, |worst| worst.value.max(0.0));
+                if balls.distance(a, b) > enough.max(moved) {
+                    continue;
                 }
+                let mut nearest = f64::INFINITY;
+                for &x in balls.modules(a) {
+                    for &y in balls.modules(b) {
+                        nearest = nearest.min(links.observe((x, y), time, moved, ledger));
+                    }
+                }
+                unproved += usize::from(nearest < moved);
             }
         }
     }
+    let found = std::mem::take(&mut links.found);
+    report(rollout, (tracks, clusters), found, ledger);
+    ledger.verdict.samples += times.len();
+    let status = match ended {
+        Some((time, kind)) => Status::NotChecked(format!(
+            "between robots, from {} on: {} fails",
+            quantity(time, Dimension::TIME),
+            kind.name()
+        )),
+        None if unproved == 0 => Status::Proved,
+        None => Status::Sampled(times.len()),
+    };
+    ledger.check(CheckKind::Collision, status);
+}
+
+/// Returns a plan's tracks whose robot has one more module for each obstacle, after all others: one link without joints.
+fn with_obstacles(tracks: &Tracks) -> Tracks {
+    let mut all = tracks.clone();
+    if all.obstacles.is_empty() {
+        return all;
+    }
+    let library = Arc::make_mut(&mut all.robot.library);
+    for obstacle in &*tracks.obstacles {
+        let link = Link {
+            name: "body".to_owned(),
+            pose: Pose::identity(),
+            shape: vec![],
+            collides: obstacle.shapes.clone(),
+            left_out: 0.0,
+            mass: 0.0,
+            com: Vec3::zeros(),
+            inertia: [0.0; 6],
+            friction: Link::FRICTION_DEFAULT,
+            surface: Surface::default(),
+        };
+        all.robot.modules.push(ModuleInstance { name: obstacle.name.clone(), kind: library.modules.len() });
+        library.modules.push(ModuleType {
+            name: obstacle.name.clone(),
+            links: vec![link],
+            joints: vec![],
+            ports: vec![],
+            motors: vec![],
+            touching: vec![],
+            touch: f64::INFINITY,
+            contact: ModuleType::CONTACT_DEFAULT,
+        });
+    }
+    all
+}
+
+/// Returns the depths to which modules that dock with each other may overlap while they are of different clusters, as far
+/// as the error of docking explains the overlap that their bond has, m, by the indices of the two modules.
+fn explained(tracks: &Tracks, clusters: &[Cluster], bodies: &Bodies) -> BTreeMap<(usize, usize), f64> {
+    let mut depths = BTreeMap::new();
+    let robot = &tracks.robot;
+    for cluster in clusters {
+        for &bond in &cluster.bonds {
+            let own = cluster.bonds.binary_search(&bond).expect("the bond is one of the cluster's");
+            let declared = robot.bonds[bond];
+            let [a, b] = [declared.a, declared.b]
+                .map(|port| (port.module, &robot.module_type(port.module).ports[port.port]));
+            let X_AB = a.1.pose * mate(&cluster.tracks.robot, own) * b.1.pose.inverse();
+            let overlap = bodies.overlap((a.0, a.1.link), (b.0, b.1.link), &X_AB);
+            let tolerances = Tolerances::default();
+            let depth = overlap.min(docking::tolerated(robot, bond, &tolerances).distance);
+            let known: &mut f64 = depths.entry((a.0.min(b.0), a.0.max(b.0))).or_insert(0.0);
+            *known = known.max(depth);
+        }
+    }
+    depths
+}
+
+/// Records the collisions found, each blamed on what moves then in the clusters concerned, or on the event that brought
+/// them to be. `tracks`: those with obstacles.
+fn report(
+    rollout: &Rollout,
+    (tracks, clusters): (&Tracks, &[Cluster]),
+    found: BTreeMap<(usize, usize), Collision>,
+    ledger: &mut Ledger,
+) {
     let joints: Vec<JointOwner> = tracks.robot.joints().collect();
     for collision in found.into_values() {
         let mut failure = collision.failure(&tracks.robot);
         let cluster_of = |module: usize| {
             clusters.iter().rposition(|c| c.from <= failure.time && c.modules.contains(&module))
         };
-        let both = [collision.modules.0, collision.modules.1].map(cluster_of);
-        let concerned = |s: &Candidate| both.contains(&cluster_of(tracks.robot.module_of(joints[s.joint])));
+        let both: Vec<usize> =
+            [collision.modules.0, collision.modules.1].into_iter().filter_map(cluster_of).collect();
+        let concerned = |s: &Candidate| {
+            cluster_of(tracks.robot.module_of(joints[s.joint])).is_some_and(|own| both.contains(&own))
+        };
         let suspects = suspects(tracks, failure.time);
         let moving = suspects.iter().filter(|s| s.moving && concerned(s)).map(|s| s.cause);
         let mut blame = distinct(moving);
         if blame.is_empty() {
-            let undone = tracks.events.iter().rfind(|event| event.time <= failure.time);
-            blame.extend(undone.map(|event| event.cause));
+            let event = rollout.tracks.events.iter().rfind(|event| event.time <= failure.time);
+            blame.extend(event.map(|event| event.cause));
         }
+        failure.blames_start = blame.is_empty();
         failure.blame = blame;
         ledger.fail(failure);
     }
-    ledger.verdict.samples += times.len();
-    let status = match ended {
-        Some((time, kind)) => Status::NotChecked(format!(
-            "between parts, from {} on: {} fails",
-            quantity(time, Dimension::TIME),
-            kind.name()
-        )),
-        None => Status::Sampled(times.len()),
-    };
-    ledger.check(CheckKind::Collision, status);
-}
-
-/// Returns the pairs of a module of one cluster and one of another, by their indices in the plan's robot.
-fn pairs<'c>(a: &'c Cluster, b: &'c Cluster) -> impl Iterator<Item = (usize, usize)> + 'c {
-    a.modules.iter().flat_map(|&x| b.modules.iter().map(move |&y| (x, y)))
 }
 
 /// The links of the plan's robot where they are at a time.
 struct PlacedLinks<'a> {
     tracks: &'a Tracks,
     bodies: &'a Bodies,
+    /// The depths to which modules may overlap beyond what all may, m.
+    explained: BTreeMap<(usize, usize), f64>,
     /// The kinematics of the whole robot, which gives its links their numbers.
     numbers: Kinematics,
     /// The world poses of all links (`X_WL`), by their numbers, m.
     poses: Vec<Pose>,
+    /// The deepest collision of each pair of modules so far.
+    found: BTreeMap<(usize, usize), Collision>,
 }
 
 impl PlacedLinks<'_> {
     /// Takes the distances of the links of two modules at a time (s): keeps the least in the verdict, and the deepest
-    /// collision that no exemption excuses.
-    fn observe(
-        &self,
-        (x, y): (usize, usize),
-        time: f64,
-        found: &mut BTreeMap<(usize, usize), Collision>,
-        ledger: &mut Ledger,
-    ) {
+    /// collision that no exemption excuses. Returns the least, m, exact if it is less than `moved` (m).
+    fn observe(&mut self, (x, y): (usize, usize), time: f64, moved: f64, ledger: &mut Ledger) -> f64 {
         let bodies = self.bodies;
         let origin = |module: usize| self.numbers.module_pose(module, &self.poses).translation.vector;
         let known = ledger.verdict.clearance.as_ref().map_or(f64::INFINITY, |worst| worst.value);
-        let enough = known.max(0.0);
-        if (origin(x) - origin(y)).norm() - bodies.reach[x] - bodies.reach[y] >= enough {
-            return;
+        let enough = known.max(moved).max(0.0);
+        let balls = (origin(x) - origin(y)).norm() - bodies.reach[x] - bodies.reach[y];
+        if balls >= enough {
+            return balls;
         }
         let links = |module: usize| bodies.first_of_links(module).map(|body| bodies.bodies[body].link);
         let own = |module: usize, link: usize| (module, link - self.numbers.link(module, 0));
+        let allowed = bodies.allowed_depth(x, y) + self.explained.get(&(x.min(y), x.max(y))).unwrap_or(&0.0);
+        let mut nearest = enough;
         for (a, b) in links(x).flat_map(|a| links(y).map(move |b| (own(x, a), own(y, b)))) {
             let distance = bodies.signed_distance(&self.numbers, (a, b), &self.poses, enough);
+            nearest = nearest.min(distance);
             if distance < known {
                 let names = || [x, y].map(|module| self.tracks.robot.modules[module].name.clone()).into();
                 keep_least(&mut ledger.verdict.clearance, distance, time, names);
             }
-            let allowed = bodies.allowed_depth(x, y);
             let excuse = |kind: &ExemptionKind| match kind {
                 ExemptionKind::Collision(modules) => {
                     modules.is_none_or(|pair| pair == (x, y) || pair == (y, x))
@@ -136,7 +235,7 @@ impl PlacedLinks<'_> {
             if distance >= -allowed || ledger.excuses(CheckKind::Collision, time, excuse) {
                 continue;
             }
-            let collision = found.entry((x, y)).or_insert(Collision {
+            let collision = self.found.entry((x, y)).or_insert(Collision {
                 modules: (x, y),
                 links: (a.1, b.1),
                 time,
@@ -150,5 +249,6 @@ impl PlacedLinks<'_> {
                 (collision.depth, collision.deepest) = (-distance, time);
             }
         }
+        nearest
     }
 }

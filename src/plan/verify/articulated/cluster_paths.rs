@@ -1,16 +1,16 @@
-//! The paths of the clusters of a robot that comes apart, for those who draw or measure it. Nothing is judged here.
+//! The paths of several clusters, for those who draw or measure them. Nothing is judged here.
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
-use super::parted;
+use super::parted::{self, Beginning, Past};
 use super::placed_clusters::PlacedClusters;
 use super::rollout::{Rollout, roll_out};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
 
-/// The path of one cluster: a part of the robot that bonds connect, from the instant at which it comes off another, or
-/// the start, until it comes apart itself.
+/// The path of one cluster: modules that bonds connect, from the instant at which it comes to be by docking or undocking, or
+/// the start, until it does not hold any more.
 #[derive(Clone, Debug)]
 pub struct ClusterPath {
     cluster: Cluster,
@@ -21,23 +21,34 @@ pub struct ClusterPath {
 #[derive(Clone, Debug)]
 pub struct ClusterPaths<'a> {
     tracks: &'a Tracks,
-    /// The clusters, each after the one of which it was a part.
+    /// The clusters, each after those of whose modules it consists.
     pub clusters: Vec<ClusterPath>,
     tolerances: Tolerances,
 }
 
-/// Returns true if the robot of a valid plan comes apart.
+/// Returns true if a valid plan has several clusters: robots that stand by themselves, or parts that come off one.
 pub fn comes_apart(plan: &Plan) -> bool {
     let Body::Tracks(tracks) = &plan.body else { return false };
     let undocks = tracks.events.iter().any(|event| event.kind == DockingKind::Undock);
-    undocks
+    (undocks || !tracks.start.clusters.is_empty())
         && validation::check(plan).is_ok()
-        && parted::clusters(&Rollout::of(plan, tracks, &Tolerances::default())).is_some()
+        && parted::clusters(&Rollout::of(plan, tracks, &Tolerances::default()))
+            .is_some_and(|clusters| clusters.len() > 1)
+}
+
+/// Returns the path of a robot's base over its rollout, until a time (s) or the end of its tracks.
+pub(super) fn roll_out_path(rollout: Rollout, until: f64) -> BasePath {
+    let mut path = BasePath::default();
+    roll_out(rollout, None, until.min(rollout.tracks.duration), &mut |sample, _| {
+        path.poses.push((sample.time, sample.stance.base_pose(sample.model)));
+        true
+    });
+    path
 }
 
 impl<'a> ClusterPaths<'a> {
     /// Returns the paths of the clusters of an articulated robot's plan up to a time (s), by the judge's rollout; `None`
-    /// for a robot that stays one, for plans of other families, and for plans that are not valid.
+    /// for one robot that stays one, for plans of other families, and for plans that are not valid.
     pub fn of(plan: &'a Plan, until: f64) -> Option<ClusterPaths<'a>> {
         let Body::Tracks(tracks) = &plan.body else { return None };
         if !comes_apart(plan) {
@@ -45,25 +56,19 @@ impl<'a> ClusterPaths<'a> {
         }
         let tolerances = Tolerances::default();
         let rollout = Rollout::of(plan, tracks, &tolerances);
-        let (clusters, _) = parted::clusters(&rollout)?;
-        let mut paths: Vec<BasePath> = Vec::new();
-        for cluster in &clusters {
-            let parent = cluster.parent.map(|parent| (&clusters[parent], &paths[parent]));
-            // A parent that the rollout did not follow to its end leaves no beginning.
-            let known =
-                parent.filter(|(_, path)| path.poses.last().is_some_and(|last| last.0 >= cluster.from));
-            let entry = known.map(|(before, path)| parted::entry(&rollout, cluster, before, path));
+        let mut clusters = parted::clusters(&rollout)?;
+        let mut past = Past::default();
+        for index in 0..clusters.len() {
             let mut path = BasePath::default();
-            if cluster.from <= until && entry.is_some() == parent.is_some() {
-                let own = cluster.rollout(&rollout, entry.as_ref());
-                roll_out(own, None, until.min(cluster.tracks.duration), &mut |sample, _| {
-                    path.poses.push((sample.time, sample.stance.base_pose(sample.model)));
-                    true
-                });
+            // A parent that the rollout did not follow to its end leaves no beginning.
+            let begun = past.begin(&rollout, &mut clusters);
+            let cluster = &clusters[index];
+            if let Some(Beginning { entry, .. }) = begun.filter(|_| cluster.from <= until) {
+                path = roll_out_path(cluster.rollout(&rollout, entry.as_ref()), until);
             }
-            paths.push(path);
+            past.paths.push(path);
         }
-        let followed = clusters.into_iter().zip(paths).filter(|(_, path)| !path.poses.is_empty());
+        let followed = clusters.into_iter().zip(past.paths).filter(|(_, path)| !path.poses.is_empty());
         let clusters = followed.map(|(cluster, path)| ClusterPath { cluster, path }).collect();
         Some(ClusterPaths { tracks, clusters, tolerances })
     }

@@ -1,32 +1,38 @@
-//! The clusters of a plan: the parts of a robot that bonds connect, each from the instant at which it comes off another
-//! until it comes apart itself.
+//! The clusters of a plan: the sets of modules that bonds connect, each from the instant at which it comes to be, at the
+//! start or by docking and undocking, until it does not hold any more.
 //!
-//! The events of one instant act together: two bonds that are undone at once may cut a loop. A part becomes a robot of
-//! its own, with its modules, bonds and joints alone and the times of the plan, so that all that judges a robot judges
-//! it, and as fast.
+//! The events of one instant act together: two bonds that are undone at once may cut a loop, a module may be handed over.
+//! A cluster becomes a robot of its own, with its modules, bonds and joints alone and the times of the plan, so that all
+//! that judges a robot judges it, and as fast.
 
 use super::entry::Entry;
 use super::rollout::Rollout;
+use crate::geometry::Pose;
 use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
+use std::collections::BTreeSet;
 
-/// A part of a robot that bonds connect over an interval of time.
+/// Modules that bonds connect over an interval of time.
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
-    /// The time from which the part is by itself, s from the start of the plan.
+    /// The time from which the cluster is there, s from the start of the plan.
     pub from: f64,
-    /// The number of the cluster of which it was a part before; `None` for the whole robot at the start.
-    pub parent: Option<usize>,
+    /// The numbers of the clusters whose modules it has, that of its base first; none for one of the start.
+    pub parents: Vec<usize>,
+    /// The events at `from` by which modules of different parents dock, in the order of the plan.
+    pub joins: Vec<DockingEvent>,
     /// The modules, by their indices in the plan's robot, ascending.
     pub modules: Vec<usize>,
     /// The bonds between them, by their indices in the plan's robot, ascending.
     pub bonds: Vec<usize>,
-    /// The part as a robot of its own, with its motion from the start of the plan up to the time at which it comes apart
-    /// itself, its `duration`. The bonds of its start hold just after `from`; its events are those between.
+    /// The cluster as a robot of its own, with its motion from the start of the plan up to the time at which it no longer
+    /// is one, its `duration`. The bonds of its start hold just after `from`; its events are those between.
     pub tracks: Tracks,
     /// The exemptions of the plan, by the same indices, with the parts of this robot; one about other parts is never in
     /// force.
     pub exemptions: Vec<Exemption>,
+    /// The cluster in words, by its base.
+    pub name: String,
 }
 
 impl Cluster {
@@ -35,87 +41,168 @@ impl Cluster {
         self.modules[self.tracks.robot.base]
     }
 
-    /// Returns true if the part is by itself just after a time (s), or at the end of the plan, at `end` (s).
+    /// Returns true if the cluster is there just after a time (s), or at the end of the plan, at `end` (s).
     pub(super) fn exists(&self, time: f64, end: f64) -> bool {
         let to = self.tracks.duration;
         self.from <= time && (time < to || to == end)
     }
 
-    /// Returns the rollout of the part. `whole`: that of the plan; `begin`: where the part comes off another, `None` for
-    /// the whole robot at the start.
+    /// Returns the rollout of the cluster. `whole`: that of the plan; `begin`: where it comes to be, `None` for one of the
+    /// start.
     pub(super) fn rollout<'a>(&'a self, whole: &Rollout<'a>, begin: Option<&'a Entry>) -> Rollout<'a> {
-        Rollout { tracks: &self.tracks, exemptions: &self.exemptions, begin, ..*whole }
+        Rollout { tracks: &self.tracks, exemptions: &self.exemptions, begin, subject: &self.name, ..*whole }
+    }
+
+    /// Gives bonds of the cluster the misalignments that they docked with, as (index in the plan's robot, misalignment),
+    /// ascending; those of bonds of other clusters are left out.
+    pub(super) fn misalign(&mut self, known: &[(usize, Pose)]) {
+        let own = |(bond, error): &(usize, Pose)| Some((self.bonds.binary_search(bond).ok()?, *error));
+        self.tracks.robot.misalignments = known.iter().filter_map(own).collect();
+    }
+
+    /// Returns the misalignments of the cluster's bonds, as (index in the plan's robot, misalignment), ascending.
+    pub(super) fn misalignments(&self) -> Vec<(usize, Pose)> {
+        self.tracks.robot.misalignments.iter().map(|(bond, error)| (self.bonds[*bond], *error)).collect()
     }
 }
 
-/// Returns the clusters of a plan whose robot comes apart, each after the one of which it was a part, with the first
-/// event that joins two of them again, at which all end; `None` where the robot stays one, or is not one at the start.
-/// `reference` chooses the base of a part that the base of its parent does not belong to, by its index in the part.
+/// Returns the clusters of a plan, each after those of whose modules it consists; `None` for one robot that stays one in an
+/// empty world, and where modules are connected with nothing that stands for them at the start. `reference` chooses the
+/// base of a cluster with none of the bases that are stated, by its index in the cluster.
 pub(super) fn of(
     tracks: &Tracks,
     exemptions: &[Exemption],
     reference: impl Fn(&Cluster) -> usize,
-) -> Option<(Vec<Cluster>, Option<DockingEvent>)> {
-    let mut bonds = tracks.start.bonds.clone();
-    let whole = components(&tracks.robot, &bonds);
-    if whole.len() != 1 {
-        return None;
-    }
-    let mut now = vec![(0, whole.into_iter().next()?)];
-    let mut found = vec![Part { from: 0.0, parent: None, modules: now[0].1.clone(), bonds: bonds.clone() }];
-    let mut ends = vec![tracks.duration];
-    let mut joins = None;
+) -> Option<Vec<Cluster>> {
+    let mut timeline = Timeline::begin(tracks)?;
     for events in tracks.events.chunk_by(|a, b| a.time == b.time) {
-        let time = events[0].time;
-        events.iter().for_each(|event| bonds[event.bond] = event.kind == DockingKind::Dock);
-        let after = components(&tracks.robot, &bonds);
-        if after.iter().eq(now.iter().map(|(_, modules)| modules)) {
-            continue;
-        }
-        let before = |module: usize| now.iter().find(|(_, modules)| modules.binary_search(&module).is_ok());
-        let joined = |event: &&DockingEvent| {
-            let Bond { a, b, .. } = tracks.robot.bonds[event.bond];
-            let docks = event.kind == DockingKind::Dock;
-            docks && before(a.module).map(|part| part.0) != before(b.module).map(|part| part.0)
-        };
-        if let Some(event) = events.iter().find(joined) {
-            joins = Some(event.clone());
-            now.iter().for_each(|(index, _)| ends[*index] = time);
-            break;
-        }
-        let mut next = Vec::new();
-        for modules in after {
-            let (parent, known) = before(modules[0]).expect("each module belonged to a cluster");
-            if *known == modules {
-                next.push((*parent, modules));
-                continue;
-            }
-            ends[*parent] = time;
-            next.push((found.len(), modules.clone()));
-            found.push(Part { from: time, parent: Some(*parent), modules, bonds: bonds.clone() });
-            ends.push(tracks.duration);
-        }
-        now = next;
+        timeline.pass(events);
     }
-    if found.len() == 1 && joins.is_none() {
+    let Timeline { found, ends, .. } = timeline;
+    if found.len() == 1 && tracks.obstacles.is_empty() {
         return None;
     }
+    let stated: Vec<usize> = stated_bases(tracks).collect();
     let mut clusters: Vec<Cluster> = Vec::with_capacity(found.len());
-    for (part, to) in found.into_iter().zip(ends) {
+    for (mut part, to) in found.into_iter().zip(ends) {
+        let mut bases =
+            part.parents.iter().map(|parent| clusters[*parent].base()).chain(stated.iter().copied());
+        let known = bases.find_map(|base| part.modules.binary_search(&base).ok());
         let mut cluster = part.cluster(tracks, exemptions, to);
-        let held = part.parent.map(|parent| clusters[parent].base());
-        let bases = [held, Some(tracks.robot.base)];
-        let own = bases.into_iter().flatten().find_map(|base| cluster.modules.binary_search(&base).ok());
-        cluster.tracks.robot.base = own.unwrap_or_else(|| reference(&cluster));
+        cluster.tracks.robot.base = known.unwrap_or_else(|| reference(&cluster));
+        let base = cluster.base();
+        let holds = |parent: &usize| clusters[*parent].modules.binary_search(&base).is_ok();
+        part.parents.sort_by_key(|parent| !holds(parent));
+        cluster.parents = part.parents;
+        if let Some(start) = tracks.start.clusters.iter().find(|start| start.reference == base) {
+            cluster.tracks.start.base = start.pose;
+        }
+        let word = if tracks.start.clusters.is_empty() { "part" } else { "robot" };
+        cluster.name = format!("the {word} with `{}`", tracks.robot.modules[base].name);
         clusters.push(cluster);
     }
-    Some((clusters, joins))
+    Some(clusters)
 }
 
-/// A part as it is found: the indices of its modules, and flags for all bonds of the robot just after it begins.
+/// Returns the modules whose poses are stated at the start, by their indices, that of the plan's base first.
+fn stated_bases(tracks: &Tracks) -> impl Iterator<Item = usize> + '_ {
+    let further = tracks.start.clusters.iter().map(|cluster| cluster.reference);
+    std::iter::once(tracks.robot.base).chain(further)
+}
+
+/// The clusters of a plan from its start up to an event.
+struct Timeline<'a> {
+    tracks: &'a Tracks,
+    /// Flags for all bonds of the robot, true if they hold now.
+    bonds: Vec<bool>,
+    /// The bonds that hold, and by which robots docked that stood by themselves.
+    joining: BTreeSet<usize>,
+    /// All clusters so far.
+    found: Vec<Part>,
+    /// The end of each of them, s: that of the plan as long as it is there.
+    ends: Vec<f64>,
+    /// The clusters that are there now, by their numbers, in the order of their first modules.
+    now: Vec<usize>,
+}
+
+impl<'a> Timeline<'a> {
+    /// Returns the clusters at the start; `None` where a set of connected modules has not one module whose pose is stated.
+    fn begin(tracks: &'a Tracks) -> Option<Timeline<'a>> {
+        let bonds = tracks.start.bonds.clone();
+        let sets = components(&tracks.robot, &bonds);
+        let stands = |set: &Vec<usize>| {
+            stated_bases(tracks).filter(|base| set.binary_search(base).is_ok()).count() == 1
+        };
+        if !sets.iter().all(stands) {
+            return None;
+        }
+        let part =
+            |modules| Part { from: 0.0, parents: vec![], joins: vec![], modules, bonds: bonds.clone() };
+        let found: Vec<Part> = sets.into_iter().map(part).collect();
+        let now = (0..found.len()).collect();
+        let ends = vec![tracks.duration; found.len()];
+        Some(Timeline { tracks, bonds, joining: BTreeSet::new(), found, ends, now })
+    }
+
+    /// Takes the events of one instant: clusters whose modules change end, and so do those in which a bond is undone that
+    /// joined two, whose error of docking is forgotten.
+    fn pass(&mut self, events: &[DockingEvent]) {
+        let mut forgets: BTreeSet<usize> = BTreeSet::new();
+        for event in events {
+            let docks = event.kind == DockingKind::Dock;
+            self.bonds[event.bond] = docks;
+            if !docks && self.joining.remove(&event.bond) {
+                forgets.insert(self.tracks.robot.bonds[event.bond].a.module);
+            }
+        }
+        let mut owner = vec![0; self.tracks.robot.modules.len()];
+        for &index in &self.now {
+            self.found[index].modules.iter().for_each(|module| owner[*module] = index);
+        }
+        let ends_of = |bond: usize| {
+            let Bond { a, b, .. } = self.tracks.robot.bonds[bond];
+            (owner[a.module], owner[b.module])
+        };
+        let joined = |event: &&DockingEvent| {
+            let (a, b) = ends_of(event.bond);
+            event.kind == DockingKind::Dock && a != b
+        };
+        let joins: Vec<DockingEvent> = events.iter().filter(joined).cloned().collect();
+        let time = events[0].time;
+        let mut next = Vec::new();
+        for modules in components(&self.tracks.robot, &self.bonds) {
+            let first = owner[modules[0]];
+            let forgotten = forgets.iter().any(|module| modules.binary_search(module).is_ok());
+            if self.found[first].modules == modules && !forgotten {
+                next.push(first);
+                continue;
+            }
+            let own = |event: &&DockingEvent| {
+                modules.binary_search(&self.tracks.robot.bonds[event.bond].a.module).is_ok()
+            };
+            let joins: Vec<DockingEvent> = joins.iter().filter(own).cloned().collect();
+            // The cluster of the first port of the first docking carries the others.
+            let mut parents: Vec<usize> = joins.iter().map(|event| ends_of(event.bond).0).take(1).collect();
+            for module in &modules {
+                if !parents.contains(&owner[*module]) {
+                    parents.push(owner[*module]);
+                }
+            }
+            parents.iter().for_each(|parent| self.ends[*parent] = time);
+            self.joining.extend(joins.iter().map(|event| event.bond));
+            next.push(self.found.len());
+            self.found.push(Part { from: time, parents, joins, modules, bonds: self.bonds.clone() });
+            self.ends.push(self.tracks.duration);
+        }
+        self.now = next;
+    }
+}
+
+/// A cluster as it is found: the indices of its modules, and flags for all bonds of the robot just after it begins.
 struct Part {
     from: f64,
-    parent: Option<usize>,
+    parents: Vec<usize>,
+    joins: Vec<DockingEvent>,
     modules: Vec<usize>,
     bonds: Vec<bool>,
 }
@@ -155,7 +242,7 @@ impl Part {
             clusters: vec![],
         };
         let between = |event: &&DockingEvent| {
-            (event.time > self.from || self.parent.is_none()) && (event.time < to || to == tracks.duration)
+            (event.time > self.from || self.parents.is_empty()) && (event.time < to || to == tracks.duration)
         };
         let events = tracks
             .events
@@ -182,7 +269,9 @@ impl Part {
         let bond_cause = |(index, cause): &(usize, CauseId)| Some((bond(*index)?, *cause));
         Cluster {
             from: self.from,
-            parent: self.parent,
+            parents: vec![],
+            joins: self.joins.clone(),
+            name: String::new(),
             modules: self.modules.clone(),
             tracks: Tracks {
                 robot: own,

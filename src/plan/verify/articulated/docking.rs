@@ -8,20 +8,15 @@ use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
-/// Judges every docking of the plan, that the ports are then within capture of each other, and that bonds connect all
+/// Judges every docking of a robot, that the ports are then within capture of each other, and that bonds connect all
 /// modules with the base at the start; records failures and the status of both checks. Returns the
-/// indices in the assembly of the bonds whose ports missed, in order of time. `joins`: the first event that joins parts
-/// that have come apart, which is refused; what comes after it is not judged.
-pub(super) fn judge(rollout: &Rollout, joins: Option<&DockingEvent>, ledger: &mut Ledger) -> Vec<usize> {
+/// indices in the assembly of the bonds whose ports missed, in order of time.
+pub(super) fn judge(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
     let tracks = rollout.tracks;
     let mut missed = Vec::new();
     let mut bonds = tracks.start.bonds.clone();
     in_one_piece(tracks, &bonds, ledger);
     for dock in &tracks.events {
-        if joins == Some(dock) {
-            ledger.fail(joining(&tracks.robot, dock));
-            break;
-        }
         if dock.kind == DockingKind::Dock && !near_enough(rollout, &bonds, dock, ledger) {
             missed.push(dock.bond);
         }
@@ -30,21 +25,6 @@ pub(super) fn judge(rollout: &Rollout, joins: Option<&DockingEvent>, ledger: &mu
     ledger.check(CheckKind::Docking, Status::Proved);
     ledger.check(CheckKind::Connectedness, Status::Proved);
     missed
-}
-
-/// Returns the failure of a docking that joins parts that have come apart.
-fn joining(robot: &Assembly, dock: &DockingEvent) -> Failure {
-    let name = robot.bond_name(dock.bond);
-    let message = format!(
-        "{name} joins parts that have come apart: how they then stand to each other is not judged yet"
-    );
-    Failure {
-        kind: CheckKind::Docking,
-        time: dock.time,
-        at: vec![name],
-        blame: vec![dock.cause],
-        ..Failure::form(message)
-    }
 }
 
 /// Records a failure if the bonds that hold at the start leave modules without connection to the base.
@@ -196,12 +176,14 @@ pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) 
     capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
 }
 
-fn apart(residual: &Residual) -> String {
+/// Returns the distance and the angle between two ports, in words.
+pub(super) fn apart(residual: &Residual) -> String {
     let distance = quantity(residual.distance, Dimension::LENGTH);
     format!("the ports are {distance} and {} apart", quantity(residual.angle, Dimension::ANGLE))
 }
 
-fn failure(
+/// Returns the failure of a check of a bond, whose ports are as far apart as `residual` says, in the words of `message`.
+pub(super) fn failure(
     kind: CheckKind,
     robot: &Assembly,
     residual: &Residual,

@@ -52,14 +52,17 @@ pub mod collision;
 
 mod blame;
 mod clearance;
+mod cluster_balls;
 mod cluster_paths;
 mod clusters;
 mod collision_report;
 mod decimated;
+mod dock_turns;
 mod docking;
 mod entry;
 mod history;
 mod in_force;
+mod joining;
 mod one_robot;
 mod parted;
 mod placed_clusters;
@@ -71,6 +74,7 @@ pub use clearance::{clearances, clearances_at, collision_point};
 pub use cluster_paths::{ClusterPath, ClusterPaths, comes_apart};
 pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
+pub use dock_turns::dock_turns;
 pub use entry::Entry;
 pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
 pub use model::Model;
@@ -92,23 +96,21 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let rollout = Rollout::of(plan, tracks, &tolerances);
     limits::judge(tracks, rollout.is_full(), &tolerances, &mut ledger);
     rest::judge(tracks, &tolerances, &mut ledger);
-    let clusters = parted::clusters(&rollout);
-    let joins = clusters.as_ref().and_then(|(_, joins)| joins.as_ref());
-    let missed = docking::judge(&rollout, joins, &mut ledger);
-    match &clusters {
-        Some((clusters, _)) => {
-            parted::judge(&rollout, clusters, &missed, &mut ledger);
+    match parted::clusters(&rollout) {
+        Some(mut clusters) => {
+            parted::judge(&rollout, &mut clusters, &mut ledger);
             if rollout.is_full() {
                 ledger.drop_consequences();
             }
+            parted::in_words(&clusters).into_iter().for_each(|note| ledger.note(note));
         }
-        None => one_robot::judge(&rollout, missed, &mut ledger, None),
+        None => {
+            let missed = docking::judge(&rollout, &mut ledger);
+            one_robot::judge(&rollout, missed, &mut ledger, None);
+        }
     }
     if rollout.is_full() && ledger.verdict.slip.is_some() {
         ledger.note(dynamics::travel_tolerance(&ledger.verdict));
-    }
-    if let Some((clusters, _)) = &clusters {
-        ledger.note(parted::in_words(clusters));
     }
     ledger.check(CheckKind::Form, Status::Proved);
     // Conflicts are found where a behaviour becomes a plan: here each joint has one track.

@@ -70,7 +70,7 @@ fn check_samples(
         }
         loops.observe(sample);
         if let Some(loss) = standing.observe(sample, ledger) {
-            ledger.fail(loss.failure(rollout.subject()));
+            ledger.fail(loss.failure(rollout.subject));
         }
         base_motion.observe(sample, ledger);
         slope.observe(sample, ledger);
@@ -82,7 +82,7 @@ fn check_samples(
         true
     });
     if let Some(loss) = standing.end(rollout.tracks.duration) {
-        ledger.fail(loss.failure(rollout.subject()));
+        ledger.fail(loss.failure(rollout.subject));
     }
     if let RolloutEnd::Limit { time, features } = ended {
         ledger.fail(limit_reached(rollout.settings, features, time));

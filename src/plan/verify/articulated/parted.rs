@@ -1,23 +1,26 @@
-//! The judgement of a robot that comes apart: each cluster by itself, on its own support, and each pair of them against
-//! collisions.
+//! The judgement of several clusters, robots that stand by themselves or parts that have come off one: each by itself, on its
+//! own support, and each pair of them against collisions.
 
 use super::base_path::BasePath;
 use super::between_clusters;
 use super::clusters::{self, Cluster};
+use super::docking;
 use super::entry::Entry;
+use super::joining::{Joining, joints_rest};
 use super::model::Model;
 use super::one_robot;
+use super::placed_clusters::PlacedClusters;
 use super::rollout::Rollout;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, DockingEvent, Failure, Ground, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, DockingKind, Exemption, Failure, Ground, Status};
 use crate::robot::Kinematics;
 use crate::units::{Dimension, counted, quantity};
 
-/// Returns the clusters of a plan, and the event that joins two of them again, as [`clusters::of`] does: the base of a
-/// part that comes off without the plan's is the module nearest to its centre of mass.
-pub(super) fn clusters(rollout: &Rollout) -> Option<(Vec<Cluster>, Option<DockingEvent>)> {
+/// Returns the clusters of a plan, as [`clusters::of`] does: the base of a cluster that has none of those before, nor one
+/// that is stated, is the module nearest to its centre of mass.
+pub(super) fn clusters(rollout: &Rollout) -> Option<Vec<Cluster>> {
     clusters::of(rollout.tracks, rollout.exemptions, |cluster| central(cluster, rollout.tolerances))
 }
 
@@ -35,79 +38,142 @@ fn central(cluster: &Cluster, tolerances: &Tolerances) -> usize {
     })
 }
 
+/// The clusters of a plan as far as they have been rolled out, in their order.
+#[derive(Default)]
+pub(super) struct Past {
+    /// The path of the base of each.
+    pub paths: Vec<BasePath>,
+    /// The bonds by which robots docked that stood by themselves, and that hold since, with their misalignments, by their
+    /// indices in the plan's robot, ascending.
+    misalignments: Vec<(usize, Pose)>,
+}
+
+/// The beginning of a cluster.
+pub(super) struct Beginning {
+    /// The beginning of its rollout; `None` for a cluster of the start.
+    pub entry: Option<Entry>,
+    /// The docking of its parents with each other.
+    pub joining: Joining,
+}
+
+impl Past {
+    /// Returns the beginning of the next of some clusters, to which it gives the misalignments of its bonds; `None` where a
+    /// parent has no path up to there.
+    pub(super) fn begin(&mut self, rollout: &Rollout, clusters: &mut [Cluster]) -> Option<Beginning> {
+        let index = self.paths.len();
+        let (before, rest) = clusters.split_at_mut(index);
+        let next = &mut rest[0];
+        let reaches =
+            |parent: &usize| self.paths[*parent].poses.last().is_some_and(|last| last.0 >= next.from);
+        if !next.parents.iter().all(reaches) {
+            return None;
+        }
+        let known: Vec<(&Cluster, &BasePath)> = before.iter().zip(&self.paths).collect();
+        let joining = match next.joins.is_empty() {
+            true => Joining::default(),
+            false => Joining::of(rollout, next, &known),
+        };
+        let holds =
+            |bond: usize| next.bonds.binary_search(&bond).map_or(true, |own| next.tracks.start.bonds[own]);
+        self.misalignments.retain(|(bond, _)| holds(*bond));
+        self.misalignments.extend(&joining.misalignments);
+        self.misalignments.sort_by_key(|(bond, _)| *bond);
+        let entry = next.parents.first().map(|parent| entry(rollout, next, known[*parent]));
+        next.misalign(&self.misalignments);
+        Some(Beginning { entry, joining })
+    }
+}
+
 /// Judges the clusters of a plan one after the other: failures and worst values are those of all, and the travel is that
-/// of the parts with the plan's base. `rollout`: that of the whole plan. `missed`: the bonds whose ports missed when
-/// they docked, by their indices in the plan's robot.
-pub(super) fn judge(rollout: &Rollout, clusters: &[Cluster], missed: &[usize], ledger: &mut Ledger) {
-    let mut paths: Vec<BasePath> = Vec::with_capacity(clusters.len());
+/// of the clusters with the plan's base. `rollout`: that of the whole plan.
+pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Ledger) {
+    let mut past = Past::default();
+    let exemptions: Vec<Vec<Exemption>> = clusters.iter().map(|cluster| cluster.exemptions.clone()).collect();
     let mut parts = Vec::with_capacity(clusters.len() + 1);
-    for cluster in clusters {
-        let parent = cluster.parent.map(|parent| (&clusters[parent], &paths[parent]));
-        let entry = parent.map(|(before, path)| entry(rollout, cluster, before, path));
+    let mut missed: Vec<usize> = Vec::new();
+    for index in 0..clusters.len() {
+        let Some(Beginning { entry, joining }) = past.begin(rollout, clusters) else {
+            // The judge gave up on a parent, and said so: nothing is known of what comes of it.
+            return ledger.merge(parts);
+        };
+        let cluster = &clusters[index];
         let own = cluster.rollout(rollout, entry.as_ref());
-        let mut part = Ledger::new(&cluster.exemptions, rollout.end);
-        let missed = missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
-        let mut path = BasePath::default();
-        let came_off = entry.as_ref().zip(parent);
-        if let Some((entry, _)) = came_off.filter(|(_, (before, _))| cluster.base() != before.base()) {
+        let mut part = Ledger::new(&exemptions[index], rollout.end);
+        missed.extend(joining.judge(rollout, cluster, &mut part));
+        let before: Vec<usize> =
+            missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
+        let own_missed = docking::judge(&own, &mut part);
+        missed.extend(own_missed.iter().map(|bond| cluster.bonds[*bond]));
+        let came_off = entry.as_ref().zip(cluster.parents.first()).filter(|_| cluster.parents.len() == 1);
+        if let Some((entry, _)) = came_off.filter(|(_, parent)| cluster.base() != clusters[**parent].base()) {
             unheld(&own, entry, &mut part);
         }
-        one_robot::judge(&own, missed, &mut part, Some(&mut path));
-        let moves = |before: &Cluster, path| own.is_full() && moves(&before.tracks, path, rollout.tolerances);
-        if let Some((entry, _)) = came_off.filter(|(_, (before, path))| moves(before, path)) {
-            momentum_is_lost(entry, &mut part);
+        let mut path = BasePath::default();
+        one_robot::judge(&own, [before, own_missed].concat(), &mut part, Some(&mut path));
+        let moves = |parent: usize| {
+            let (tracks, path) = (&clusters[parent].tracks, &past.paths[parent]);
+            !joints_rest(tracks, rollout.tolerances) || path.ends_faster(rollout.tolerances.rest_speed)
+        };
+        if came_off.is_some_and(|(_, parent)| own.is_full() && moves(*parent)) {
+            momentum_is_lost(own.subject, &mut part);
         }
         if cluster.modules.contains(&rollout.tracks.robot.base) {
             let (sum, own) = (&mut ledger.verdict, &part.verdict);
             (0..3).for_each(|axis| sum.travel[axis] += own.travel[axis]);
             sum.heading += own.heading;
         }
-        if path.poses.is_empty() {
-            // The judge gave up on this part, and said so: nothing is known of what comes off it.
-            parts.push(part);
-            return ledger.merge(parts);
-        }
-        paths.push(path);
+        past.paths.push(path);
         parts.push(part);
+    }
+    if past.paths.iter().any(|path| path.poses.is_empty()) {
+        return ledger.merge(parts);
     }
     let mut between = Ledger::new(rollout.exemptions, rollout.end);
     let ended = parts.iter().filter_map(Ledger::ended).min_by(|a, b| a.0.total_cmp(&b.0));
-    between_clusters::judge(rollout, (clusters, &paths), ended, &mut between);
+    between_clusters::judge(rollout, (clusters, &past.paths), ended, &mut between);
     parts.push(between);
     ledger.merge(parts);
 }
 
-/// Returns in words which parts the robot comes apart into, with their times.
-pub(super) fn in_words(clusters: &[Cluster]) -> String {
+/// Returns in words how robots come apart and dock with each other, with their times; none where they do not.
+pub(super) fn in_words(clusters: &[Cluster]) -> Option<String> {
     let part = |cluster: &Cluster| {
         let count = counted(cluster.modules.len(), "module");
-        format!("{} ({count}) from {}", name(cluster), quantity(cluster.from, Dimension::TIME))
+        format!("{} ({count}) from {}", cluster.name, quantity(cluster.from, Dimension::TIME))
     };
-    let off = clusters.iter().filter(|cluster| cluster.parent.is_some());
-    format!("the robot comes apart: {}", off.map(part).collect::<Vec<_>>().join(", "))
+    let off: Vec<String> = clusters
+        .iter()
+        .filter(|cluster| {
+            cluster.parents.len() == 1 && clusters[cluster.parents[0]].modules != cluster.modules
+        })
+        .map(part)
+        .collect();
+    (!off.is_empty()).then(|| format!("the robot comes apart: {}", off.join(", ")))
 }
 
-/// Returns a cluster in words, by its base.
-fn name(cluster: &Cluster) -> String {
-    let robot = &cluster.tracks.robot;
-    format!("the part with `{}`", robot.modules[robot.base].name)
-}
-
-/// Returns the beginning of a cluster where the one that it was a part of left it. `path`: that of the other.
-pub(super) fn entry(rollout: &Rollout, cluster: &Cluster, before: &Cluster, path: &BasePath) -> Entry {
-    let state = before.tracks.state(cluster.from);
-    let kinematics = Kinematics::new(&before.tracks.robot, &state.bonds, before.tracks.robot.base);
-    let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    kinematics.link_poses(&state.joints, &path.at(cluster.from, rollout.tolerances), &mut poses);
-    let base = before.modules.binary_search(&cluster.base()).expect("a part is of its parent's modules");
-    let causes: Vec<CauseId> = rollout
-        .tracks
+/// Returns the beginning of a cluster where the one that holds its base ended. `before`: the other, with its path.
+fn entry(rollout: &Rollout, cluster: &Cluster, (before, path): (&Cluster, &BasePath)) -> Entry {
+    let tracks = rollout.tracks;
+    let state = tracks.state(cluster.from);
+    let mut bonds = tracks.start.bonds.clone();
+    for event in tracks.events.iter().take_while(|event| event.time < cluster.from) {
+        bonds[event.bond] = event.kind == DockingKind::Dock;
+    }
+    let numbers = Kinematics::new(&tracks.robot, &bonds, 0);
+    let mut poses = vec![Pose::identity(); numbers.link_count()];
+    let mut placed = PlacedClusters::new(tracks, vec![(before, path)], rollout.tolerances);
+    placed.place_one(0, cluster.from, (&state.joints, &bonds), &mut poses);
+    let own = |bond: usize| {
+        let ends = [tracks.robot.bonds[bond].a.module, tracks.robot.bonds[bond].b.module];
+        ends.iter().any(|module| cluster.modules.binary_search(module).is_ok())
+    };
+    let causes: Vec<CauseId> = tracks
         .events
         .iter()
-        .filter(|event| event.time == cluster.from && before.bonds.binary_search(&event.bond).is_ok())
+        .filter(|event| event.time == cluster.from && own(event.bond))
         .map(|event| event.cause)
         .collect();
-    Entry { time: cluster.from, base: kinematics.module_pose(base, &poses), name: name(cluster), causes }
+    Entry { time: cluster.from, base: numbers.module_pose(cluster.base(), &poses), causes }
 }
 
 /// Records that nothing holds a part: in a world whose fixture holds the base of another, it falls.
@@ -120,7 +186,8 @@ fn unheld(rollout: &Rollout, entry: &Entry, ledger: &mut Ledger) {
     });
     let Some((_, from)) = found else { return };
     let time = from.from.max(entry.time);
-    let message = format!("{} falls at {}: nothing holds it", entry.name, quantity(time, Dimension::TIME));
+    let message =
+        format!("{} falls at {}: nothing holds it", rollout.subject, quantity(time, Dimension::TIME));
     let robot = &rollout.tracks.robot;
     ledger.fail(Failure {
         kind: CheckKind::Stability,
@@ -131,20 +198,9 @@ fn unheld(rollout: &Rollout, entry: &Entry, ledger: &mut Ledger) {
     });
 }
 
-/// Returns true if joints of a robot turn or slide as its motion ends, or its base moves.
-fn moves(tracks: &Tracks, path: &BasePath, tolerances: &Tolerances) -> bool {
-    let end = tracks.duration;
-    let fast = |velocity: f64| velocity.abs() > tolerances.speed_jump;
-    let turns = tracks.tracks.iter().any(|track| {
-        let mut around = track.segments.iter().filter(|segment| segment.start <= end && end <= segment.end);
-        around.any(|segment| fast(segment.velocity(end)))
-    });
-    turns || path.ends_faster(tolerances.rest_speed)
-}
-
 /// Records that travel and balance of a part are not checked, as it comes off in motion.
-fn momentum_is_lost(entry: &Entry, ledger: &mut Ledger) {
-    let why = format!("{} comes off in motion, and its momentum is not carried over", entry.name);
+fn momentum_is_lost(subject: &str, ledger: &mut Ledger) {
+    let why = format!("{subject} comes off in motion, and its momentum is not carried over");
     for check in &mut ledger.verdict.checks {
         let kind = [CheckKind::Traction, CheckKind::Balance].contains(&check.kind);
         if kind && check.status != Status::Failed {

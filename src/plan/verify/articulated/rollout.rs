@@ -33,10 +33,12 @@ pub struct Rollout<'a> {
     /// A joint, by the number in its `JointId`, that is held from a time on (s), to find the command to blame; `None`:
     /// all joints move.
     pub held: Option<(usize, f64)>,
-    /// The beginning of a part that has come off another robot; `None`: the robot begins with the plan.
+    /// The beginning of a robot in the middle of the plan, by docking or undocking; `None`: it begins with the plan.
     pub begin: Option<&'a Entry>,
     /// The end of the whole plan, s: later than that of `tracks` for a robot that comes apart before.
     pub end: f64,
+    /// The robot in words, for messages.
+    pub subject: &'a str,
 }
 
 impl<'a> Rollout<'a> {
@@ -51,6 +53,7 @@ impl<'a> Rollout<'a> {
             held: None,
             begin: None,
             end: tracks.duration,
+            subject: "the robot",
         }
     }
 
@@ -62,11 +65,6 @@ impl<'a> Rollout<'a> {
     /// Returns the instants (s) that are samples whatever the settings are; see [`sampling::instants`].
     pub(super) fn instants(&self) -> Vec<f64> {
         sampling::instants(self.tracks, self.from(), self.worlds, self.exemptions)
-    }
-
-    /// Returns the robot in words, for messages.
-    pub(super) fn subject(&self) -> &'a str {
-        self.begin.map_or("the robot", |entry| &entry.name)
     }
 
     /// Returns true if the plan is judged under full dynamics: in one of its worlds, and then in all.

@@ -23,6 +23,7 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         held: None,
         begin: None,
         end: 0.0,
+        subject: "the robot",
     };
     let mut corners = Vec::new();
     roll_out(rollout, None, 0.0, &mut |sample, _| {

@@ -84,6 +84,11 @@ pub struct Tolerances {
     pub closure_distance: f64,
     /// The angle by which loops may be open, where the connector states no capture, rad. Default 1°.
     pub closure_angle: f64,
+    /// The greatest speed of a port against the one that it docks with, of another robot, m/s. Default 1 mm/s: at rest, less
+    /// what finite differences of a rollout leave.
+    pub dock_speed: f64,
+    /// The greatest angular speed of such a port, rad/s. Default 1°/s.
+    pub dock_rate: f64,
     /// The part of the weight below which slip of a link is not counted. Default 0.05.
     pub slip_load: f64,
     /// The slip from which on an exemption for slip is needed, m. Default 1 mm.
@@ -134,6 +139,8 @@ impl Default for Tolerances {
             rate_jump: 1e-9,
             closure_distance: 1e-3,
             closure_angle: degree,
+            dock_speed: 1e-3,
+            dock_rate: degree,
             slip_load: 0.05,
             slip: 1e-3,
             time: 1e-9,

@@ -1,0 +1,77 @@
+//! The turns of dockings between robots that stand by themselves, from how they stand then. Nothing is judged here.
+
+use super::base_path::BasePath;
+use super::cluster_paths::roll_out_path;
+use super::clusters::Cluster;
+use super::joining::pose_of_second;
+use super::parted::{self, Beginning, Past};
+use super::placed_clusters::PlacedClusters;
+use super::rollout::Rollout;
+use super::tolerances::Tolerances;
+use crate::geometry::Pose;
+use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
+use crate::robot::{Kinematics, mate, nearest_turn};
+
+/// Returns the allowed turns of some bonds of an articulated robot's plan, by their indices, that are nearest to how their
+/// ports stand as they dock for the first time, by the rollout that the judge makes, too. Bonds are left out that never dock,
+/// or whose robots the rollout did not bring that far; none for a plan that is not valid.
+pub fn dock_turns(plan: &Plan, bonds: &[usize]) -> Vec<(usize, u32)> {
+    let Body::Tracks(tracks) = &plan.body else { return vec![] };
+    if validation::check(plan).is_err() {
+        return vec![];
+    }
+    let tolerances = Tolerances::default();
+    let rollout = Rollout::of(plan, tracks, &tolerances);
+    let Some(mut clusters) = parted::clusters(&rollout) else { return vec![] };
+    let docks = |bond: usize| {
+        let mut events = tracks.events.iter();
+        events.find(|event| event.bond == bond && event.kind == DockingKind::Dock).map(|event| event.time)
+    };
+    let times: Vec<(usize, f64)> = bonds.iter().filter_map(|bond| Some((*bond, docks(*bond)?))).collect();
+    let until = times.iter().map(|(_, time)| *time).fold(0.0, f64::max);
+    let mut past = Past::default();
+    let mut turns = Vec::new();
+    for index in 0..clusters.len() {
+        let begun = past.begin(&rollout, &mut clusters);
+        let cluster = &clusters[index];
+        let mut path = BasePath::default();
+        if let Some(Beginning { entry, joining }) = begun.filter(|_| cluster.from <= until) {
+            for (bond, error) in &joining.misalignments {
+                let X_PQ = mate(&tracks.robot, *bond) * error;
+                turns.push((*bond, turn(tracks, *bond, &X_PQ)));
+            }
+            path = roll_out_path(cluster.rollout(&rollout, entry.as_ref()), until);
+        }
+        for &(bond, time) in times.iter().filter(|_| !path.poses.is_empty()) {
+            turns.extend(inside(&rollout, (cluster, &path), bond, time));
+        }
+        past.paths.push(path);
+    }
+    turns.retain(|(bond, _)| bonds.contains(bond));
+    turns
+}
+
+/// Returns the bond with its turn if it docks at a time (s) at which both of its modules are of one cluster.
+fn inside(
+    rollout: &Rollout,
+    (cluster, path): (&Cluster, &BasePath),
+    bond: usize,
+    time: f64,
+) -> Option<(usize, u32)> {
+    let tracks = rollout.tracks;
+    if !(cluster.from < time && time <= cluster.tracks.duration && cluster.bonds.contains(&bond)) {
+        return None;
+    }
+    let mut bonds = tracks.bonds(time);
+    bonds[bond] = false;
+    let numbers = Kinematics::new(&tracks.robot, &bonds, 0);
+    let mut poses = vec![Pose::identity(); numbers.link_count()];
+    let joints = tracks.state(time).joints;
+    let mut placed = PlacedClusters::new(tracks, vec![(cluster, path)], rollout.tolerances);
+    placed.place_one(0, time, (&joints, &bonds), &mut poses);
+    Some((bond, turn(tracks, bond, &pose_of_second(tracks, &numbers, bond, &poses))))
+}
+
+fn turn(tracks: &Tracks, bond: usize, X_PQ: &Pose) -> u32 {
+    nearest_turn(tracks.robot.connector(tracks.robot.bonds[bond].a), X_PQ).0
+}
