@@ -6,8 +6,8 @@
 
 use super::law::{self, MotionLimits, Piece};
 use super::motion::Motion;
-use super::refusal::{Reason, Refusal};
-use super::run::{Played, Run, limit};
+use super::refusal::{Reason, Refusal, limit};
+use super::run::{Played, Run};
 use crate::plan::time::{tick_after, tick_near};
 use crate::plan::visit::Graph;
 use crate::plan::{Action, CauseId, Command, Node, Profile, Segment, Target, Track};

@@ -177,3 +177,11 @@ impl std::fmt::Display for Reason {
 fn time(seconds: f64) -> String {
     quantity(seconds, Dimension::TIME)
 }
+
+/// Checks that a count is not above its limit; `what`: the name of what is counted, in words, for the refusal.
+///
+/// # Errors
+/// [`Reason::Limit`] if it is.
+pub(super) fn limit(value: u64, max: u64, what: &'static str) -> Result<(), Refusal> {
+    if value > max { Err(Refusal::whole(Reason::Limit { what, limit: max })) } else { Ok(()) }
+}

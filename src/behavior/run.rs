@@ -5,7 +5,7 @@ use super::condition::{self, Sensors, View};
 use super::joints::JointFacts;
 use super::limits::Issue;
 use super::motion::Motion;
-use super::refusal::{Reason, Refusal};
+use super::refusal::{Reason, Refusal, limit};
 use super::schedule::Settings;
 use crate::plan::time::{DURATION_MAX, tick_after};
 use crate::plan::{Action, CauseId, Condition, DockingEvent, Exemption, Node, Otherwise, Track};
@@ -596,12 +596,4 @@ impl<'a> Run<'a> {
         self.segments += more as u64;
         limit(self.segments, self.settings.segments_max, "pieces of motion")
     }
-}
-
-/// Checks that a count is not above its limit; `what`: the name of what is counted, in words, for the refusal.
-///
-/// # Errors
-/// [`Reason::Limit`] if it is.
-pub(super) fn limit(value: u64, max: u64, what: &'static str) -> Result<(), Refusal> {
-    if value > max { Err(Refusal::whole(Reason::Limit { what, limit: max })) } else { Ok(()) }
 }

@@ -51,6 +51,8 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         held: None,
         begin: None,
         end: motion.tracks.duration,
+        subject: "the robot",
+        as_placed: false,
     };
     let mut seen = Seen::default();
     let mut first: Option<(modl::geometry::Pose, Vec3)> = None;

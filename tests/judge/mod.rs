@@ -1,6 +1,7 @@
 //! The judge: plans that must fail, each with a twin that must pass.
 
 pub mod collision;
+mod docking;
 pub mod ground;
 pub mod lattice_judge;
 pub mod oracle;

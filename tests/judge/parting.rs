@@ -192,16 +192,16 @@ fn a_part_that_strikes_another_is_seen_and_its_command_is_to_blame() {
     assert!(clearance.abs() < 1e-5, "the faces that were docked touch: {clearance}");
 }
 
-/// Docking of parts that have come apart is refused, and what comes after it is not judged.
+/// A part that stayed where it came off docks there again, as if the bond had never let go.
 #[test]
-fn parts_are_not_joined_again() {
+fn parts_that_stay_dock_again() {
     let mut tower = tower(2, 1);
     tower.worlds[0].world.ground = Ground::Off;
     tower.worlds[0].world.gravity = 0.0;
     let Body::Tracks(tracks) = &mut tower.body else { unreachable!("a plan of modules") };
     let cause = tracks.events[0].cause;
     tracks.events.push(DockingEvent { time: 0.6, kind: DockingKind::Dock, bond: 0, cause });
-    assert_eq!(failures(&verify(&tower)), [CheckKind::Docking]);
+    assert!(verify(&tower).ok());
     // Undone and docked at one instant, the bond never lets go.
     let Body::Tracks(tracks) = &mut tower.body else { unreachable!("a plan of modules") };
     tracks.events[1].time = tracks.events[0].time;

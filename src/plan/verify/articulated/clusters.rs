@@ -50,7 +50,9 @@ impl Cluster {
     /// Returns the rollout of the cluster. `whole`: that of the plan; `begin`: where it comes to be, `None` for one of the
     /// start.
     pub(super) fn rollout<'a>(&'a self, whole: &Rollout<'a>, begin: Option<&'a Entry>) -> Rollout<'a> {
-        Rollout { tracks: &self.tracks, exemptions: &self.exemptions, begin, subject: &self.name, ..*whole }
+        let as_placed = !whole.tracks.start.clusters.is_empty() || !whole.tracks.obstacles.is_empty();
+        let (tracks, exemptions) = (&self.tracks, self.exemptions.as_slice());
+        Rollout { tracks, exemptions, begin, subject: &self.name, as_placed, ..*whole }
     }
 
     /// Gives bonds of the cluster the misalignments that they docked with, as (index in the plan's robot, misalignment),

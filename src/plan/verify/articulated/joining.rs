@@ -24,17 +24,6 @@ pub(super) struct Joining {
     pub speeds: Vec<(f64, f64)>,
 }
 
-/// The step by which speeds are found just before a docking, s: within it nothing changes its speed that can be seen.
-const SPEED_STEP: f64 = 1e-4;
-
-/// The time before a docking at which the speed of a robot is compared with that at docking, s: the windows over which
-/// full dynamics take means of velocities are as long.
-const BRAKING_TIME: f64 = 0.05;
-
-/// The fraction of its speed before that a robot whose joints have come to rest may seem to have left: means over a window
-/// lag behind.
-const BRAKED: f64 = 0.25;
-
 impl Joining {
     /// Returns the errors and speeds with which a cluster's `joins` dock. `known`: the clusters before, with the paths of
     /// their bases.
@@ -62,7 +51,7 @@ impl Joining {
             (0..paths.len()).for_each(|parent| placed.place_one(parent, time, (&joints, &bonds), &mut poses));
             (poses, joints)
         };
-        let (now, earlier) = (place(0.0), place(SPEED_STEP));
+        let (now, earlier) = (place(0.0), place(tolerances.dock_step));
         let mut docked: Vec<(usize, Pose, (f64, f64))> = cluster
             .joins
             .iter()
@@ -71,8 +60,8 @@ impl Joining {
                     |(poses, joints): &(Vec<Pose>, Vec<f64>)| error(tracks, &numbers, event, joints, poses);
                 let (at, before) = (error(&now), error(&earlier));
                 let moved = before.inverse() * at;
-                let speed = (at.translation.vector - before.translation.vector).norm() / SPEED_STEP;
-                (event.bond, at, (speed, moved.rotation.angle() / SPEED_STEP))
+                let speed = (at.translation.vector - before.translation.vector).norm() / tolerances.dock_step;
+                (event.bond, at, (speed, moved.rotation.angle() / tolerances.dock_step))
             })
             .collect();
         docked.sort_by_key(|(bond, ..)| *bond);
@@ -177,8 +166,11 @@ fn end_speed(rollout: &Rollout, cluster: &Cluster, path: &BasePath) -> f64 {
     if !joints_rest(&cluster.tracks, rollout.tolerances) {
         return ends;
     }
-    let index = path.poses.partition_point(|(time, _)| *time < end - BRAKING_TIME).clamp(1, count - 1);
-    let slides = rollout.is_full() && ends > BRAKED * path.mean_speed(index);
+    let index = path
+        .poses
+        .partition_point(|(time, _)| *time < end - rollout.tolerances.braking_time)
+        .clamp(1, count - 1);
+    let slides = rollout.is_full() && ends > rollout.tolerances.braked * path.mean_speed(index);
     if slides { ends } else { 0.0 }
 }
 

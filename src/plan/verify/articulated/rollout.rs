@@ -39,6 +39,8 @@ pub struct Rollout<'a> {
     pub end: f64,
     /// The robot in words, for messages.
     pub subject: &'a str,
+    /// True if the height at which the robot is placed counts where there is no ground: it stands so to others.
+    pub as_placed: bool,
 }
 
 impl<'a> Rollout<'a> {
@@ -54,6 +56,7 @@ impl<'a> Rollout<'a> {
             begin: None,
             end: tracks.duration,
             subject: "the robot",
+            as_placed: false,
         }
     }
 
@@ -234,7 +237,7 @@ impl<'a> Stepper<'a> {
             None => {
                 let (base, placement) = match rollout.begin {
                     Some(entry) => (&entry.base, Placement::Fixed),
-                    None => (&tracks.start.base, unsettled(&world)),
+                    None => (&tracks.start.base, unsettled(&world, rollout.as_placed)),
                 };
                 Stance::start(&model, posture, base, (&world, placement), rollout.tolerances).0
             }
@@ -254,7 +257,11 @@ impl<'a> Stepper<'a> {
             return self.show(observe, self.now, &step);
         }
         let pose = self.rollout.tracks.start.base;
-        let placement = if self.on_ground() { Placement::Settled } else { unsettled(&self.world) };
+        let placement = if self.on_ground() {
+            Placement::Settled
+        } else {
+            unsettled(&self.world, self.rollout.as_placed)
+        };
         let (settling, fall) = match self.world.is_sloped() {
             true => self.place_on_slope(&pose),
             false => self.place_on_ground(&pose, placement),
@@ -545,9 +552,11 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Returns the placement at the start of a robot that does not settle: lowered, unless its base is fixed in the world.
-fn unsettled(world: &World) -> Placement {
-    if world.ground == Ground::Held { Placement::Fixed } else { Placement::Lowered }
+/// Returns the placement at the start of a robot that does not settle: lowered, unless its base is fixed in the world, or it
+/// is to stay as it is placed where there is no ground.
+fn unsettled(world: &World, as_placed: bool) -> Placement {
+    let stays = world.ground == Ground::Held || (as_placed && !world.has_floor());
+    if stays { Placement::Fixed } else { Placement::Lowered }
 }
 
 /// The changes at an instant: `true` for what differs after it from before.

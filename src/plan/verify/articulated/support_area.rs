@@ -24,6 +24,7 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         begin: None,
         end: 0.0,
         subject: "the robot",
+        as_placed: false,
     };
     let mut corners = Vec::new();
     roll_out(rollout, None, 0.0, &mut |sample, _| {

@@ -89,6 +89,15 @@ pub struct Tolerances {
     pub dock_speed: f64,
     /// The greatest angular speed of such a port, rad/s. Default 1°/s.
     pub dock_rate: f64,
+    /// The step by which such speeds are found just before a docking, s. Default 0.1 ms: within it nothing changes its speed
+    /// that can be seen.
+    pub dock_step: f64,
+    /// The time before a docking at which the speed of a robot is compared with that at docking, s. Default 50 ms, the
+    /// length of the windows over which full dynamics take means of velocities.
+    pub braking_time: f64,
+    /// The fraction of its speed before that a robot whose joints have come to rest may seem to have left. Default 0.25: means
+    /// over a window lag behind.
+    pub braked: f64,
     /// The part of the weight below which slip of a link is not counted. Default 0.05.
     pub slip_load: f64,
     /// The slip from which on an exemption for slip is needed, m. Default 1 mm.
@@ -141,6 +150,9 @@ impl Default for Tolerances {
             closure_angle: degree,
             dock_speed: 1e-3,
             dock_rate: degree,
+            dock_step: 1e-4,
+            braking_time: 0.05,
+            braked: 0.25,
             slip_load: 0.05,
             slip: 1e-3,
             time: 1e-9,
