@@ -28,10 +28,11 @@ mod terrain;
 mod words;
 
 use crate::behavior::unfaithful;
+use crate::geometry::{Placed, Pose};
 use crate::interrupt;
-use crate::plan::verify::articulated::base_at;
+use crate::plan::verify::articulated::{ClusterPaths, base_at};
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
-use crate::robot::Assembly;
+use crate::robot::{Assembly, ClusterPose};
 use commands::Commands;
 use coupling::Couplings;
 use ground_contact::GroundContacts;
@@ -44,6 +45,7 @@ pub use recording::{ContactForce, Drive, Moment};
 pub use refusal::Refusal;
 pub use robustness::{Factors, Run, Spread, study};
 pub use settings::{ServoGains, Settings};
+use std::sync::Arc;
 use stepper::Stepper;
 pub use terrain::Terrain;
 
@@ -111,19 +113,21 @@ fn run(
     apart: &[usize],
 ) -> Result<Result<Simulation, usize>, Refusal> {
     let robot = &tracks.robot;
-    let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
+    let (X_WB, clusters) = start_poses(plan, tracks);
     let world = plan.worlds.first().map_or(World::FREE, |first| first.world);
-    let mut model = Model::new(tracks, &X_WB, &world, settings, apart);
+    let mut model = Model::new(tracks, (&X_WB, &clusters), &world, settings, apart);
     let slope = world.terrain().map(Terrain::of_plan);
     let terrain = settings.terrain.as_ref().map(|field| Terrain::under(&model, field)).or(slope);
     if let Some(terrain) = &terrain {
         model.start.iter_mut().for_each(|pose| *pose = terrain.X_WP * *pose);
     }
-    if !settings.obstacles.is_empty() {
+    let of_plan = tracks.obstacles.iter().map(|obstacle| obstacle.shapes.clone());
+    let obstacles: Arc<[Vec<Placed>]> = of_plan.chain(settings.obstacles.iter().cloned()).collect();
+    if !obstacles.is_empty() {
         model.stand_fast(world.friction * settings.friction);
     }
     let links = match settings.link_contacts {
-        true => Some(LinkContacts::new(&model, robot, &settings.obstacles)?),
+        true => Some(LinkContacts::new(&model, robot, &obstacles)?),
         false => None,
     };
     let couplings = Couplings::new(&model, robot, &tracks.start.bonds, links);
@@ -187,7 +191,20 @@ fn run(
         recorder.see(&stepper, &commands, time + h);
     }
     let outcome = recorder.end(&stepper, commands.end().unwrap_or(tracks.duration));
-    Ok(Ok(Simulation { terrain, obstacles: settings.obstacles.clone(), ..outcome }))
+    Ok(Ok(Simulation { terrain, obstacles, ..outcome }))
+}
+
+/// Returns the world poses of the base and of the references of further clusters at the start, m, as the judge settles them.
+fn start_poses(plan: &Plan, tracks: &Tracks) -> (Pose, Vec<ClusterPose>) {
+    let base = base_at(plan, 0.0).unwrap_or(tracks.start.base);
+    let mut clusters = tracks.start.clusters.clone();
+    if let Some(paths) = ClusterPaths::of(plan, 0.0).filter(|_| !clusters.is_empty()) {
+        for cluster in &mut clusters {
+            let settled = paths.clusters.iter().find(|path| path.base() == cluster.reference);
+            cluster.pose = settled.map_or(cluster.pose, |path| path.poses()[0].1);
+        }
+    }
+    (base, clusters)
 }
 
 /// Returns true if two ports that are so far from a perfect mate (m, rad) dock; where the connector of a bond states no

@@ -9,7 +9,8 @@ use crate::plan::{Ground, LastingTrees, Tracks, World};
 use crate::robot::articulated_bodies::Attachment;
 use crate::robot::dynamics::{Dynamics, RigidBody};
 use crate::robot::{
-    self, Assembly, Bond, JointKind, JointOwner, Kinematics, Link, PortRef, Servo, Step, motor_efforts,
+    self, Assembly, Bond, ClusterPose, JointKind, JointOwner, Kinematics, Link, PortRef, Servo, Step,
+    motor_efforts,
 };
 use std::collections::BTreeSet;
 
@@ -189,17 +190,18 @@ pub(super) struct Model {
 }
 
 impl Model {
-    /// Compiles the robot of a plan that starts with its base at `X_WB`, in a world, with servos of these gains. `apart`:
+    /// Compiles the robots of a plan that start at these poses, those of the base and of the references of further clusters, in
+    /// a world, with servos of these gains. `apart`:
     /// the bonds that are not in the trees although they hold all the time.
     pub(super) fn new(
         tracks: &Tracks,
-        X_WB: &Pose,
+        (X_WB, clusters): (&Pose, &[ClusterPose]),
         world: &World,
         settings: &Settings,
         apart: &[usize],
     ) -> Model {
         let (robot, gains) = (&tracks.robot, &settings.servo);
-        let lasting = LastingTrees::new(tracks, X_WB, apart);
+        let lasting = LastingTrees::new(tracks, X_WB, clusters, apart);
         let held = matches!(world.ground, Ground::Fixed | Ground::Held);
         let rigid = Dynamics::new(robot);
         let owners: Vec<JointOwner> = robot.joints().collect();

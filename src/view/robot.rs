@@ -18,8 +18,8 @@ pub(super) const SEGMENTS_MAX: usize = 60_000;
 const POSITIONS_MIN: usize = 16;
 
 /// Returns the robot and its motion as JSON, with lengths in metres, angles in radians and times in seconds; `base` are
-/// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them, and `clusters` the paths of the parts of
-/// a robot that comes apart, none of one that does not. Adds the meshes of links to `meshes`,
+/// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them, and `clusters` the paths of several
+/// clusters, none of one robot that stays one. Adds the meshes of links to `meshes`,
 /// and to `notes` a sentence for each thing left out.
 pub(super) fn body(
     tracks: &Tracks,
@@ -133,8 +133,8 @@ fn tree(robot: &Assembly, bonds: &[bool], time: f64, forms: &mut Forms) -> Value
     json!({ "time": number(time), "root": kinematics.link(robot.base, 0), "steps": steps, "loose": loose })
 }
 
-/// Returns the trees of the parts that have come off the base by a time (s), as `{root, steps, path}`; `path` is the
-/// part's number in `clusters`.
+/// Returns the trees of the clusters that there are at a time (s), as `{root, steps, path}`; `path` is the cluster's
+/// number in `clusters`.
 fn parts(
     tracks: &Tracks,
     bonds: &[bool],
@@ -143,12 +143,10 @@ fn parts(
     forms: &mut Forms,
 ) -> Vec<Value> {
     let robot = &tracks.robot;
-    let off = |cluster: &ClusterPath| {
-        cluster.exists(time, tracks.duration) && !cluster.modules().contains(&robot.base)
-    };
     let mut found = Vec::new();
-    for (path, cluster) in clusters.iter().enumerate().filter(|(_, cluster)| off(cluster)) {
-        let kinematics = Kinematics::new(robot, bonds, cluster.base());
+    let there = |cluster: &ClusterPath| cluster.exists(time, tracks.duration);
+    for (path, cluster) in clusters.iter().enumerate().filter(|(_, cluster)| there(cluster)) {
+        let kinematics = cluster.kinematics(robot, bonds);
         let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();
         found.push(json!({ "root": kinematics.link(cluster.base(), 0), "steps": steps, "path": path }));
     }
@@ -168,7 +166,7 @@ impl MeasuredTrees {
     /// Returns the trees of a plan's robot; `apart`: the bonds, by their indices, that are in none although they hold all
     /// the time.
     pub(super) fn new(tracks: &Tracks, apart: &[usize]) -> MeasuredTrees {
-        let lasting = LastingTrees::new(tracks, &tracks.start.base, apart);
+        let lasting = LastingTrees::new(tracks, &tracks.start.base, &tracks.start.clusters, apart);
         let mut forms = Forms::default();
         let mut step_of = |step: &Step| {
             let form = forms.index(step);

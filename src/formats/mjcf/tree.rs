@@ -43,7 +43,7 @@ impl<'a> Trees<'a> {
             .flat_map(|module| (0..robot.module_type(module).links.len()).map(move |link| (module, link)))
             .collect();
         let LastingTrees { trees: kinematics, joint_of, constraints, start, poses } =
-            LastingTrees::new(tracks, X_WB, &[]);
+            LastingTrees::new(tracks, X_WB, &tracks.start.clusters, &[]);
         let mut trees = Trees {
             robot,
             roots: Vec::new(),

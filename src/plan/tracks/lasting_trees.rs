@@ -4,7 +4,7 @@
 
 use super::motion::{DockingKind, Tracks};
 use crate::geometry::Pose;
-use crate::robot::{Assembly, JointKind, Kinematics};
+use crate::robot::{Assembly, ClusterPose, JointKind, Kinematics};
 
 /// The kinematic trees of a plan's robot over the bonds that hold during the whole plan. Links and joints go by their
 /// numbers among all those of the robot.
@@ -24,9 +24,10 @@ pub struct LastingTrees {
 }
 
 impl LastingTrees {
-    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m. `apart`: the
+    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m; `clusters`: the
+    /// poses of further clusters then. `apart`: the
     /// bonds, by their indices, that are constraints although they hold all the time, or never.
-    pub fn new(tracks: &Tracks, X_WB: &Pose, apart: &[usize]) -> LastingTrees {
+    pub fn new(tracks: &Tracks, X_WB: &Pose, clusters: &[ClusterPose], apart: &[usize]) -> LastingTrees {
         let mut ever = tracks.start.bonds.clone();
         let mut lasting = ever.clone();
         for event in &tracks.events {
@@ -40,6 +41,10 @@ impl LastingTrees {
         let mut poses = vec![Pose::identity(); start.link_count()];
         all.link_poses(&tracks.start.joints, X_WB, &mut poses);
         start.link_poses(&tracks.start.joints, X_WB, &mut poses);
+        for cluster in clusters {
+            let own = Kinematics::new(robot, &tracks.start.bonds, cluster.reference);
+            own.link_poses(&tracks.start.joints, &cluster.pose, &mut poses);
+        }
         let mut found = LastingTrees {
             trees: Vec::new(),
             joint_of: vec![None; start.link_count()],

@@ -8,6 +8,7 @@ use super::rollout::{Rollout, roll_out};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
+use crate::robot::{Assembly, Kinematics};
 
 /// The path of one cluster: modules that bonds connect, from the instant at which it comes to be by docking or undocking, or
 /// the start, until it does not hold any more.
@@ -90,6 +91,16 @@ impl ClusterPath {
     /// Returns the module whose body's pose is followed, by its index in the plan's robot.
     pub fn base(&self) -> usize {
         self.cluster.base()
+    }
+
+    /// Returns the kinematics of the plan's robot from the base of the cluster with the errors that its bonds docked with.
+    /// `bonds`: for every bond of that robot, by its index, true if it holds.
+    pub fn kinematics(&self, robot: &Assembly, bonds: &[bool]) -> Kinematics {
+        let misalignments = self.cluster.misalignments();
+        match misalignments.is_empty() {
+            true => Kinematics::new(robot, bonds, self.base()),
+            false => Kinematics::new(&Assembly { misalignments, ..robot.clone() }, bonds, self.base()),
+        }
     }
 
     /// Returns the world pose of the base's body (`X_WB`, m) at samples of the judge, as (time in s, pose), in order of

@@ -1,13 +1,16 @@
 //! The rollout of a plan for those who draw or measure it. Nothing is judged here.
 
+use super::base_path::BasePath;
 use super::contact;
 use super::decimated::Decimated;
+use super::parted::{self, Beginning, Past};
 use super::rollout::{Rollout, Sample, roll_out};
 use super::tolerances::Tolerances;
 use super::torque::LoadGauge;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
+use nalgebra::{Rotation3, UnitQuaternion};
 
 /// The greatest number of moments of a history besides the last: of a rollout with more samples only every second,
 /// fourth, ... is kept.
@@ -54,14 +57,14 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
     // The latest, where it was not kept.
     let mut last = None;
     let mut gauge = LoadGauge::default();
-    visit(plan, until, &tolerances, &mut |sample| {
-        let weighed = moments.seen().is_multiple_of(moments.stride() * LOADS_EACH);
+    visit(plan, until, &tolerances, &mut |sample, base| {
+        let weighed = base.whole && moments.seen().is_multiple_of(moments.stride() * LOADS_EACH);
         if moments.next_is_kept() {
             let loads = if weighed { gauge.read(sample, &tolerances) } else { vec![] };
-            moments.keep(Moment { loads, ..moment(sample) });
+            moments.keep(Moment { loads, ..moment(sample, base.pose) });
             last = None;
         } else {
-            last = Some(moment(sample));
+            last = Some(moment(sample, base.pose));
         }
     });
     let mut moments = moments.into_kept();
@@ -74,26 +77,59 @@ pub fn history(plan: &Plan, until: f64) -> Vec<Moment> {
 /// valid.
 pub fn base_at(plan: &Plan, time: f64) -> Option<Pose> {
     let mut base = None;
-    visit(plan, time, &Tolerances::default(), &mut |sample| {
-        base = Some(sample.stance.base_pose(sample.model));
-    });
+    visit(plan, time, &Tolerances::default(), &mut |_, now| base = Some(now.pose));
     base
 }
 
-/// Rolls out a valid plan of an articulated robot.
-fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample)) {
+/// The base of a plan at a sample.
+struct PlacedBase {
+    /// The world pose of the base module's body, m.
+    pose: Pose,
+    /// True if the sample is one of the whole robot, whose joints have the plan's numbers.
+    whole: bool,
+}
+
+/// Rolls out a valid plan of an articulated robot; of several, the clusters to which the plan's base belongs are seen.
+fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample, PlacedBase)) {
     let Body::Tracks(tracks) = &plan.body else { return };
     if validation::check(plan).is_err() {
         return;
     }
     let rollout = Rollout::of(plan, tracks, tolerances);
-    roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
-        see(sample);
-        true
-    });
+    let Some(mut clusters) = parted::clusters(&rollout).filter(|clusters| clusters.len() > 1) else {
+        roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
+            see(sample, PlacedBase { pose: sample.stance.base_pose(sample.model), whole: true });
+            true
+        });
+        return;
+    };
+    let mut past = Past::default();
+    for index in 0..clusters.len() {
+        let begun = past.begin(&rollout, &mut clusters);
+        let cluster = &clusters[index];
+        let mut path = BasePath::default();
+        let own = cluster.modules.binary_search(&tracks.robot.base).ok();
+        if let Some(Beginning { entry, .. }) = begun.filter(|_| cluster.from <= until) {
+            let part = cluster.rollout(&rollout, entry.as_ref());
+            roll_out(part, None, until.min(cluster.tracks.duration), &mut |sample, _| {
+                let pose = sample.stance.base_pose(sample.model);
+                path.poses.push((sample.time, pose));
+                if let Some(module) = own {
+                    let link = sample.model.kinematics.link(module, 0);
+                    let posture = &sample.stance.posture;
+                    let turn = Rotation3::from_matrix_unchecked(posture.R[link]);
+                    let X_RB =
+                        Pose::from_parts(posture.p[link].into(), UnitQuaternion::from_rotation_matrix(&turn));
+                    see(sample, PlacedBase { pose: pose * X_RB, whole: false });
+                }
+                true
+            });
+        }
+        past.paths.push(path);
+    }
 }
 
-fn moment(sample: &Sample) -> Moment {
+fn moment(sample: &Sample, base: Pose) -> Moment {
     let stance = sample.stance;
     let planar_pose = stance.planar_pose;
     let grounded = sample.world.gravity > 0.0 && sample.world.ground != Ground::Held;
@@ -110,7 +146,7 @@ fn moment(sample: &Sample) -> Moment {
     let margin = if grounded { stance.margin(sample.model).map(|m| m.distance) } else { None };
     Moment {
         time: sample.time,
-        base: stance.base_pose(sample.model),
+        base,
         centre: stance.world_point(&Vec3::zeros()),
         support: hull(&points).into_iter().map(|i| points[i]).collect(),
         contacts: points.iter().step_by(points.len().div_ceil(CONTACTS_MAX).max(1)).copied().collect(),
