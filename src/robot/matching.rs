@@ -104,7 +104,8 @@ impl std::fmt::Display for Mismatch {
 /// Finds an isomorphism from robot `b`, in its state, to robot `a`, in its own: a map of modules that keeps module
 /// types, ports, turns and joint positions. Joint positions agree within `tol_joint` (rad or m), those of endless
 /// joints up to whole turns. Of several, the one that maps the first module of B to a module of the same name is
-/// preferred. Every image of the first module is tried, in quadratic time in the number of modules.
+/// preferred. Every image of the first module is tried, in quadratic time in the number of modules. Of several clusters
+/// with poses, the others are matched by the name of their first module.
 ///
 /// # Errors
 /// The first difference in the attempt that mapped the most modules, or [`Mismatch::Count`] if they have different
@@ -223,7 +224,7 @@ impl<'a> Search<'a> {
         // A joint at another position does not end the attempt: if the rest fits, the difference is worth reporting.
         let mut elsewhere: Option<Mismatch> = None;
         // Breadth-first search along the bonds of B; at every port the image must be docked alike.
-        while let Some(x) = queue.pop_front() {
+        while let Some(x) = queue.pop_front().or_else(|| self.next_cluster(&mut images, &mut taken)) {
             let (y, turned) = images[x].expect("what is queued has an image");
             self.same_type(x, y).map_err(|mismatch| (reached, mismatch))?;
             elsewhere = elsewhere.or(self.joints((x, y), turned, &mut found).err());
@@ -262,6 +263,28 @@ impl<'a> Search<'a> {
         found.modules = images.iter().map(|(module, _)| *module).collect();
         found.turned = images.iter().map(|(_, turned)| (*turned).clone()).collect();
         elsewhere.map_or(Ok(found), |mismatch| Err((reached, mismatch)))
+    }
+
+    /// Gives the first module of B that bonds do not lead to the image of its name, as it lies, if several clusters have
+    /// poses in either state: nothing else tells equal robots apart. Returns that module; `None` if there is none.
+    fn next_cluster<'s>(
+        &'s self,
+        images: &mut [Option<(usize, &'s Symmetry)>],
+        taken: &mut [bool],
+    ) -> Option<usize> {
+        if self.a.state.clusters.is_empty() && self.b.state.clusters.is_empty() {
+            return None;
+        }
+        let x = images.iter().position(Option::is_none)?;
+        let module = &self.b.robot.modules[x];
+        let y = self.a.robot.modules.iter().position(|other| other.name == module.name)?;
+        let as_it_lies = |turned: &&Symmetry| turned.ports.iter().enumerate().all(|(port, to)| port == *to);
+        let turned = self.turns[module.kind].iter().find(as_it_lies)?;
+        if std::mem::replace(&mut taken[y], true) {
+            return None;
+        }
+        images[x] = Some((y, turned));
+        Some(x)
     }
 
     fn same_type(&self, x: usize, y: usize) -> Result<(), Mismatch> {
