@@ -22,8 +22,8 @@ pub(super) struct Drawn {
     pub colour: Rgb,
 }
 
-/// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot; the cells of a
-/// lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings.
+/// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot, then obstacles; the cells of
+/// a lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings.
 pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     let plan = input.plan;
     match &plan.body {
@@ -33,7 +33,7 @@ pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     }
 }
 
-/// Returns the links of an articulated robot, failed modules in the colour of failure.
+/// Returns the links of an articulated robot, failed modules in the colour of failure, and the obstacles around it.
 fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
     let poses = link_poses(input, tracks, time);
     let group = groups(&tracks.robot);
@@ -54,6 +54,8 @@ fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
             link += 1;
         }
     }
+    let obstacles = tracks.obstacles.iter();
+    drawn.extend(obstacles.map(|o| Drawn { mesh: Mesh::of(&o.shapes), colour: AROUND }));
     drawn
 }
 

@@ -19,8 +19,8 @@ const POSITIONS_MIN: usize = 16;
 
 /// Returns the robot and its motion as JSON, with lengths in metres, angles in radians and times in seconds; `base` are
 /// the base poses as [`ground_pose::base`](super::ground_pose::base) gives them, and `clusters` the paths of several
-/// clusters, none of one robot that stays one. Adds the meshes of links to `meshes`,
-/// and to `notes` a sentence for each thing left out.
+/// clusters, none of one robot that stays one. Adds the meshes of links and obstacles to `meshes`, and to `notes` a
+/// sentence for each thing left out.
 pub(super) fn body(
     tracks: &Tracks,
     (base, clusters): (Value, &[ClusterPath]),
@@ -43,6 +43,11 @@ pub(super) fn body(
         "docks": docks(tracks),
         "base": base,
     });
+    if !tracks.obstacles.is_empty() {
+        let around = tracks.obstacles.iter();
+        body["around"] =
+            around.map(|o| json!({ "name": o.name, "solids": solids(&o.shapes, meshes) })).collect();
+    }
     if !clusters.is_empty() {
         body["paths"] = clusters.iter().map(|cluster| ground_pose::path(cluster.poses())).collect();
     }

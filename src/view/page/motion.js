@@ -59,11 +59,19 @@ function robotMotion(plan, body) {
     });
     type.joints.forEach(joint => joints.push({ module, name: joint.name, turns: joint.turns, still: joint.still }));
   });
+  // Obstacles stay where their shapes are.
+  const moving = links.length;
+  for (const { name, solids: own } of body.around || []) {
+    for (const solid of own) for (const list of [solids, collides]) list.push({ ...solid, body: links.length, shade: 0 });
+    links.push({ module: modules.length, name });
+    modules.push({ name, type: name.replace(/\[[0-9]+\]$/, ""), group: "surroundings", around: true });
+  }
   body.hinges.forEach(([name, ...between]) => joints.push({ module: -1, between, name, turns: true }));
   const belongs = (j, module) => !joints[j].still && (joints[j].module === module || Boolean(joints[j].between && joints[j].between.includes(module)));
   const starts = body.tracks.map(([, segments]) => segments.map(s => s[0]));
   const n = links.length;
   const state = { q: new Float64Array(body.start), P: new Float64Array(3 * n), Q: new Float64Array(4 * n) };
+  for (let i = moving; i < n; i++) state.Q[4 * i + 3] = 1;
   const treeTimes = body.trees.map(tree => tree.time);
   const baseTimes = body.base.map(key => key[0]);
   const driven = [...new Set(body.tracks.map(([joint]) => joint))];
