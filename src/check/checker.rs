@@ -48,7 +48,7 @@ pub(super) enum DefItem<'a> {
     Module(&'a ast::Module),
     /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
     Facts(&'a ast::Facts),
-    /// A configuration: `config`.
+    /// A configuration or a scene: `config`, `scene`.
     Config(&'a ast::Config),
     /// A lattice: `lattice`.
     Lattice(&'a ast::Lattice),
@@ -189,6 +189,11 @@ pub(super) enum MemberInfoKind<'a> {
     /// A node of a truss.
     Node {
         /// True for an array of nodes.
+        array: bool,
+    },
+    /// An obstacle of a scene.
+    Obstacle {
+        /// True for an array of obstacles.
         array: bool,
     },
 }

@@ -15,7 +15,7 @@ use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
 impl<'a> Checker<'a> {
-    /// Returns the typed body of the `config` of a declaration. Parts, ports and clauses that are wrong are reported,
+    /// Returns the typed body of the `config` or `scene` of a declaration. Parts, ports and clauses that are wrong are reported,
     /// and error nodes stand for their expressions.
     pub(super) fn check_config(&mut self, id: DefId, config: &'a ast::Config) -> DefKind {
         let signature = self.signature(id);
@@ -23,6 +23,8 @@ impl<'a> Checker<'a> {
         let params = self.typed_params(&mut scope, &config.params, &signature.params, false);
         let members = self.typed_members(id);
         let mut def = ConfigDef {
+            scene: config.scene,
+            world: None,
             params,
             closed: config.closed,
             members,
@@ -44,9 +46,18 @@ impl<'a> Checker<'a> {
                     }
                     def.base = self.base(&mut scope, path);
                 }
+                ConfigClauseKind::World(world) => {
+                    if def.world.is_some() {
+                        self.report(
+                            Diagnostic::error(code::DECLARED_TWICE, "a scene has one `world`")
+                                .label(clause.span, "given again here"),
+                        );
+                    }
+                    def.world = self.surroundings(&mut scope, id, world);
+                }
                 ConfigClauseKind::Behavior(_) | ConfigClauseKind::Port { .. } | ConfigClauseKind::Let(_) => {}
                 _ => {
-                    let clause = self.config_clause(&mut scope, clause);
+                    let clause = self.config_clause(&mut scope, id, clause);
                     def.clauses.extend(clause);
                 }
             }
@@ -74,6 +85,7 @@ impl<'a> Checker<'a> {
             }
         });
         let of = self.part_type(scope, part);
+        let at = self.part_place(scope, id, part);
         let args = match (of, &part.args) {
             (Some(of), args) => {
                 let signature = self.signature(of);
@@ -88,7 +100,16 @@ impl<'a> Checker<'a> {
         // An unknown type has been reported. No `DefId` exists for it, so the configuration itself stands
         // in; elaboration sees the error type of the member first.
         let of = of.unwrap_or(id);
-        PartDef { member, name: part.name.text, span: part.name.span, of, count, args, ty_span: part.ty_span }
+        PartDef {
+            member,
+            name: part.name.text,
+            span: part.name.span,
+            of,
+            count,
+            args,
+            at,
+            ty_span: part.ty_span,
+        }
     }
 
     /// Returns the declaration that a part is an instance of; `None` (and a diagnostic) if it is not a module or
@@ -98,6 +119,13 @@ impl<'a> Checker<'a> {
         let last = path[path.len() - 1];
         let span = path[0].span.to(last.span);
         match self.path_entity(scope.file, path) {
+            Some(Entity::Def(id)) if self.is_scene(id) => {
+                self.report(
+                    Diagnostic::error(code::SCENE_PART, format!("the scene `{}` is no part", last.text))
+                        .label(span, "a module or configuration is wanted here")
+                        .hint("what the robots of both have in common is a `config`, or a `fn` with the robots as parameters"),
+                );
+            }
             Some(Entity::Def(id)) if self.is_part_type(id) => return Some(id),
             Some(Entity::Error) => return None,
             Some(Entity::Def(id)) => {
@@ -220,7 +248,12 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks a clause that depends on values; `None` for clauses that are members.
-    fn config_clause(&mut self, scope: &mut Scope, clause: &'a ast::ConfigClause) -> Option<ConfigClause> {
+    fn config_clause(
+        &mut self,
+        scope: &mut Scope,
+        id: DefId,
+        clause: &'a ast::ConfigClause,
+    ) -> Option<ConfigClause> {
         Some(match &clause.kind {
             ConfigClauseKind::Connect { a, b, turn } => {
                 let angle = Type::Quantity(Dimension::ANGLE);
@@ -256,16 +289,19 @@ impl<'a> Checker<'a> {
                 ConfigClause::Let { local: scope.bind(x.name.text, value.ty.clone()), value }
             }
             ConfigClauseKind::Require(r) => ConfigClause::Require(self.require(scope, r)),
+            ConfigClauseKind::Obstacle { .. } => {
+                ConfigClause::Obstacle(self.obstacle(scope, id, &clause.kind, clause.span)?)
+            }
             ConfigClauseKind::If { condition, then, otherwise } => ConfigClause::If {
                 condition: self.expect(scope, condition, &Type::Bool, Role::Place("the condition")),
-                then: self.config_clauses(scope, then),
-                otherwise: self.config_clauses(scope, otherwise),
+                then: self.config_clauses(scope, id, then),
+                otherwise: self.config_clauses(scope, id, otherwise),
             },
             ConfigClauseKind::For { binder, iterable, body } => {
                 let (iterable, element) = self.iterable(scope, iterable);
                 let mark = scope.open();
                 let binder = scope.bind(binder.text, element);
-                let body = self.config_clauses(scope, body);
+                let body = self.config_clauses(scope, id, body);
                 scope.close(mark);
                 ConfigClause::For { binder, iterable, body }
             }
@@ -273,6 +309,7 @@ impl<'a> Checker<'a> {
             ConfigClauseKind::Part(_)
             | ConfigClauseKind::Port { .. }
             | ConfigClauseKind::Base(_)
+            | ConfigClauseKind::World(_)
             | ConfigClauseKind::Behavior(_) => {
                 self.report(
                     Diagnostic::error(
@@ -288,9 +325,14 @@ impl<'a> Checker<'a> {
     }
 
     /// Checks clauses in an inner scope.
-    fn config_clauses(&mut self, scope: &mut Scope, clauses: &'a [ast::ConfigClause]) -> Vec<ConfigClause> {
+    fn config_clauses(
+        &mut self,
+        scope: &mut Scope,
+        id: DefId,
+        clauses: &'a [ast::ConfigClause],
+    ) -> Vec<ConfigClause> {
         let mark = scope.open();
-        let out = clauses.iter().filter_map(|c| self.config_clause(scope, c)).collect();
+        let out = clauses.iter().filter_map(|c| self.config_clause(scope, id, c)).collect();
         scope.close(mark);
         out
     }

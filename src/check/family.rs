@@ -127,6 +127,8 @@ impl From<FactsFamily> for Family {
 pub struct Instantiable<'p> {
     /// The family of the declaration.
     pub family: Family,
+    /// The keyword of the declaration: that of its family, or `scene`.
+    pub word: &'static str,
     /// The parameters, in the order in which they are declared.
     pub params: &'p [Param],
     /// The parameters, and what the body names; a [`MemberId`](super::typed::MemberId) is an index into them.
@@ -136,6 +138,11 @@ pub struct Instantiable<'p> {
 }
 
 impl DefKind {
+    /// Returns true for a scene.
+    pub fn is_scene(&self) -> bool {
+        matches!(self, DefKind::Config(config) if config.scene)
+    }
+
     /// Returns the parts that the declarations of all families of instances have; `None` for a declaration without
     /// instances.
     pub fn instantiable(&self) -> Option<Instantiable<'_>> {
@@ -152,6 +159,7 @@ impl DefKind {
             | DefKind::Connector(_)
             | DefKind::Error => return None,
         };
-        Some(Instantiable { family, params, members, frame })
+        let word = if self.is_scene() { "scene" } else { family.word() };
+        Some(Instantiable { family, word, params, members, frame })
     }
 }

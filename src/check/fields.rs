@@ -205,6 +205,7 @@ impl<'a> Checker<'a> {
         }
         let what = match self.family(id) {
             Some(Family::Module) => "joint, port or parameter",
+            Some(Family::Config) if self.is_scene(id) => "part, obstacle, port or behavior",
             Some(Family::Config) => "part, port or behavior",
             _ => "member",
         };

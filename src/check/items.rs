@@ -465,6 +465,7 @@ impl<'a> Checker<'a> {
                 I::Port(clause, array) => self.config_port(id, clause, array),
                 I::Behavior(i) => M::Behavior(i),
                 I::Node { .. } => M::Node,
+                I::Obstacle { .. } => M::Obstacle,
             };
             let ty = self.member_type(id, member, None);
             let doc = info.doc.clone();

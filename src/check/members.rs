@@ -67,7 +67,12 @@ impl<'a> Checker<'a> {
     }
 
     /// Adds a member; reports a name declared twice.
-    fn add_member(&mut self, members: &mut Members<'a>, name: ast::Name, kind: MemberInfoKind<'a>) {
+    pub(super) fn add_member(
+        &mut self,
+        members: &mut Members<'a>,
+        name: ast::Name,
+        kind: MemberInfoKind<'a>,
+    ) {
         if !members.add(name, kind) {
             let first = members.list[members.index[&name.text].0 as usize].span;
             self.declared_twice(name.text, first, name.span);
@@ -222,7 +227,7 @@ impl<'a> Checker<'a> {
                         signature: Rc::new(signature),
                     });
                 }
-                _ => {}
+                _ => self.obstacle_members(members, clause),
             }
             members.document(before, clause.doc.as_deref());
         }
@@ -264,7 +269,9 @@ impl<'a> Checker<'a> {
             MemberInfoKind::Part(part, _) => {
                 let scope = Scope::new(self.def(id).file, Some(id));
                 let ty = match self.path_entity(scope.file, &part.ty) {
-                    Some(Entity::Def(of)) if self.is_part_type(of) => Type::Instance(of),
+                    Some(Entity::Def(of)) if self.is_part_type(of) && !self.is_scene(of) => {
+                        Type::Instance(of)
+                    }
                     _ => Type::Error,
                 };
                 if part.count.is_some() && !ty.is_error() { Type::list(ty) } else { ty }
@@ -280,6 +287,8 @@ impl<'a> Checker<'a> {
                 let node = Type::vec3(Dimension::LENGTH);
                 if array { Type::list(node) } else { node }
             }
+            MemberInfoKind::Obstacle { array: true } => Type::list(Type::Shape),
+            MemberInfoKind::Obstacle { array: false } => Type::Shape,
             MemberInfoKind::Behavior(_) => Type::Behavior,
         }
     }

@@ -29,6 +29,7 @@ mod names;
 mod operators;
 mod records;
 mod reserve;
+mod scene;
 mod scope;
 pub(crate) mod summary;
 mod type_expr;

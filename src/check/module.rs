@@ -219,8 +219,8 @@ impl<'a> Checker<'a> {
         0
     }
 
-    /// Checks a placement.
-    fn placement(&mut self, scope: &mut Scope, p: &'a ast::Placement) -> Placement {
+    /// Returns the typed form of a placement; error nodes, after a report, stand for expressions that are wrong.
+    pub(super) fn placement(&mut self, scope: &mut Scope, p: &'a ast::Placement) -> Placement {
         let position = self.expect(scope, &p.position, &Type::vec3(Dimension::LENGTH), Role::Place("`at`"));
         let turned = p.turned.iter().filter_map(|args| self.turned(scope, p.span, args)).collect();
         Placement { position, turned, span: p.span }

@@ -31,6 +31,8 @@ pub(crate) enum Group {
     Part,
     /// A `let` at the top of a body.
     Let,
+    /// An obstacle of a scene, or an array of obstacles.
+    Obstacle,
     /// A behaviour of a configuration.
     Behavior,
     /// A field of a record.
@@ -49,6 +51,7 @@ impl Group {
             Group::Port => "port",
             Group::Part => "part",
             Group::Let => "let",
+            Group::Obstacle => "obstacle",
             Group::Behavior => "behavior",
             Group::Field => "field",
             Group::Method => "method",
@@ -89,7 +92,7 @@ pub(crate) fn word(kind: &DefKind) -> &'static str {
         DefKind::Record(record) if record.build.is_some() => "record",
         DefKind::Record(_) => "type",
         DefKind::Connector(_) => "connector",
-        kind => kind.instantiable().map_or("", |instantiable| instantiable.family.word()),
+        kind => kind.instantiable().map_or("", |instantiable| instantiable.word),
     }
 }
 
@@ -161,6 +164,10 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
             MemberKind::Port { ref count, .. } => {
                 let many = count.as_ref().map_or("", |_| "[]");
                 Some(entry(Group::Port, m.name, format!("{}{many}", m.name), &m.doc))
+            }
+            MemberKind::Obstacle => {
+                let many = if matches!(m.ty, Type::List(_)) { "[]" } else { "" };
+                Some(entry(Group::Obstacle, m.name, format!("{}{many}", m.name), &m.doc))
             }
             _ => None,
         });

@@ -246,6 +246,8 @@ pub enum MemberKind {
     Behavior(usize),
     /// A node of a truss, or a list of nodes.
     Node,
+    /// An obstacle of a scene, or a list of obstacles.
+    Obstacle,
 }
 
 /// A requirement: `require condition, message`. A configuration or a truss checks it after all its clauses have run, a
@@ -276,9 +278,13 @@ pub struct FactsDef {
     pub frame: usize,
 }
 
-/// A configuration with its parts and clauses: `config`.
+/// A configuration or a scene, with its parts and clauses: `config`, `scene`.
 #[derive(Clone, Debug)]
 pub struct ConfigDef {
+    /// True for a scene: its parts need not be connected.
+    pub scene: bool,
+    /// The world of plans of a scene, a call of the built-in `world`; `None` where none is stated.
+    pub world: Option<Expr>,
     /// The parameters, in the order in which they are declared.
     pub params: Vec<Param>,
     /// The span of the word `closed`, if connections may close loops; `None` if it is not written.
@@ -315,8 +321,27 @@ pub struct PartDef {
     pub count: Option<PartCount>,
     /// The arguments, in the order of the parameters of `of`; `None` for one that is left out, whose default is taken.
     pub args: Vec<Option<Expr>>,
+    /// The pose of the part's base in a scene, before it settles; `None` if the part is not placed.
+    pub at: Option<Placement>,
     /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
+}
+
+/// An `obstacle` of a scene, a single one or an element of an array.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    /// The member that names the obstacle or the array.
+    pub member: MemberId,
+    /// The name of the obstacle or of the array.
+    pub name: Symbol,
+    /// The index of the obstacle in its array, from 0; `None` for a single one.
+    pub index: Option<Expr>,
+    /// The solid, an expression of type `Shape`.
+    pub value: Expr,
+    /// The pose of the solid in the world; `None` where it stays as it is.
+    pub at: Option<Placement>,
+    /// The span of the name in the declaration.
+    pub span: Span,
 }
 
 /// The length of a list of parts.
@@ -414,6 +439,8 @@ pub enum ConfigClause {
     },
     /// A requirement on the values: `require condition, message`.
     Require(Require),
+    /// An obstacle of a scene: `obstacle wall = box(...) at [...]`.
+    Obstacle(Obstacle),
     /// A branch: only the clauses of one side are elaborated.
     If {
         /// The condition, an expression of type `Bool`.

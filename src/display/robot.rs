@@ -5,7 +5,7 @@ use super::shape;
 use super::truss;
 use crate::check::typed::{DefId, DefKind, RecordField};
 use crate::elaborate::free_ports;
-use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign};
+use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance, ModuleDesign, PartElement};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::Eval;
 use crate::robot::{Joint, JointKind};
@@ -74,16 +74,19 @@ impl Interpreter<'_> {
         } else {
             format!("{}, a {}", instance.path, design.name)
         };
-        let text = format!(
-            "{title}: order {}, {}, {}",
-            design.order(),
-            counted(design.module_count(), "module"),
-            mass_words(design)
-        );
+        let text = format!("{title}: {}", self.config_words(design));
         let mut below = self.parts(design);
         let named = self.named_ports(design.def);
         if !named.is_empty() {
             below.push(Branch::leaf(format!("{}: {}", plural(named.len(), "port"), listed(&named))));
+        }
+        let obstacles: Vec<String> = design.obstacles().iter().map(|o| o.name.clone()).collect();
+        if !obstacles.is_empty() {
+            below.push(Branch::leaf(format!(
+                "{}: {}",
+                plural(obstacles.len(), "obstacle"),
+                listed(&obstacles)
+            )));
         }
         let free = free_of(instance);
         if !free.is_empty() {
@@ -100,23 +103,34 @@ impl Interpreter<'_> {
         Branch { text, below }
     }
 
+    /// Returns the size of a configuration in words: its order, modules and mass, or the number of robots of a scene.
+    fn config_words(&self, design: &Rc<Design>) -> String {
+        let size = match design.scene() {
+            Some(_) => counted(design.robots(self.limits().robots).len(), "robot"),
+            None => format!("order {}", design.order()),
+        };
+        format!("{size}, {}, {}", counted(design.module_count(), "module"), mass_words(design))
+    }
+
     /// Returns the branches of the parts, each with its own parts; equal elements of a list are one branch.
     fn parts(&self, design: &Rc<Design>) -> Vec<Branch> {
         let Some(groups) = design.config().and_then(|config| config.parts.get()) else { return Vec::new() };
         let mut found = Vec::new();
         for group in groups {
-            let alike = group.elements.windows(2).all(|pair| Rc::ptr_eq(&pair[0].design, &pair[1].design));
+            let placed = group.elements.iter().any(|part| part.place.is_some());
+            let equal = |pair: &[PartElement]| Rc::ptr_eq(&pair[0].design, &pair[1].design);
+            let alike = !placed && group.elements.windows(2).all(equal);
             let count = group.elements.len();
             match group.elements.first() {
                 None => {}
                 Some(first) if count > 1 && alike => {
                     let name = first.name.split('[').next().unwrap_or(&first.name);
-                    found.push(self.part(&format!("{name}[{count}]"), &first.design));
+                    found.push(self.part(format!("{name}[{count}]"), first));
                 }
                 Some(_) => {
                     let shown = if count > ELEMENTS_DRAWN + 1 { ELEMENTS_DRAWN } else { count };
                     let each = group.elements.iter().take(shown);
-                    found.extend(each.map(|element| self.part(&element.name, &element.design)));
+                    found.extend(each.map(|element| self.part(element.name.to_string(), element)));
                     if count > shown {
                         found.push(Branch::leaf(format!("... and {} more", count - shown)));
                     }
@@ -126,8 +140,13 @@ impl Interpreter<'_> {
         found
     }
 
-    fn part(&self, name: &str, design: &Rc<Design>) -> Branch {
-        Branch { text: format!("{name}: {}", design.name), below: self.parts(design) }
+    fn part(&self, name: String, part: &PartElement) -> Branch {
+        let at = part.place.as_ref().map_or_else(String::new, |place| {
+            let position = place.pose.translation.vector;
+            let [x, y, z] = [position.x, position.y, position.z].map(|c| quantity(c, Dimension::LENGTH));
+            format!(" at [{x}, {y}, {z}]")
+        });
+        Branch { text: format!("{name}: {}{at}", part.design.name), below: self.parts(&part.design) }
     }
 
     /// Returns the names that a configuration gives to ports.
@@ -169,19 +188,14 @@ impl Interpreter<'_> {
                 return Ok(format!("record {name} {{ {} }}", fields.join(", ")));
             }
             DefKind::Connector(_) => "connector",
-            kind => kind.instantiable().map_or("declared", |body| body.family.word()),
+            kind => kind.instantiable().map_or("declared", |body| body.word),
         };
         let facts = self.default_design(def)?.map(|design| match &design.kind {
             DesignKind::Module(module) => {
                 let (joints, ports) = (module.module.joints.len(), module.module.ports.len());
                 format!(": {}, {}, {}", counted(joints, "joint"), counted(ports, "port"), mass_words(&design))
             }
-            DesignKind::Config(_) => format!(
-                ": order {}, {}, {}",
-                design.order(),
-                counted(design.module_count(), "module"),
-                mass_words(&design)
-            ),
+            DesignKind::Config(_) => format!(": {}", self.config_words(&design)),
             DesignKind::Lattice(lattice) => format!(": {}", counted(lattice.cells.positions.len(), "cell")),
             DesignKind::Truss(truss) => {
                 format!(": {}, {}", counted(truss.nodes.len(), "node"), counted(truss.struts.len(), "strut"))

@@ -133,6 +133,9 @@ fn program(entry: &PageEntry, import: &str) -> String {
         "config" => {
             format!("print(order({name}()))\nprint(count({name}()), \"modules\")\nprint(mass({name}()))\n")
         }
+        "scene" => {
+            format!("print(0)\nprint(count({name}()), \"modules\")\nprint(mass({name}()))\n")
+        }
         "module" => format!("print(0)\nprint(mass({name}()))\n"),
         "lattice" => format!("print(0)\nprint(count({name}()), \"cells\")\n"),
         _ => String::new(),

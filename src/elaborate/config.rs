@@ -38,15 +38,23 @@ impl Interpreter<'_> {
         if complete {
             let mark = self.reported.errors;
             self.run_clauses(&def.clauses, config, &mut frame, &mut requirements)?;
+            self.elaborate_world(def, config, &mut frame)?;
             self.force_members(def, &this)?;
             self.find_base(def, config, &this)?;
             // A connection that failed leaves parts unconnected; saying so would be a consequence.
             if !self.failed_since(mark) && !design.broken.get() {
-                self.check_connected(def, design, config)?;
+                match def.scene {
+                    true => self.check_scene(def, design)?,
+                    false => self.check_connected(def, design, config)?,
+                }
+            }
+            if self.failed_since(mark) {
+                design.broken.set(true);
             }
         }
         config.complete.set(true);
         if complete {
+            self.check_places(def, design)?;
             self.check_closure(def, design)?;
             self.check_requirements(requirements)?;
         } else {
@@ -123,7 +131,8 @@ impl Interpreter<'_> {
             match this.part_design(part, frame)? {
                 Some(design) => {
                     let count = design.module_count();
-                    elements.push(PartElement { design, offset: next, name: name.as_str().into() });
+                    let place = this.part_place(part, frame)?;
+                    elements.push(PartElement { design, offset: next, name: name.as_str().into(), place });
                     next += count;
                     this.check_modules(next, part.span)?;
                 }
@@ -240,6 +249,7 @@ impl Interpreter<'_> {
                 frame.set(*local, value);
                 Ok(())
             }
+            ConfigClause::Obstacle(obstacle) => self.obstacle(obstacle, config, frame),
             ConfigClause::Require(require) => {
                 requirements.push(Deferred { require, frame: frame.clone() });
                 Ok(())

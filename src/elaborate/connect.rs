@@ -202,7 +202,9 @@ impl Interpreter<'_> {
             diagnostic = Some(found.label(part.span, format!("not connected: {}", shorten(&names))));
         }
         if let Some(diagnostic) = diagnostic {
-            self.report(diagnostic.hint("`connect` them: a configuration is one robot"));
+            self.report(
+                diagnostic.hint("`connect` them: a configuration is one robot, and several are a `scene`"),
+            );
         }
         Ok(())
     }

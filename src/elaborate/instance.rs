@@ -6,6 +6,7 @@ use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
 use crate::interpret::eval::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::routines::Args;
+use crate::interpret::scene::SceneDesign;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::source::{Diagnostic, Span, code};
@@ -123,7 +124,8 @@ impl Interpreter<'_> {
         let mark = self.reported.errors;
         let design = match &program.def(def).kind {
             DefKind::Config(config) => {
-                let kind = ConfigDesign { closed: config.closed.is_some(), ..ConfigDesign::default() };
+                let scene = config.scene.then(SceneDesign::default);
+                let kind = ConfigDesign { closed: config.closed.is_some(), scene, ..ConfigDesign::default() };
                 let design = self.keep(def, title, args, DesignKind::Config(kind));
                 self.with_call(span, name, |this| this.elaborate_config(config, &design))?;
                 design

@@ -15,6 +15,7 @@ mod instance;
 mod lattice;
 mod module;
 mod robot_of;
+mod scene;
 mod sweep;
 mod thickness;
 mod tolerances;

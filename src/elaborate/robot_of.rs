@@ -72,6 +72,14 @@ impl Interpreter<'_> {
             misalignments: vec![],
         };
         let holds = vec![true; assembly.bonds.len()];
+        if let Some(scene) = design.scene() {
+            let kinematics = Kinematics::new(&assembly, &holds, assembly.base);
+            let joints = start_joints(design, &assembly, &kinematics);
+            let (start, poses) = self.place_robots(design, &mut assembly, joints)?;
+            let kinematics = Kinematics::new(&assembly, &holds, assembly.base);
+            let (assembly, obstacles, world) = (Arc::new(assembly), design.obstacles(), scene.world.get());
+            return Ok(Some(Robot { assembly, start, kinematics, poses, obstacles, world }));
+        }
         let mut kinematics = Kinematics::new(&assembly, &holds, assembly.base);
         let joints = start_joints(design, &assembly, &kinematics);
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
@@ -83,7 +91,8 @@ impl Interpreter<'_> {
             kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
         }
         let start = State { joints, bonds: holds, base: Pose::identity(), clusters: vec![] };
-        Ok(Some(Robot { assembly: Arc::new(assembly), start, kinematics, poses }))
+        let (assembly, obstacles, world) = (Arc::new(assembly), Arc::default(), None);
+        Ok(Some(Robot { assembly, start, kinematics, poses, obstacles, world }))
     }
 
     /// Returns the modules that may be the base where none is named: that of each part than which no other is

@@ -18,6 +18,9 @@ pub(super) struct Tolerances {
     pub tie_distance: f64,
     /// The relative difference of masses below which parts are equally heavy, where a base is chosen.
     pub tie_mass: f64,
+    /// The distance of the base modules of two robots of a scene, m, below which they are at one place: a rounding of
+    /// what was meant. Robots that only overlap are the judge's affair.
+    pub one_place: f64,
     /// The sine of the angle between `up` and `facing` below which they leave a port's turn open.
     pub parallel: f64,
 }
@@ -31,5 +34,6 @@ pub(super) const TOLERANCES: Tolerances = Tolerances {
     closure_angle: 1e-6,
     tie_distance: 1e-9,
     tie_mass: 1e-9,
+    one_place: 1e-9,
     parallel: 1e-6,
 };

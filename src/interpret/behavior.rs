@@ -353,7 +353,7 @@ fn other_robot(a: &Rc<Design>, b: &Rc<Design>, span: Span) -> Stop {
     let message = format!("this mixes two robots: {} and {}", a.name, b.name);
     Diagnostic::error(code::OTHER_ROBOT, message)
         .label(span, "one behaviour moves one robot")
-        .hint("make both parts of one configuration")
+        .hint("make both parts of one configuration, or of one `scene`")
         .into()
 }
 
@@ -371,6 +371,6 @@ fn two_names(robot: &Rc<Design>, (a, b): (Name, Name), span: Span) -> Stop {
     };
     diagnostic
         .hint("configurations are values, and equal ones are one robot: bind it once and use that name")
-        .hint("for two robots, make them parts of one configuration")
+        .hint("for two robots, make them parts of one `scene`")
         .into()
 }

@@ -5,9 +5,11 @@
 //! the whole.
 
 use super::cells::Cells;
+use super::groups::Groups;
 use super::identity::{Identity, Name};
 use super::module_map::ModuleMap;
 use super::robot::Robot;
+use super::scene::{Place, SceneDesign};
 use super::value::{JointValue, Lazy, PortValue, Value};
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
@@ -88,6 +90,8 @@ pub struct ConfigDesign {
     pub closed: bool,
     /// The order of the configuration: one more than the largest order of its parts.
     pub order: Flag<usize>,
+    /// The scene that the design is, without its parts; `None` for a configuration.
+    pub scene: Option<SceneDesign>,
     /// True once all clauses have been run, so that its geometry is known.
     pub complete: Flag<bool>,
     /// The assembled robot, once it was asked for; `None` where there is none.
@@ -110,6 +114,8 @@ pub struct PartElement {
     pub offset: usize,
     /// The name of the part: `leg`, or `leg[2]` in a list.
     pub name: Rc<str>,
+    /// The place of the part in a scene; `None` where none is stated.
+    pub place: Option<Place>,
 }
 
 /// A module of a configuration, at any depth of its parts, by its path name.
@@ -239,32 +245,6 @@ pub struct ConnectorDesign {
     pub mates: Vec<DefId>,
 }
 
-/// The connected components of modules: a disjoint-set forest (union and find).
-#[derive(Default)]
-pub struct Groups(Vec<usize>);
-
-impl Groups {
-    fn root(&mut self, module: usize) -> usize {
-        self.0.extend(self.0.len()..=module);
-        let mut at = module;
-        while self.0[at] != at {
-            self.0[at] = self.0[self.0[at]];
-            at = self.0[at];
-        }
-        at
-    }
-
-    /// Returns true if two modules, given by index from 0, are in one component.
-    pub fn together(&mut self, a: usize, b: usize) -> bool {
-        self.root(a) == self.root(b)
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[b] = a;
-    }
-}
-
 impl ConfigDesign {
     /// Returns a configuration of modules side by side, one list of parts, with no bonds yet, for a robot that no
     /// declaration's body describes. It is not marked as complete.
@@ -274,6 +254,7 @@ impl ConfigDesign {
             design: module.design.clone(),
             offset,
             name: module.name.clone(),
+            place: None,
         };
         let elements = modules.iter().enumerate().map(part).collect();
         config.parts.get_or_init(|| vec![PartGroup { list: true, elements }]);

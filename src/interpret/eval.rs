@@ -3,6 +3,7 @@
 use super::design::{DesignKind, Instance};
 use super::identity::Name;
 use super::interpreter::Interpreter;
+use super::scene_design::obstacle_value;
 use super::stop::{Eval, Stop, fault};
 use super::value::{Callable, Lazy, Value};
 use crate::check::Type;
@@ -455,6 +456,9 @@ impl Interpreter<'_> {
             MemberKind::Node => {
                 let DesignKind::Truss(truss) = &instance.design.kind else { return Ok(Value::Unknown) };
                 Ok(truss.position_of(declared.name).unwrap_or(Value::Unknown))
+            }
+            MemberKind::Obstacle => {
+                obstacle_value(instance, declared.name, matches!(declared.ty, Type::List(_)), span)
             }
             MemberKind::Behavior(behavior) => {
                 Ok(Value::Fn(Rc::new(Callable::Behavior { object: instance.clone(), behavior: *behavior })))

@@ -139,7 +139,7 @@ const STATE: &[Field<StateValue>] = &[
     ("time", |state| Value::time(state.time)),
     ("base", |state| Value::Pose(Rc::new(state.base()))),
     ("com", |state| {
-        let (com, _) = state.body.kinematics.centre_of_mass(&state.body.assembly, &state.poses());
+        let (com, _) = state.body.centre_of(&state.poses());
         Value::Vec3(com, Dimension::LENGTH)
     }),
     ("margin", |state| length_if(state.judged(Detail::Stance, |known| known.margin).flatten())),

@@ -99,6 +99,8 @@ pub struct Limits {
     pub digits: usize,
     /// The greatest number of modules of one robot. Default 10 000.
     pub modules: usize,
+    /// The greatest number of robots of one scene, what they carry included. Default 256.
+    pub robots: usize,
     /// The greatest number of samples of one verification. Default 2 million.
     pub samples: usize,
 }
@@ -112,6 +114,7 @@ impl Default for Limits {
             text: 1 << 24,
             digits: 10_000,
             modules: 10_000,
+            robots: 256,
             samples: 2_000_000,
         }
     }

@@ -25,9 +25,12 @@ pub mod nesting;
 mod statements;
 
 pub mod design;
+mod groups;
 pub mod identity;
 pub mod module_map;
 pub mod robot;
+pub mod scene;
+mod scene_design;
 
 pub mod cells;
 

@@ -37,8 +37,8 @@ struct StartCauses {
 pub struct Beginning {
     /// The state in which the behaviour begins; `None`: the robot's start pose.
     pub start: Option<State>,
-    /// The world that is assumed for the whole behaviour.
-    pub world: World,
+    /// The world that is assumed for the whole behaviour; `None`: that of the scene, or the default.
+    pub world: Option<World>,
 }
 
 impl Interpreter<'_> {
@@ -77,7 +77,8 @@ impl Interpreter<'_> {
         let mut causes = PlanCauses::default();
         let program = causes.renumber(&behavior.node);
         let start = beginning.start.unwrap_or_else(|| robot.start.clone());
-        if let Some(kept) = self.kept_plan(&design, &program, &start, &beginning.world, &causes.ids) {
+        let world = beginning.world.or(robot.world).unwrap_or_default();
+        if let Some(kept) = self.kept_plan(&design, &program, &start, &world, &causes.ids) {
             return Ok(Some(kept));
         }
         if !self.check_behavior(behavior, span)? {
@@ -96,7 +97,7 @@ impl Interpreter<'_> {
             Ok(scheduled) => scheduled,
             Err(refusal) => return Err(self.refused(&refusal, &causes.ids, span)),
         };
-        let planned = self.assemble_plan(design, robot, scheduled, &causes, beginning.world);
+        let planned = self.assemble_plan(design, robot, scheduled, &causes, world);
         if !self.report_issues(&planned.1, &causes.ids) {
             return Ok(None);
         }
@@ -118,6 +119,7 @@ impl Interpreter<'_> {
     ) -> (PlanValue, Vec<behavior::Issue>) {
         let Scheduled { tracks, program, exemptions, nominal, actions, open_turns, issues } = scheduled;
         let library = tracks.robot.library.clone();
+        let tracks = Tracks { obstacles: robot.obstacles.clone(), ..tracks };
         let bare = self.bare_plan("behavior", Body::Tracks(tracks), library, world, causes);
         let mut plan = Plan { program: Some(program), nominal, exemptions, ..bare };
         settle_turns(&mut plan, &open_turns);
@@ -249,16 +251,11 @@ impl Interpreter<'_> {
     }
 
     /// Returns the start pose of a robot as a plan of duration 0, not judged yet; `None` where its design is broken
-    /// or no robot. `world`: the world that is assumed; `span`: the code that asks for the plan.
+    /// or no robot. Its world is that of the scene, or the default. `span`: the code that asks for the plan.
     ///
     /// # Errors
     /// As [`robot_of`](Self::robot_of).
-    pub fn plan_pose(
-        &mut self,
-        design: &Rc<Design>,
-        world: World,
-        span: Span,
-    ) -> Eval<Option<Rc<PlanValue>>> {
+    pub fn plan_pose(&mut self, design: &Rc<Design>, span: Span) -> Eval<Option<Rc<PlanValue>>> {
         let Some(robot) = self.robot_of(design, span)? else { return Ok(None) };
         let mut causes = PlanCauses::default();
         let set = self.start_causes(design, &robot, &mut causes);
@@ -273,6 +270,7 @@ impl Interpreter<'_> {
             open_turns: Vec::new(),
             issues: Vec::new(),
         };
+        let world = robot.world.unwrap_or_default();
         Ok(Some(Rc::new(self.assemble_plan(design.clone(), robot, scheduled, &causes, world).0)))
     }
 
@@ -329,7 +327,7 @@ impl Interpreter<'_> {
                 Record::Native(record) => Ok(record.plan().cloned()),
                 _ => Ok(None),
             },
-            Value::Instance(instance) => self.plan_pose(&instance.robot, World::default(), span),
+            Value::Instance(instance) => self.plan_pose(&instance.robot, span),
             _ => Ok(None),
         }
     }

@@ -9,7 +9,7 @@ use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::articulated::{ClusterPaths, Detail, Instant, base_at};
 use crate::plan::{Ground, Plan, Verdict, World};
-use crate::robot::State;
+use crate::robot::{Kinematics, State};
 use std::any::Any;
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -116,6 +116,11 @@ impl StateValue {
         }
         let base = self.body.assembly.base;
         self.body.kinematics.link_poses_from(base, &self.state.joints, &stood, &mut poses);
+        for cluster in &self.state.clusters {
+            let robot = &self.body.assembly;
+            let kinematics = Kinematics::new(robot, &self.body.start.bonds, cluster.reference);
+            kinematics.link_poses(&self.state.joints, &cluster.pose, &mut poses);
+        }
         poses
     }
 

@@ -1,20 +1,26 @@
 //! A configuration as robotics sees it: an assembly with its start state and kinematics.
 
 use crate::geometry::{Pose, Vec3};
+use crate::plan::{Obstacle, World};
 use crate::robot::{Assembly, JointId, JointOwner, Kinematics, Residual, State};
 use std::sync::Arc;
 
-/// A robot that a design describes, assembled, with the poses of its links in the start state.
+/// A robot that a design describes, or the robots of a scene, assembled, with the poses of the links in the start state.
 pub struct Robot {
     /// The modules, the bonds, and the library of module types and connectors.
     pub assembly: Arc<Assembly>,
-    /// The start state: joints as `set`, all bonds closed, the base module's body at the origin.
+    /// The start state: joints as `set`, all bonds closed, the base module's body at the origin; the robots of a scene
+    /// where they are placed.
     pub start: State,
-    /// The forward kinematics for the bonds of the start state.
+    /// The forward kinematics for the bonds of the start state: in a scene, of the base's robot alone.
     pub kinematics: Kinematics,
     /// The poses of all links in the start state, by their numbers in the kinematics, in the frame of the base
-    /// module's body.
+    /// module's body; of the robots of a scene in the world, before they settle.
     pub poses: Vec<Pose>,
+    /// The obstacles of a scene, in the world's frame; none for a robot alone.
+    pub obstacles: Arc<[Obstacle]>,
+    /// The world that a scene states for its plans; `None` for a robot alone, and where a scene states none.
+    pub world: Option<World>,
 }
 
 impl Robot {
@@ -35,13 +41,38 @@ impl Robot {
     /// Returns the closure errors (positions in m, angles in rad, as [`Residual`] has them) of the bonds that close
     /// loops in the start state, ascending by bond; empty for a kinematic tree.
     pub fn residuals(&self) -> Vec<Residual> {
-        self.kinematics.residuals(&self.assembly, &self.start.joints, &self.poses)
+        let (robot, start) = (&self.assembly, &self.start);
+        let mut found = self.kinematics.residuals(robot, &start.joints, &self.poses);
+        for cluster in &start.clusters {
+            let kinematics = Kinematics::new(robot, &start.bonds, cluster.reference);
+            found.extend(kinematics.residuals(robot, &start.joints, &self.poses));
+        }
+        found.sort_by_key(|residual| residual.bond);
+        found
     }
 
-    /// Returns (centre, mass): the centre of mass in the start state (m, in the frame of the base module's body), and
-    /// the mass (kg).
+    /// Returns (centre, mass): the centre of mass in the start state (m, in the frame of [`poses`](Self::poses)), and
+    /// the mass (kg), of all robots of a scene together.
     pub fn centre_of_mass(&self) -> (Vec3, f64) {
-        self.kinematics.centre_of_mass(&self.assembly, &self.poses)
+        self.centre_of(&self.poses)
+    }
+
+    /// Returns (centre, mass) of all modules: the centre of mass, m, and the mass, kg. `poses`: those of all links, by
+    /// their numbers in the kinematics, in the frame of the centre.
+    pub fn centre_of(&self, poses: &[Pose]) -> (Vec3, f64) {
+        if self.start.clusters.is_empty() {
+            return self.kinematics.centre_of_mass(&self.assembly, poses);
+        }
+        let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
+        for module in 0..self.assembly.modules.len() {
+            for (link, declared) in
+                self.kinematics.links_of(module).zip(&self.assembly.module_type(module).links)
+            {
+                moment += poses[link].transform_point(&declared.com.into()).coords * declared.mass;
+                mass += declared.mass;
+            }
+        }
+        (if mass > 0.0 { moment / mass } else { moment }, mass)
     }
 }
 

@@ -97,7 +97,9 @@ pub fn capabilities(
     let own = &robot.design;
     let mut patterns = Vec::new();
     // A robot that a planner put together has the declaration of its modules, which has no behaviours.
-    if matches!(interpreter.shared.program.def(own.def).kind, DefKind::Config(_)) {
+    // A scene is no robot that others could hold.
+    let kind = &interpreter.shared.program.def(own.def).kind;
+    if matches!(kind, DefKind::Config(_)) && !kind.is_scene() {
         patterns.push(own.clone());
     }
     for def in library_configurations(interpreter) {
@@ -127,6 +129,7 @@ fn library_configurations(interpreter: &Interpreter) -> Vec<DefId> {
     let shared = &interpreter.shared;
     let public = shared.program.identified().filter(|(_, def)| {
         matches!(def.kind, DefKind::Config(_))
+            && !def.kind.is_scene()
             && shared.sources.file(def.file).library
             && !def.name.as_str().starts_with('_')
     });

@@ -32,7 +32,14 @@ impl Joined<'_> {
         let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
         kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
-        let robot = Rc::new(Robot { assembly: Arc::new(assembly), start, kinematics, poses });
+        let robot = Rc::new(Robot {
+            assembly: Arc::new(assembly),
+            start,
+            kinematics,
+            poses,
+            obstacles: Arc::default(),
+            world: None,
+        });
         let design = self.joined();
         let config = design.config().expect("made as a configuration");
         assert!(config.robot.set(Some(robot.clone())).is_ok(), "it was just made");

@@ -129,9 +129,7 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
         beginning.start = Some(state.state.clone());
     }
-    if let Some(world) = call.get("world")? {
-        beginning.world = world;
-    }
+    beginning.world = call.get("world")?;
     Ok(planned_value(interpreter.plan_from(&behavior, beginning, call.span)?))
 }
 

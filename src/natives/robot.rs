@@ -112,6 +112,9 @@ fn com(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 
 fn footprint(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(robot) = own_robot(interpreter, call)? else { return Ok(Value::Unknown) };
+    if !robot.start.clusters.is_empty() {
+        return Err(call.refuse("of", "a scene has several robots: name one, as in `footprint(s.a)`"));
+    }
     let corners = crate::interpret::planning::footprint(&robot);
     Ok(Value::list(corners.into_iter().map(|p| Value::Vec3(p, Dimension::LENGTH)).collect()))
 }

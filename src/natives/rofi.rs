@@ -262,6 +262,10 @@ pub(super) fn world_of(interpreter: &mut Interpreter, call: &Call) -> Eval<Optio
     };
     let design = instance.design.clone();
     let Some(robot) = interpreter.robot_at(&design, call.at("what"))? else { return Ok(None) };
+    if !robot.start.clusters.is_empty() {
+        let message = format!("`{}` is a scene: a file of RoFI's has one robot", design.name);
+        return Err(call.refuse("what", message));
+    }
     let mut world = World::default();
     for (index, module) in robot.assembly.modules.iter().enumerate() {
         let kind = robot.assembly.module_type(index);

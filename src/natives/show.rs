@@ -207,7 +207,7 @@ impl Interpreter<'_> {
         if let Some(plan) = self.still(design) {
             let bytes = self.drawn(&design.name, &plan, Form::Page);
             write_output(self, at, path, bytes)?;
-        } else if let Some(planned) = self.plan_pose(design, World::default(), at)? {
+        } else if let Some(planned) = self.plan_pose(design, at)? {
             let settings = self.judge_settings();
             self.draw(&planned, settings, Form::Page, path, at)?;
         }

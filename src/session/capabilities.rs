@@ -68,7 +68,7 @@ impl Session {
             let Some(text) = self.files.library(file) else { continue };
             let items = syntax::parse(FileId(0), &text).file.items;
             let robots = items.into_iter().filter_map(|item| match item.kind {
-                ItemKind::Config(config) => Some(config.name.text.as_str()),
+                ItemKind::Config(config) if !config.scene => Some(config.name.text.as_str()),
                 ItemKind::Module(module) => Some(module.name.text.as_str()),
                 _ => None,
             });

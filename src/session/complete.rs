@@ -205,7 +205,7 @@ fn declared(text: &str) -> Vec<Named> {
             K::Connector(x) => (x.name, "connector"),
             K::Module(x) => (x.name, "module"),
             K::Facts(x) => (x.name, x.family.word()),
-            K::Config(x) => (x.name, "config"),
+            K::Config(x) => (x.name, if x.scene { "scene" } else { "config" }),
             K::Lattice(x) => (x.name, "lattice"),
             K::Truss(x) => (x.name, "truss"),
             _ => return None,

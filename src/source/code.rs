@@ -69,6 +69,10 @@ codes! {
     BAD_SHAPE = "E0314", "a shape that is not sound";
     NO_HINGE = "E0315", "a connection that has no joint";
     NO_MODULES = "E0316", "a configuration without modules";
+    SCENE_ONLY = "E0317", "what only a scene has";
+    SCENE_PART = "E0318", "a scene as a part";
+    ONE_PLACE = "E0319", "robots at one place";
+    PLACED_TWICE = "E0320", "a robot that is placed twice";
     // E04xx: behaviours.
     CONFLICT = "E0401", "two commands to one joint at one time";
     TOO_FAST = "E0402", "a speed that the joint cannot reach";

@@ -32,6 +32,7 @@ pub fn declares(name: &str) -> Option<&'static str> {
     let keywords = [
         "module",
         "config",
+        "scene",
         "connector",
         "cell",
         "strut",

@@ -85,7 +85,7 @@ pub enum ItemKind {
     Module(Module),
     /// A cell of a lattice or a strut of a truss: `cell`, `strut`.
     Facts(Facts),
-    /// A configuration of connected modules: `config`.
+    /// A configuration of connected modules, `config`, or a scene of several robots, `scene`.
     Config(Config),
     /// A lattice of cells: `lattice`.
     Lattice(Lattice),
@@ -510,9 +510,11 @@ pub struct Facts {
 
 // Configurations.
 
-/// A configuration: `config Name(params) closed { clauses }`.
+/// A configuration, `config Name(params) closed { clauses }`, or a scene: the same with `scene`.
 #[derive(Clone, Debug)]
 pub struct Config {
+    /// True for a scene: its parts need not be connected, and it has places, obstacles and a world.
+    pub scene: bool,
     /// The name that the declaration gives the configuration.
     pub name: Name,
     /// The parameters, in the order in which they are declared.
@@ -569,6 +571,19 @@ pub enum ConfigClauseKind {
         /// The position of the joint at the start, an angle or a length.
         value: Expr,
     },
+    /// An obstacle, or one element of an array: `obstacle wall = box(...) at [...]`, `obstacle post[i] = ...`.
+    Obstacle {
+        /// The name of the obstacle or of the array.
+        name: Name,
+        /// The index in the array, from 0; `None` for a single obstacle.
+        index: Option<Expr>,
+        /// The solid.
+        value: Expr,
+        /// The pose of the solid in the world; `None` where it stays as it is.
+        at: Option<Placement>,
+    },
+    /// The world of plans of a scene, as a call of the built-in `world`: `world(terrain: ..., friction: ...)`.
+    World(Expr),
     /// A definition: `let name = value`.
     Let(Let),
     /// A requirement on the declared values: `require condition, message`.
@@ -606,6 +621,8 @@ pub struct Part {
     pub ty: Vec<Name>,
     /// The arguments, in order; `None` if no parentheses are written.
     pub args: Option<Vec<Arg>>,
+    /// The pose of the part's base in a scene; `None` if it is not written.
+    pub at: Option<Placement>,
     /// The span of the path of the type, without its arguments.
     pub ty_span: Span,
 }

@@ -6,13 +6,14 @@ use super::parse::{Node, Rule};
 use crate::source::{Span, code};
 
 impl Builder<'_> {
-    /// Builds the syntax tree of a `config` from its parse node.
+    /// Builds the syntax tree of a `config` or `scene` from its parse node.
     pub(super) fn config(&mut self, node: Node) -> Config {
+        let scene = node.as_rule() == Rule::scene;
         let mut nodes = node.into_inner();
         let name = self.declared(next(&mut nodes));
         let params = self.params_if(&mut nodes);
         let closed = next_if(&mut nodes, Rule::closed).map(|closed| self.span(&closed));
-        Config { name, params, closed, clauses: self.config_clauses(next(&mut nodes)) }
+        Config { scene, name, params, closed, clauses: self.config_clauses(next(&mut nodes)) }
     }
 
     /// Builds the clauses of a configuration, in order, from the parse node of its body.
@@ -38,6 +39,8 @@ impl Builder<'_> {
             }
             Rule::let_item => ConfigClauseKind::Let(self.let_item(node)),
             Rule::require => ConfigClauseKind::Require(self.require(node)),
+            Rule::obstacle => self.obstacle(node),
+            Rule::surroundings => ConfigClauseKind::World(self.surroundings(node)),
             _ => self.config_for(node),
         };
         ConfigClause { span, doc: self.doc(span.start), kind }
@@ -60,6 +63,9 @@ impl Builder<'_> {
                     ("a port", "several ports are written `port side[4] = [...]`")
                 }
                 ConfigClauseKind::Base(_) => ("`base`", "write it beside the parts"),
+                ConfigClauseKind::World(_) => {
+                    ("`world`", "a choice stands inside it: `friction: if wet { 0.3 } else { 0.8 }`")
+                }
                 ConfigClauseKind::Behavior(_) => ("a behaviour", "a behaviour may have parameters"),
                 _ => continue,
             };
@@ -76,7 +82,8 @@ impl Builder<'_> {
         let ty = next(&mut nodes);
         let ty_span = self.span(&ty);
         let ty = self.words(ty);
-        Part { name, count, ty, args: nodes.next().map(|args| self.args(args)), ty_span }
+        let args = next_if(&mut nodes, Rule::args).map(|args| self.args(args));
+        Part { name, count, ty, args, at: nodes.next().map(|at| self.placement(at)), ty_span }
     }
 
     fn part_count(&mut self, node: Node) -> PartCount {
@@ -88,6 +95,23 @@ impl Builder<'_> {
             }
             None => PartCount::Number(self.expr(next(&mut nodes))),
         }
+    }
+
+    fn obstacle(&mut self, node: Node) -> ConfigClauseKind {
+        let mut nodes = node.into_inner();
+        let name = self.declared(next(&mut nodes));
+        let index = next_if(&mut nodes, Rule::index).map(|index| self.index_expr(index));
+        let value = self.expr(next(&mut nodes));
+        ConfigClauseKind::Obstacle { name, index, value, at: nodes.next().map(|at| self.placement(at)) }
+    }
+
+    /// Builds the line `world(...)` as a call of the built-in of that name.
+    fn surroundings(&mut self, node: Node) -> Expr {
+        let span = self.span(&node);
+        let word = Span { end: span.start + "world".len() as u32, ..span };
+        let callee = Expr { span: word, kind: ExprKind::Name(self.symbol(word)) };
+        let args = self.args(next(&mut node.into_inner()));
+        Expr { span, kind: ExprKind::Call { callee: Box::new(callee), args } }
     }
 
     fn config_port(&mut self, node: Node) -> ConfigClauseKind {

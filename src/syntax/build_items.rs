@@ -22,7 +22,7 @@ impl Builder<'_> {
             Rule::let_item => ItemKind::Let(self.let_item(node)),
             Rule::fn_item => ItemKind::Fn(self.fn_item(node)),
             Rule::record => ItemKind::Record(self.record(node)),
-            Rule::config => ItemKind::Config(self.config(node)),
+            Rule::config | Rule::scene => ItemKind::Config(self.config(node)),
             Rule::module => ItemKind::Module(self.module(node)),
             Rule::connector => ItemKind::Connector(self.connector(node)),
             Rule::cell => ItemKind::Facts(self.facts(FactsFamily::Cell, node)),

@@ -149,8 +149,8 @@ impl Builder<'_> {
         ModulePort { name, index, connector, link, at, facing, up }
     }
 
-    /// Builds a placement.
-    fn placement(&mut self, node: Node) -> Placement {
+    /// Builds a placement from its parse node.
+    pub(super) fn placement(&mut self, node: Node) -> Placement {
         let span = self.span(&node);
         let mut nodes = node.into_inner();
         let position = self.expr(next(&mut nodes));

@@ -217,12 +217,7 @@ impl Mistake<'_> {
 
     /// Explains a part of the language that is reserved but not built yet.
     fn later(&self) -> Option<Diagnostic> {
-        let (first, second) = (self.token_text(0), self.token_text(1));
-        let item = match first {
-            "scene" => second == "{" || self.kind_of(1) == Some(TokenKind::Word),
-            "role" => self.kind_of(1) == Some(TokenKind::Word),
-            _ => false,
-        };
+        let item = self.token_text(0) == "role" && self.kind_of(1) == Some(TokenKind::Word);
         let index = match (self.before(), self.found()) {
             _ if item && self.place == BodyKind::Items => 0,
             ("closed", "(") => self.found - 1,

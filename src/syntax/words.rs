@@ -19,13 +19,14 @@ pub const ITEMS: &[&str] = &[
     "cell",
     "strut",
     "config",
+    "scene",
     "lattice",
     "truss",
     "test",
 ];
 
 /// The keywords that begin a declaration with instances.
-pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "lattice", "truss"];
+pub(super) const FAMILIES: &[&str] = &["module", "cell", "strut", "config", "scene", "lattice", "truss"];
 
 /// The keywords after which a name is declared, sorted.
 pub const DECLARING: &[&str] = &[
@@ -41,9 +42,11 @@ pub const DECLARING: &[&str] = &[
     "module",
     "motor",
     "node",
+    "obstacle",
     "part",
     "port",
     "record",
+    "scene",
     "strut",
     "truss",
 ];
@@ -70,8 +73,9 @@ pub const MODULE: &[&str] = &[
 ];
 
 /// The keywords that begin a clause of a configuration.
-pub const CONFIG: &[&str] =
-    &["part", "port", "base", "behavior", "connect", "set", "let", "require", "if", "for"];
+pub const CONFIG: &[&str] = &[
+    "part", "port", "base", "behavior", "connect", "set", "let", "require", "if", "for", "obstacle", "world",
+];
 
 /// The keywords that begin a clause of a truss.
 pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
@@ -97,6 +101,7 @@ const FORMS: &[(&str, &str)] = &[
     ("module", "module Name(length: Length = 40mm) { ... }"),
     ("cell", "cell Name { size 100mm  mass 1kg }"),
     ("config", "config Name(n: Int = 4) { ... }"),
+    ("scene", "scene Name(gap: Length = 600mm) { ... }"),
     ("lattice", "lattice Name of Cell = row(4)"),
     ("truss", "truss Name of Strut { ... }"),
     ("test", "test \"what holds\" { expect condition }"),
@@ -110,6 +115,8 @@ const FORMS: &[(&str, &str)] = &[
     ("connect", "connect a.port -- b.port turn 90deg"),
     ("set", "set a.joint = 30deg"),
     ("base", "base a.part"),
+    ("obstacle", "obstacle name = box(20mm, 1m, 200mm) at [300mm, 0mm, 100mm]"),
+    ("world", "world(terrain: slope(5deg), friction: 0.8)"),
     ("node", "node name = [0m, 0m, 0m]"),
     ("for", "for i in 0..4 { ... }"),
     ("if", "if condition { ... } else { ... }"),

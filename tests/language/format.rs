@@ -425,3 +425,14 @@ fn files_are_formatted_in_place_or_only_looked_at() {
     assert_eq!(fs::read_to_string(sandbox.path("d.mod")).expect("it is there"), "let a = (\n");
     assert_eq!(sandbox.run(&["fmt", "missing.mod"]).code, 2);
 }
+
+#[test]
+fn scenes_are_laid_out_as_configurations_are() {
+    let wild = "scene  Yard ( gap:Length=600mm ) {\n part a:Tank7\n part b :Tank7 at[gap,0m,0m]turned ( Z,180deg )\n \
+                obstacle wall=box(20mm,1m,200mm)at [300mm,0m,0m]\n for i in 0..3{obstacle post [i]=sphere(10mm)}\n \
+                world (friction:0.8)\n}\n";
+    let tidy = "scene Yard(gap: Length = 600mm) {\n  part a: Tank7\n  part b: Tank7 at [gap, 0m, 0m] turned(Z, 180deg)\n  \
+                obstacle wall = box(20mm, 1m, 200mm) at [300mm, 0m, 0m]\n  for i in 0..3 { obstacle post[i] = \
+                sphere(10mm) }\n  world(friction: 0.8)\n}\n";
+    assert_eq!(formatted(wild), tidy);
+}

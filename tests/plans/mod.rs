@@ -5,3 +5,4 @@ pub mod library_of_files;
 pub mod plan_file;
 pub mod plan_operations;
 pub mod plans_stored;
+pub mod scenes;

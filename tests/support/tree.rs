@@ -222,7 +222,8 @@ fn require(r: &Require) -> String {
 
 fn config(c: &Config) -> String {
     let closed = if c.closed.is_some() { " closed" } else { "" };
-    format!("(config {}{}{closed}{})", c.name.text, params(&c.params), each(&c.clauses, config_clause))
+    let word = if c.scene { "scene" } else { "config" };
+    format!("({word} {}{}{closed}{})", c.name.text, params(&c.params), each(&c.clauses, config_clause))
 }
 
 fn config_clause(clause: &ConfigClause) -> String {
@@ -237,6 +238,14 @@ fn config_clause(clause: &ConfigClause) -> String {
             format!("(connect {} {}{})", path(a), path(b), optional(turn, "turn:", expr))
         }
         ConfigClauseKind::Set { joint, value } => format!("(set {} {})", path(joint), expr(value)),
+        ConfigClauseKind::Obstacle { name, index, value, at } => format!(
+            "(obstacle {}{} {}{})",
+            name.text,
+            optional(index, "index:", expr),
+            expr(value),
+            optional(at, "", placement)
+        ),
+        ConfigClauseKind::World(value) => format!("(world {})", expr(value)),
         ConfigClauseKind::Let(l) => let_item(l),
         ConfigClauseKind::Require(r) => require(r),
         ConfigClauseKind::If { condition, then, otherwise } => {
@@ -255,7 +264,8 @@ fn part(p: &Part) -> String {
         Some(PartCount::Each { binder, range }) => format!(" (for {} {})", binder.text, expr(range)),
     };
     let args = p.args.as_ref().map_or(String::new(), |args| format!(" (args{})", each(args, arg)));
-    format!("(part {}{count} {}{args})", p.name.text, names(&p.ty))
+    let at = optional(&p.at, "", placement);
+    format!("(part {}{count} {}{args}{at})", p.name.text, names(&p.ty))
 }
 
 fn behavior(b: &Behavior) -> String {

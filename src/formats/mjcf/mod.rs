@@ -42,10 +42,14 @@ const DEPTH_MAX: usize = 496;
 /// `start`: the base stands where the judge places it. The text is the same for the same plan.
 ///
 /// # Errors
-/// A [`MjcfFault`] for a lattice or truss, for a plan that is not valid, and for a chain of too many links.
+/// A [`MjcfFault`] for a lattice or truss, for several robots or obstacles, for a plan that is not valid, and for a
+/// chain of too many links.
 pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
+    if !tracks.start.clusters.is_empty() || !tracks.obstacles.is_empty() {
+        return Err(MjcfFault::Scene);
+    }
     let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
     let trees = Trees::new(tracks, &X_WB);
     let depth = trees.depth();

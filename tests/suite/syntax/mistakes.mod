@@ -176,8 +176,6 @@
 //                     ^^^^ E0001 stands in `{ }`
 
 --- parts of the language that are not built yet
-    scene { robot a }
-//  ^^^^^ E0010 `scene` is not built yet
     role R { joint bend }
 //  ^^^^ E0010 `role` is not built yet
     config C closed (solves a) { part m: M }
