@@ -1832,6 +1832,11 @@ extern type Report {
   worst: List<Text>
   /// What is worth saying although nothing failed.
   notes: List<Text>
+
+  /// What the verifier found of one of the robots of a scene, alone and docked with others.
+  ///
+  /// Travel and heading are those of the robot's base; what happens between robots is that in which it takes part.
+  fn of(robot: Config) -> Report
 }
 
 /// Turns a behaviour into a plan: when each joint is where.

@@ -9,7 +9,7 @@ use super::design::Instance;
 use super::record::{Record, StateValue};
 use super::value::{Behavior, Callable, ConditionValue, JointValue, Mesh, PortValue, Solid, Value};
 use crate::geometry::{HeightField, Pose, Vec3};
-use crate::plan::{DynamicsModel, Ground, World};
+use crate::plan::{DynamicsModel, Ground, Verdict, World};
 use std::rc::Rc;
 
 /// The type of a parameter as its built-in reads it; a test compares it with the type that the declaration states.
@@ -316,6 +316,21 @@ impl<'c> Argument<'c> for &'c StateValue {
         match value {
             Value::Record(record) => match &**record {
                 Record::State(state) => Ok(state),
+                _ => Err(ArgumentError::Type),
+            },
+            _ => Err(ArgumentError::Type),
+        }
+    }
+}
+
+/// A report's verdict.
+impl<'c> Argument<'c> for &'c Rc<Verdict> {
+    const KIND: Kind = Kind::Record("Report");
+
+    fn read(value: &'c Value) -> Result<&'c Rc<Verdict>, ArgumentError> {
+        match value {
+            Value::Record(record) => match &**record {
+                Record::Report(verdict, _) => Ok(verdict),
                 _ => Err(ArgumentError::Type),
             },
             _ => Err(ArgumentError::Type),

@@ -59,7 +59,8 @@ pub use tracks::{
 };
 pub use validation::Unwritable;
 pub use verdict::{
-    Check, CheckKind, Dynamics, Failure, Measure, Status, Verdict, WORST_VALUES, Worst, WorstKind,
+    Check, CheckKind, Dynamics, Failure, Measure, RobotVerdict, Status, Verdict, WORST_VALUES, Worst,
+    WorstKind,
 };
 pub use world::{
     DynamicsModel, Exemption, ExemptionKind, Ground, Settings, Stability, World, WorldFrom, is_full,

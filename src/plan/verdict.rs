@@ -327,6 +327,19 @@ pub struct Verdict {
     pub samples: usize,
     /// The tip-overs and rolls, each as (time in s, event in words), in order of time.
     pub events: Vec<(f64, String)>,
+    /// The verdicts on the robots of a plan that begins with several, one for each, in order of their first modules: what
+    /// the others do to a robot is in its own. No part of a plan file, whose verdict is recomputed.
+    #[serde(skip)]
+    pub robots: Vec<RobotVerdict>,
+}
+
+/// The verdict on one of the robots of a plan, alone and docked with others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotVerdict {
+    /// The path name of the module that stands for the robot: it is the robot's for the whole plan.
+    pub reference: String,
+    /// The verdict on the clusters to which that module belongs. Travel and heading are those of the module.
+    pub verdict: Verdict,
 }
 
 impl Verdict {

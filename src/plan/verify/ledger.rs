@@ -21,6 +21,7 @@ const ENDINGS: [CheckKind; 6] = [
 
 /// The record of failures, excuses, notes and worst values to which all checks of a plan write, and of which the
 /// verdict is made.
+#[derive(Clone)]
 pub(super) struct Ledger<'a> {
     /// The exemptions of the plan.
     exemptions: &'a [Exemption],

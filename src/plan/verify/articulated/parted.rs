@@ -14,7 +14,7 @@ use super::rollout::Rollout;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, DockingKind, Exemption, Failure, Ground, Status};
+use crate::plan::{CauseId, CheckKind, DockingKind, Exemption, Failure, Ground, RobotVerdict, Status};
 use crate::robot::Kinematics;
 use crate::units::{Dimension, counted, quantity};
 
@@ -117,11 +117,6 @@ pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Le
         if came_off.is_some_and(|(_, parent)| own.is_full() && moves(*parent)) {
             momentum_is_lost(own.subject, &mut part);
         }
-        if cluster.modules.contains(&rollout.tracks.robot.base) {
-            let (sum, own) = (&mut ledger.verdict, &part.verdict);
-            (0..3).for_each(|axis| sum.travel[axis] += own.travel[axis]);
-            sum.heading += own.heading;
-        }
         past.paths.push(path);
         parts.push(part);
     }
@@ -132,7 +127,79 @@ pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Le
     let ended = parts.iter().filter_map(Ledger::ended).min_by(|a, b| a.0.total_cmp(&b.0));
     between_clusters::judge(rollout, (clusters, &past.paths), ended, &mut between);
     parts.push(between);
+    let travels = Travels::new(rollout, clusters, &past.paths, &parts);
+    (ledger.verdict.travel, ledger.verdict.heading) = travels.of(rollout.tracks.robot.base);
+    if !rollout.tracks.start.clusters.is_empty() {
+        ledger.verdict.robots = robots(rollout, clusters, &parts, &travels);
+    }
     ledger.merge(parts);
+}
+
+/// The way of each module over a plan of several clusters.
+struct Travels<'a> {
+    clusters: &'a [Cluster],
+    /// The change of heading of each cluster, rad.
+    headings: Vec<f64>,
+    /// The displacement of each module's body from the start to the end, m.
+    displacements: Vec<[f64; 3]>,
+}
+
+impl<'a> Travels<'a> {
+    /// Returns the ways of all modules. `paths` and `parts`: those of the clusters' bases, and the records of what was found of
+    /// them, in the order of `clusters`; others may follow.
+    fn new(rollout: &Rollout, clusters: &'a [Cluster], paths: &[BasePath], parts: &[Ledger]) -> Travels<'a> {
+        let tracks = rollout.tracks;
+        let numbers = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
+        let mut placed =
+            PlacedClusters::new(tracks, clusters.iter().zip(paths).collect(), rollout.tolerances);
+        let mut place = |time: f64| {
+            let mut poses = vec![Pose::identity(); numbers.link_count()];
+            placed.place(time, &mut poses);
+            poses
+        };
+        let (begin, end) = (place(0.0), place(tracks.duration));
+        let moved = |module: usize| {
+            let at = |poses: &[Pose]| numbers.module_pose(module, poses).translation.vector;
+            (at(&end) - at(&begin)).into()
+        };
+        Travels {
+            clusters,
+            headings: parts.iter().take(clusters.len()).map(|part| part.verdict.heading).collect(),
+            displacements: (0..tracks.robot.modules.len()).map(moved).collect(),
+        }
+    }
+
+    /// Returns (displacement, heading) of a module over the plan, m and rad.
+    fn of(&self, module: usize) -> ([f64; 3], f64) {
+        let own =
+            self.clusters.iter().zip(&self.headings).filter(|(cluster, _)| cluster.modules.contains(&module));
+        (self.displacements[module], own.map(|(_, heading)| heading).sum())
+    }
+}
+
+/// Returns the verdicts on the robots with which a plan begins. `parts`: the records of its clusters, and at last that of what
+/// happens between them.
+fn robots(rollout: &Rollout, clusters: &[Cluster], parts: &[Ledger], travels: &Travels) -> Vec<RobotVerdict> {
+    let Some((between, own)) = parts.split_last() else { return vec![] };
+    let names = &rollout.tracks.robot.modules;
+    let robot = |start: &Cluster| {
+        let module = start.base();
+        let mut verdict = Ledger::new(rollout.exemptions, rollout.end);
+        let its = clusters.iter().zip(own).filter(|(cluster, _)| cluster.modules.contains(&module));
+        let mut records: Vec<Ledger> = its.map(|(_, part)| part.clone()).collect();
+        let mut others = between.clone();
+        let concerns = |at: &[String]| start.modules.iter().any(|module| at.contains(&names[*module].name));
+        others.verdict.failures.retain(|failure| concerns(&failure.at));
+        others.verdict.clearance = others.verdict.clearance.filter(|worst| concerns(&worst.at));
+        records.push(others);
+        verdict.merge(records);
+        if rollout.is_full() {
+            verdict.drop_consequences();
+        }
+        (verdict.verdict.travel, verdict.verdict.heading) = travels.of(module);
+        RobotVerdict { reference: names[module].name.clone(), verdict: verdict.finish() }
+    };
+    clusters.iter().filter(|cluster| cluster.parents.is_empty()).map(robot).collect()
 }
 
 /// Returns in words how robots come apart and dock with each other, with their times; none where they do not.
