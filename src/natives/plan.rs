@@ -16,6 +16,7 @@ use crate::interpret::record::StateValue;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
+use crate::plan::verify::articulated;
 use crate::plan::{
     self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, Verdict, World,
 };
@@ -130,7 +131,11 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut beginning = Beginning::default();
     if let Some(state) = call.get::<Option<&StateValue>>("from")? {
         interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
-        beginning.start = Some(state.state.clone());
+        let mut start = state.state.clone();
+        if let Some((base, clusters)) = articulated::standing(&state.planned.plan, state.time) {
+            (start.base, start.clusters) = (base, clusters);
+        }
+        beginning.start = Some(start);
     }
     beginning.world = call.get("world")?;
     Ok(planned_value(interpreter.plan_from(&behavior, beginning, call.span)?))

@@ -1,7 +1,7 @@
 //! The operations on whole plans: run backwards, cut, and put one after the other. All are exact on
 //! control points; what belongs to one family of bodies is in that family's folder, through [`Body`](super::Body).
 
-use super::body::Appended;
+use super::body::{Appended, Body};
 use super::cause::CauseId;
 use super::motion_plan::Plan;
 use super::operation_error::OperationError;
@@ -9,6 +9,7 @@ use super::program::{Node, Program};
 use super::provenance::Change;
 use super::time::{DURATION_MAX, tick_near};
 use super::tracks::Tracks;
+use super::verify::articulated::standing;
 use super::world::{Exemption, Settings, Stability, WorldFrom};
 use std::sync::Arc;
 
@@ -29,6 +30,7 @@ pub fn reversed(plan: &Plan) -> Plan {
         worlds: reversed_worlds(&plan.worlds, duration),
         ..plan.clone()
     };
+    stand(&mut new, plan, duration);
     record(&mut new, Change::Reversed);
     derive_program(&mut new);
     new
@@ -61,6 +63,7 @@ pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
         worlds: worlds.map(|w| WorldFrom { from: (w.from - from).max(0.0), world: w.world }).collect(),
         ..plan.clone()
     };
+    stand(&mut new, plan, from);
     record(&mut new, Change::Sliced { from, to });
     derive_program(&mut new);
     Ok(new)
@@ -133,6 +136,14 @@ pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve:
     record(&mut new, Change::Retimed { before: plan.body.duration(), reserve });
     derive_program(&mut new);
     new
+}
+
+/// Places the robots of a plan, if there are several at some time, where they stand at a time (s) of the plan that it is a
+/// part of.
+fn stand(new: &mut Plan, whole: &Plan, time: f64) {
+    if let (Body::Tracks(tracks), Some((base, clusters))) = (&mut new.body, standing(whole, time)) {
+        (tracks.start.base, tracks.start.clusters) = (base, clusters);
+    }
 }
 
 /// Writes a change into the history; what was proved or judged of the plan before holds no more.

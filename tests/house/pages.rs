@@ -14,6 +14,7 @@ const NOT_BY_TEXT: &[Code] = &[
     code::NOT_UTF8,
     code::TOO_LARGE,
     code::PENETRATION,
+    code::FALLS_APART,
     code::UNSTABLE,
     code::NOT_VERIFIED,
     code::LOST_VALUE,

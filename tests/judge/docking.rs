@@ -5,7 +5,10 @@ use crate::support::desk::run_clean;
 use modl::geometry::{Placed, Pose, Shape, Vec3, pose::turned};
 use modl::plan::verify::articulated::{ClusterPaths, dock_turns};
 use modl::plan::verify::verify;
-use modl::plan::{Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status, Tracks, Verdict, file};
+use modl::plan::{
+    Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status, Tracks, Verdict, file, reversed,
+    sliced,
+};
 use modl::robot::{ClusterPose, Kinematics};
 
 /// A block with a slide that carries a port, and a block with one: the ports meet when the slide is out by 50 mm, as drawn.
@@ -155,6 +158,35 @@ fn obstacles_are_hit_and_the_command_is_to_blame() {
     let far = verify(&obstacle(1.0));
     let collision = far.checks.iter().find(|check| check.kind == CheckKind::Collision);
     assert_eq!(collision.map(|check| check.status.clone()), Some(Status::Proved), "{:?}", far.checks);
+}
+
+#[test]
+fn modules_that_stand_for_no_robot_hang_on_nothing() {
+    let mut plan = fetch(Pose::identity(), 1.0);
+    let own = tracks(&mut plan);
+    own.start.clusters.clear();
+    own.events.clear();
+    let verdict = verify(&plan);
+    assert!(failures(&verdict).contains(&CheckKind::Connectedness), "{:#?}", verdict.failures);
+}
+
+/// A plan that begins where another ended begins with every robot where that left it, also backwards.
+#[test]
+fn plans_run_backwards_and_are_cut_with_robots_where_they_stand() {
+    let mut plan = fetch(Pose::translation(0.0, 0.0, 0.001), 1.0);
+    let undone = DockingEvent { time: 5.0, kind: DockingKind::Undock, ..tracks(&mut plan).events[0].clone() };
+    tracks(&mut plan).events.push(undone);
+    assert!(verify(&plan).ok(), "{:#?}", verify(&plan).failures);
+    let back = reversed(&plan);
+    let start = &back.body.tracks().expect("modules").start.clusters;
+    let ended = block(&plan, 5.0);
+    assert!(start.len() == 1 && (start[0].pose.inverse() * ended).translation.vector.norm() < 1e-9);
+    // Backwards it docks at once and brings the block back to where it stood.
+    assert!(verify(&back).ok(), "{:#?}", verify(&back).failures);
+    let moved = block(&back, 5.0).translation.vector - block(&plan, 0.0).translation.vector;
+    assert!(moved.norm() < 1e-9, "{moved:?}");
+    let rest = sliced(&plan, 4.0, 5.0).expect("a part of the plan");
+    assert!(rest.body.tracks().expect("modules").start.clusters.is_empty(), "they are docked then");
 }
 
 #[test]

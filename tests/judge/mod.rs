@@ -6,6 +6,7 @@ pub mod ground;
 pub mod lattice_judge;
 pub mod oracle;
 pub mod parting;
+mod random_scenes;
 pub mod slopes;
 pub mod truss_judge;
 pub mod verify;

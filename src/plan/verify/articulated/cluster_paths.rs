@@ -2,13 +2,14 @@
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
+use super::history::base_at;
 use super::parted::{self, Beginning, Past};
 use super::placed_clusters::PlacedClusters;
 use super::rollout::{Rollout, roll_out};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
-use crate::robot::{Assembly, Kinematics};
+use crate::robot::{Assembly, ClusterPose, Kinematics};
 
 /// The path of one cluster: modules that bonds connect, from the instant at which it comes to be by docking or undocking, or
 /// the start, until it does not hold any more.
@@ -35,6 +36,25 @@ pub fn comes_apart(plan: &Plan) -> bool {
         && validation::check(plan).is_ok()
         && parted::clusters(&Rollout::of(plan, tracks, &Tolerances::default()))
             .is_some_and(|clusters| clusters.len() > 1)
+}
+
+/// Returns (pose, further): the world pose of the base module's body (`X_WB`, m) at a time (s) of a plan that has several
+/// clusters at some time, and the poses of the clusters that there are then besides that of the base, ascending by reference,
+/// as the rollout of the judge has brought them there. `None` for one robot that stays one, for plans of other families and
+/// plans that are not valid, and where the rollout did not get there.
+pub fn standing(plan: &Plan, time: f64) -> Option<(Pose, Vec<ClusterPose>)> {
+    let tracks = plan.body.tracks()?;
+    let paths = ClusterPaths::of(plan, time)?;
+    let base = base_at(plan, time)?;
+    let there = paths.clusters.iter().filter(|cluster| cluster.exists(time, tracks.duration));
+    let others = there.filter(|cluster| cluster.modules().binary_search(&tracks.robot.base).is_err());
+    let pose = |cluster: &ClusterPath| ClusterPose {
+        reference: cluster.base(),
+        pose: cluster.path.at(time, &paths.tolerances),
+    };
+    let mut further: Vec<ClusterPose> = others.map(pose).collect();
+    further.sort_by_key(|cluster| cluster.reference);
+    Some((base, further))
 }
 
 /// Returns the path of a robot's base over its rollout, until a time (s) or the end of its tracks.
