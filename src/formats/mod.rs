@@ -9,12 +9,14 @@
 mod content;
 mod fault;
 mod fold;
+pub(crate) mod masses;
 pub mod mjcf;
 mod obj;
 mod off;
 mod ply;
 mod stl;
 mod table;
+pub(crate) mod xml;
 mod xyz;
 
 use crate::robot::{rofi, rofi_json};

@@ -27,15 +27,15 @@ pub(super) struct Drawn {
 pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     let plan = input.plan;
     match &plan.body {
-        Body::Tracks(tracks) => robot(input, tracks, time),
+        Body::Tracks(tracks) => robot(input, tracks, time, &link_poses(input, tracks, time)),
         Body::Stages(stages) => cells(stages, &plan.library, time),
         Body::NodePaths(paths) => truss(paths, time),
     }
 }
 
-/// Returns the links of an articulated robot, failed modules in the colour of failure, and the obstacles around it.
-fn robot(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec<Drawn> {
-    let poses = link_poses(input, tracks, time);
+/// Returns the links of an articulated robot with their world poses at a time in seconds, failed modules in the colour
+/// of failure, and the obstacles around it.
+pub(super) fn robot(input: &RenderInput, tracks: &Tracks, time: f64, poses: &[Pose]) -> Vec<Drawn> {
     let group = groups(&tracks.robot);
     let failed = findings::failed_modules(input.plan, time);
     let mut drawn = Vec::new();

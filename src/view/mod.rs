@@ -18,6 +18,8 @@ mod tolerances;
 mod primitives;
 
 mod ground_pose;
+mod link_paths;
+mod models;
 mod robot;
 mod solids;
 
@@ -45,7 +47,10 @@ mod program;
 pub mod plot;
 
 pub use input::RenderInput;
+pub use link_paths::LinkPaths;
+pub use models::{Triangle, link_colours, triangles};
 pub use page::{page, page_name, simulation_page};
-pub use picture::{Side, StillOptions, png};
+pub use picture::{Side, StillOptions, frames, indexed_png, png};
+pub use primitives::{Primitive, primitives};
 pub use simulation::SimulationInput;
 pub use svg::svg;

@@ -1,9 +1,10 @@
 //! A still picture of a plan at one time, as PNG, rendered on the processor: the same bytes on every
 //! machine.
 
-use super::bodies::{Drawn, drawn};
+use super::bodies::{self, Drawn, drawn};
 use super::colour::Rgb;
 use super::input::RenderInput;
+use super::link_paths::LinkPaths;
 use super::raster::{Camera, Canvas};
 use super::tolerances::TOLERANCES;
 use super::{findings, palette, surroundings};
@@ -86,6 +87,47 @@ pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
     encoded(options, &pixels, None)
 }
 
+/// Renders a plan at several times (s) from one viewpoint, so that the camera rests while the robot moves: `see` receives
+/// the palette of each picture as (red, green, blue), at most [`palette::COLOURS_MAX`] colours, and the index in it of
+/// each pixel, row by row from the top. `options`: viewpoint and size; its time is not read. Panics for a width or height
+/// of 0.
+pub fn frames(
+    input: &RenderInput,
+    options: &StillOptions,
+    times: &[f64],
+    see: &mut dyn FnMut(Vec<[u8; 3]>, Vec<u8>),
+) {
+    let paths = LinkPaths::of(input.plan);
+    let end = findings::end(input.plan);
+    let bodies = |time: f64| match (input.plan.body.tracks(), &paths) {
+        (Some(tracks), Some(paths)) => bodies::robot(input, tracks, time, &paths.at(time)),
+        _ => drawn(input, time),
+    };
+    let times: Vec<f64> = times.iter().map(|time| time.clamp(0.0, end)).collect();
+    let balls = times.iter().map(|time| ball(&bodies(*time)));
+    let Some(around) = balls.reduce(around_both) else { return };
+    let slope = surroundings::slope(input.plan).unwrap_or_default();
+    let ground = surroundings::floor(input.plan).then_some(slope);
+    for time in times {
+        let canvas = Scene::new(bodies(time), around, ground, options).canvas();
+        let (colours, indices) = palette::reduced(&pixels(&canvas, options));
+        see(colours, indices);
+    }
+}
+
+/// Returns the smallest ball around two balls, each as (centre, radius), m.
+fn around_both(a: (Vec3, f64), b: (Vec3, f64)) -> (Vec3, f64) {
+    let apart = (b.0 - a.0).norm();
+    if apart + b.1 <= a.1 {
+        a
+    } else if apart + a.1 <= b.1 {
+        b
+    } else {
+        let radius = (apart + a.1 + b.1) / 2.0;
+        (a.0 + (b.0 - a.0) * ((radius - a.1) / apart), radius)
+    }
+}
+
 /// Returns a picture as the bytes of a PNG file with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a
 /// page to hold.
 pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
@@ -99,7 +141,8 @@ fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
     let bodies = drawn(input, time);
     let slope = surroundings::slope(input.plan).unwrap_or_default();
     let ground = surroundings::floor(input.plan).then_some(slope);
-    Scene::new(bodies, ground, options).canvas()
+    let around = ball(&bodies);
+    Scene::new(bodies, around, ground, options).canvas()
 }
 
 /// A scene with its camera and light; lengths in metres.
@@ -123,9 +166,14 @@ struct Scene {
 }
 
 impl Scene {
-    /// Sets up the camera so that all bodies are in the picture, the sun, and its shadow map.
-    fn new(bodies: Vec<Drawn>, ground: Option<[f64; 2]>, options: &StillOptions) -> Scene {
-        let (middle, radius) = ball(&bodies);
+    /// Sets up the camera so that a ball, as (centre, radius) in m, is in the picture, the sun, and its shadow map.
+    fn new(
+        bodies: Vec<Drawn>,
+        around: (Vec3, f64),
+        ground: Option<[f64; 2]>,
+        options: &StillOptions,
+    ) -> Scene {
+        let (middle, radius) = around;
         let (width, height) = (options.width * SUPERSAMPLING, options.height * SUPERSAMPLING);
         let narrow = (width as f64 / height as f64).min(1.0);
         let distance = 0.92 * radius
@@ -285,6 +333,14 @@ fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
 /// `height` bytes, row by row from the top. Panics on another number of them.
 pub(super) fn encode_rgb(width: usize, height: usize, pixels: &[u8]) -> Vec<u8> {
     encoded(&StillOptions { width, height, ..StillOptions::default() }, pixels, None)
+}
+
+/// Returns a picture with a palette as the bytes of a PNG file. `size`: width and height in pixels; `colours`: the palette
+/// as (red, green, blue); `pixels`: the index in it of each pixel, row by row from the top. Panics on another number of
+/// pixels than the size says.
+pub fn indexed_png(size: (usize, usize), colours: &[[u8; 3]], pixels: &[u8]) -> Vec<u8> {
+    let (width, height) = size;
+    encoded(&StillOptions { width, height, ..StillOptions::default() }, pixels, Some(colours))
 }
 
 /// Returns pixels as PNG: red, green and blue of each, or palette indices if `colours` is given.

@@ -6,19 +6,35 @@ use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3, hull};
 
 /// A primitive shape (box, cylinder, ball or triangle surface) around the origin of its own frame; lengths in metres.
-pub(super) enum Primitive<'a> {
-    /// A box; `size` holds its edge lengths along x, y and z.
-    Box { size: Vec3 },
+pub enum Primitive<'a> {
+    /// A box.
+    Box {
+        /// The edge lengths along x, y and z, m.
+        size: Vec3,
+    },
     /// A cylinder along z.
-    Tube { radius: f64, length: f64 },
+    Tube {
+        /// The radius, m.
+        radius: f64,
+        /// The length along z, m.
+        length: f64,
+    },
     /// A ball.
-    Ball { radius: f64 },
-    /// Triangles as indices into `points`, from 0, counter-clockwise as seen from outside.
-    Surface { points: &'a [Vec3], triangles: &'a [[u32; 3]] },
+    Ball {
+        /// The radius, m.
+        radius: f64,
+    },
+    /// A surface of triangles.
+    Surface {
+        /// The corners, m.
+        points: &'a [Vec3],
+        /// The triangles as indices into `points`, from 0, counter-clockwise as seen from outside.
+        triangles: &'a [[u32; 3]],
+    },
 }
 
 /// Calls `draw` with each primitive of `shapes` and its pose in the frame in which the shapes are placed.
-pub(super) fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
+pub fn primitives(shapes: &[Placed], draw: &mut dyn FnMut(&Pose, Primitive)) {
     shapes.iter().for_each(|placed| take_apart(placed, &Pose::identity(), draw));
 }
 

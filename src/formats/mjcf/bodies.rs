@@ -2,19 +2,13 @@
 
 use super::servo;
 use super::tree::Trees;
-use super::xml::{Attribute, Xml, number, numbers, placed, vector};
+use crate::formats::masses::{MASS_MIN, sound_inertia};
+use crate::formats::xml::{Attribute, Xml, number, numbers, placed, vector};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
 use crate::robot::{Link, Motion, Step, mate};
-use nalgebra::Matrix3;
 use std::collections::BTreeSet;
 
-/// The least mass of a body, kg: MuJoCo moves none without.
-const MASS_MIN: f64 = 1e-9;
-/// The least moment of inertia of a body, kg·m².
-const INERTIA_MIN: f64 = 1e-12;
-/// The part of a moment of inertia by which it stays below the sum of the other two: MuJoCo computes them again.
-const ROUNDING: f64 = 1e-12;
 /// Half the distance between the two points that a constraint holds together on the axis of a hinge, m.
 const HINGE_ARM: f64 = 0.05;
 
@@ -183,19 +177,6 @@ fn geom_type(shape: &Shape) -> &'static str {
         Shape::Sphere { .. } | Shape::Capsule { .. } => "sphere",
         Shape::Hull { .. } | Shape::Mesh { .. } | Shape::Union { .. } => "mesh",
     }
-}
-
-/// Returns the inertia of a link (kg·m²: xx, yy, zz, xy, xz, yz), made larger by a multiple of the unit matrix where
-/// MuJoCo would refuse it: its moments must be positive, and none may exceed the sum of the other two.
-fn sound_inertia(link: &Link) -> [f64; 6] {
-    let [xx, yy, zz, xy, xz, yz] = link.inertia;
-    let mut moments: [f64; 3] =
-        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz).symmetric_eigenvalues().into();
-    moments.sort_by(f64::total_cmp);
-    let [least, middle, most] = moments;
-    let missing = most * (1.0 + ROUNDING) - middle - least;
-    let more = missing.max(INERTIA_MIN - least).max(0.0);
-    [xx + more, yy + more, zz + more, xy, xz, yz]
 }
 
 /// Returns the names of the sites at which a bond (an index in the robot's bonds) is constrained, as pairs of one on

@@ -3,7 +3,7 @@
 
 use super::bodies::site_names;
 use super::tree::Trees;
-use super::xml::{Attribute, Xml, numbers};
+use crate::formats::xml::{Attribute, Xml, numbers};
 
 use std::collections::BTreeSet;
 
@@ -70,11 +70,10 @@ pub(super) fn couplings(xml: &mut Xml, trees: &Trees, holds: &[bool]) {
         if turns {
             xml.comment("A bond that turns; what drives it is left out.");
         }
-        for (names, end) in pairs.into_iter().zip([", low", ", high"]) {
+        for (names, name) in pairs.into_iter().zip(constraint_names(trees, bond)) {
             let [first, second] = names;
-            let end = if turns { end } else { "" };
             let attributes: Vec<Attribute> = vec![
-                ("name", format!("{}{end}", trees.robot.bond_name(bond))),
+                ("name", name),
                 ("site1", first),
                 ("site2", second),
                 ("active", holds[bond].to_string()),
@@ -95,6 +94,15 @@ pub(super) fn couplings(xml: &mut Xml, trees: &Trees, holds: &[bool]) {
         xml.close("fixed");
     }
     xml.close("tendon");
+}
+
+/// Returns the names of the constraints of a bond (an index in the robot's bonds): one, or two of a bond that turns.
+pub(super) fn constraint_names(trees: &Trees, bond: usize) -> Vec<String> {
+    let name = trees.robot.bond_name(bond);
+    match trees.robot.hinge(bond) {
+        Some(_) => vec![format!("{name}, low"), format!("{name}, high")],
+        None => vec![name],
+    }
 }
 
 /// Adds the keyframe `start`: positions and commands at the start of the plan. `held`: true if the base is fixed in the

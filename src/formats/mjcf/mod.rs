@@ -12,13 +12,12 @@ mod connections;
 mod fault;
 mod servo;
 mod tree;
-mod xml;
 
+use crate::formats::xml::{Xml, number, numbers};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 pub use fault::MjcfFault;
 use tree::Trees;
-use xml::{Xml, number, numbers};
 
 /// The ending of the names of MuJoCo model files, after the first dot.
 pub const ENDING: &str = "mjcf.xml";
@@ -57,6 +56,35 @@ pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
         return Err(MjcfFault::TooDeep { depth, most: DEPTH_MAX });
     }
     Ok(model(plan, tracks, &trees))
+}
+
+/// The names by which a MuJoCo model is driven along a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drives {
+    /// The actuators in the order of the model's, each as (name, terms): its command is the sum of factor times the
+    /// position (rad or m) of a joint, given by its number, over the terms.
+    pub actuators: Vec<(String, Vec<(usize, f64)>)>,
+    /// The equality constraints of bonds that are in no tree, each as (index of the bond, name).
+    pub constraints: Vec<(usize, String)>,
+}
+
+/// Returns the names by which the MuJoCo model of a plan is driven: those of the model that [`write`] returns.
+///
+/// # Errors
+/// As for [`write`].
+pub fn drives(plan: &Plan) -> Result<Drives, MjcfFault> {
+    let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
+    validation::check(plan).map_err(MjcfFault::Invalid)?;
+    let trees = Trees::new(tracks, &tracks.start.base);
+    let driven = trees.moved().into_iter().filter(|(joint, _)| trees.is_driven(*joint));
+    let terms = |link: usize| trees.steps[link].as_ref().map_or(Vec::new(), |step| step.terms().to_vec());
+    let actuators = driven.map(|(joint, link)| (trees.joint_name(joint), terms(link))).collect();
+    let names = |&bond: &usize| {
+        let names = connections::constraint_names(&trees, bond);
+        names.into_iter().map(move |name| (bond, name)).collect::<Vec<_>>()
+    };
+    let constraints = trees.constraints.iter().flat_map(names).collect();
+    Ok(Drives { actuators, constraints })
 }
 
 fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {

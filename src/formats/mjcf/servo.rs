@@ -1,7 +1,7 @@
 //! The servos of joints, from the facts of their modules, and the actuators that they make.
 
 use super::tree::Trees;
-use super::xml::{Attribute, Xml, number, numbers};
+use crate::formats::xml::{Attribute, Xml, number, numbers};
 use crate::robot::Servo as Facts;
 
 /// A position servo with damping, and the inertia of its rotor as the joint feels it.
