@@ -1,14 +1,16 @@
-//! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY and STL; PLY and XYZ for clouds.
+//! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY, STL and FOLD; PLY and XYZ for clouds.
 //!
 //! Writers of foldings (FOLD), of robots of RoFI modules, and of robots with their plans as models of MuJoCo.
 //!
 //! A reader turns bytes into a [`Content`] or says what is wrong. To add one, write its file and add its
 //! line to [`MESH_FORMATS`] or [`CLOUD_FORMATS`]. A writer turns data into text. To add one, write its file
-//! and add its line to [`FOLDING_FORMATS`] or [`ROBOT_FORMATS`]; `save` and its messages follow.
+//! and add its line to [`FOLDING_FORMATS`] or [`ROBOT_FORMATS`]; `save` and its messages follow. The formats
+//! of plans are those of the room `exchange`.
 
 mod content;
 mod fault;
 mod fold;
+mod fold_reader;
 pub(crate) mod masses;
 pub mod mjcf;
 mod obj;
@@ -42,6 +44,7 @@ pub const MESH_FORMATS: &[Format] = &[
     Format { ending: "obj", name: "OBJ", read: obj::read },
     Format { ending: "off", name: "OFF", read: off::read },
     Format { ending: "ply", name: "PLY", read: ply::read },
+    Format { ending: "fold", name: "FOLD", read: fold_reader::read },
 ];
 
 /// The formats of point clouds that can be read.

@@ -160,6 +160,29 @@ fn a_fold_file_folds_into_the_target_by_its_own_angles() {
     }
 }
 
+/// A FOLD file is a mesh in its last state: folded again it is closed where the shape is, which it can only be if the
+/// corners that meet are one.
+#[test]
+fn a_fold_file_is_a_mesh_that_folds_again() {
+    for (name, module) in [("octahedron", "Mori"), ("icosahedron", "Mori")] {
+        let file = written(name, module).remove("shape.fold").expect("written");
+        let program = format!(
+            "use std.mori.{module}\nlet shape = load_mesh(\"shape.fold\")\nprint(faces(shape))\n\
+             save(fold(shape, module: {module}), \"again.fold\")\n"
+        );
+        let mut files = MapFiles::of(&program);
+        files.0.insert("shape.fold".into(), file);
+        let done = ran(&files, "main.mod", Mode::Run, &Options::default());
+        assert!(done.outcome.diagnostics.is_empty(), "{name}: {:?}", done.outcome.diagnostics);
+        let faces = list(&TRUTH["shapes"][name]["faces_ccw"]).len();
+        let again: Value = serde_json::from_slice(&done.host.written["again.fold"]).expect("it is JSON");
+        assert_eq!(list(&again["faces_vertices"]).len(), faces);
+        for (kind, glued) in list(&again["edges_assignment"]).iter().zip(list(&again["edges_modl:gluedTo"])) {
+            assert!(kind != "B" || !glued.is_null(), "{name}: an edge of the outline meets another");
+        }
+    }
+}
+
 /// What is told in the plan alone: in the end the middles of the panels' edges are where those of the shape
 /// are, and where two faces meet, so do two edges.
 #[test]
