@@ -8,8 +8,8 @@ install_rust_tools() {
 }
 
 # pinocchio and coal, a second opinion on kinematics (tests/robots/urdf.rs, benches/kinematics.rs) and on collisions
-# (tests/judge/oracle.rs), MuJoCo, on models and simulations (tests/dynamics), and toppra, on least times
-# (tests/planners/fastest.rs). Where they can't be installed, what asks for them says so and is skipped.
+# (tests/judge/oracle.rs), MuJoCo, on models and simulations (tests/dynamics), toppra, on least times
+# (tests/planners/fastest.rs), and the readers of exported files (tests/exchange). Where they can't be installed, what asks for them says so and is skipped.
 install_python() {
   local venv="$PWD/target/python"
   if [ ! -x "$venv/bin/python" ]; then
@@ -25,6 +25,10 @@ install_python() {
     "$venv/bin/python" -c 'import toppra' 2>/dev/null \
       || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check toppra \
       || echo "no toppra: the test against it will be skipped"
+    "$venv/bin/python" -c 'import yourdfpy, mcap, mcap_ros2, yaml' 2>/dev/null \
+      || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
+        yourdfpy mcap mcap-ros2-support pyyaml \
+      || echo "no yourdfpy, mcap or PyYAML: the tests of exported files will be skipped"
     export MODL_PYTHON="$venv/bin/python"
   fi
 }
@@ -39,5 +43,15 @@ install_browser() {
   if [ ! -d "$browser/node_modules/playwright-core" ]; then
     mkdir -p "$browser"
     npm install --prefix "$browser" --no-save --no-audit --no-fund --silent playwright-core@1
+  fi
+}
+
+# The validator of glTF, for the tests of scenes (tests/exchange/readers.rs).
+install_gltf() {
+  local gltf="$PWD/target/gltf"
+  if [ ! -d "$gltf/node_modules/gltf-validator" ]; then
+    mkdir -p "$gltf"
+    npm install --prefix "$gltf" --no-save --no-audit --no-fund --silent gltf-validator \
+      || echo "no gltf-validator: the test of scenes will be skipped"
   fi
 }

@@ -30,6 +30,8 @@ pub mod interpret;
 
 pub mod formats;
 
+pub mod exchange;
+
 pub mod elaborate;
 
 pub mod display;

@@ -484,9 +484,18 @@ extern fn show(
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
 ///
-/// A plan of a robot with joints, a behaviour, or a robot at rest is an `.mjcf.xml` file: a model for the simulator
-/// MuJoCo, with its masses, shapes, joints, servos, bonds and friction, and with the keyframe `start` in which the plan
-/// begins; see docs/mujoco.md.
+/// A plan of a robot with joints, a behaviour, or a robot at rest is written for other programs, see docs/exchange.md:
+/// - `.mjcf.xml`: a model for the simulator MuJoCo with masses, shapes, joints, servos, bonds and friction, and the
+///   keyframe `start` in which the plan begins, see docs/mujoco.md; beside it the commands of its actuators and the
+///   docking events as tables
+/// - `.urdf`: a robot description for ROS, one for each topology, with its meshes beside it; closed loops are an error
+/// - `.trajectory.yaml` and `.trajectory.json`: `trajectory_msgs/JointTrajectory`, one for each topology
+/// - `.csv`: the positions of all joints, 100 times a second
+/// - `.glb`: an animated scene in glTF, for Blender; also of lattices and trusses
+/// - `.mcap`: a recording of ROS messages, for Foxglove and Rerun
+/// - `.gif` and `.frames`: moving pictures
+///
+/// What a robot could execute (trajectories, tables, recordings) is verified first, as `emit` does.
 ///
 /// A robot of RoFI modules is a `.rofi` file, or a `.json` file in RoFI's newer format. A folding is a `.fold` file (FOLD 1.2): the flat net in
 /// millimetres with its mountains, valleys and fold angles, the step in which each hinge folds, the
@@ -505,6 +514,8 @@ extern fn show(
 /// use std.shapes.octahedron
 /// use std.smores.Driver1
 /// save(plan(Driver1().drive(t: 1s)), "drive.mjcf.xml")
+/// save(Driver1(), "driver.urdf")
+/// save(plan(Driver1().drive(t: 1s)), "drive.trajectory.yaml")
 /// save(Snake(n: 4), "snake.rofi")
 /// save(Snake(n: 4), "snake.json")
 /// save(fold(octahedron(edge: 80mm), module: Mori), "octahedron.fold")
@@ -1176,7 +1187,7 @@ extern fn polyhedron(vertices: List<Vec3<Length>>, faces: List<List<Int>>) -> Me
 /// ```
 extern fn faces(of: Mesh) -> Int
 
-/// A mesh from a file of this project, by the end of its name: STL, OBJ, OFF or PLY. `scale` is the
+/// A mesh from a file of this project, by the end of its name: STL, OBJ, OFF, PLY, or FOLD in its last state. `scale` is the
 /// length of one of the file's units. The path is relative to the program's.
 ///
 /// Faces keep the file's order, and may be any polygons; the surface may be open. A file that can't be

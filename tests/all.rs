@@ -3,6 +3,7 @@
 mod behavior;
 mod desk;
 mod dynamics;
+mod exchange;
 mod house;
 mod judge;
 mod language;

@@ -28,6 +28,7 @@ Examples:
   modl show rover/main.mod --open  see it move
   modl check --json *.mod          diagnostics for an editor
   modl verify out/drive.plan.json  judge a plan again, from nothing but its file
+  modl export out/drive.plan.json --to bundle   for ROS, MuJoCo, Blender and Foxglove
   modl explain E0301               what a code means and how to mend it
   modl what rover/main.mod Rover   what the library can do with a robot
   modl repl rover/main.mod         ask and try things out
@@ -113,6 +114,52 @@ pub(super) enum Command {
         /// The factor on all coefficients of friction
         #[arg(long, value_name = "FACTOR")]
         friction: Option<f64>,
+    },
+    /// Write plans in the formats of other programs: ROS, MuJoCo, Blender, Foxglove
+    #[command(
+        after_help = "Examples:\n  modl export out/walk.plan.json --to urdf\n  modl export out/walk.plan.json --to bundle -o \
+        exchange\n\nFiles are written below the output folder, named after the plan file; a bundle is a folder of this name, \
+        which\nis there as a whole or not at all. What a robot could execute is judged again first. docs/exchange.md tells \
+        of each\nformat."
+    )]
+    Export {
+        /// A program, or plan files; `-` reads a plan file from standard input
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        /// The format, or `bundle` for all of them
+        #[arg(long, value_name = "FORMAT", value_parser = super::choices::targets())]
+        to: String,
+    },
+    /// Write the module that a robot description (URDF) declares
+    #[command(
+        after_help = "Example:\n  modl import robots/arm.urdf -o robots\n\nThe module is written below the output folder, with \
+        links, joints, limits, masses and shapes, and a place for\nports. Meshes (STL, OBJ, OFF, PLY) become hulls."
+    )]
+    Import {
+        /// The description
+        #[arg(value_name = "FILE")]
+        file: PathBuf,
+    },
+    /// Say what a plan file holds, sample it, and hold it against the map of a robot
+    #[command(
+        after_help = "Examples:\n  modl plan out/walk.plan.json\n  modl plan out/walk.plan.json --series joints --rate 100Hz > \
+        walk.csv\n  modl plan out/walk.plan.json --map robot.json\n  modl plan out/walk.plan.json --map robot.json --series \
+        joints > targets.csv\n\nA series is a table in CSV, SI units and radians; with a map its columns are the targets of \
+        motors,\n`BUS/CHANNEL`. docs/executing.md tells how a robot executes a plan."
+    )]
+    Plan {
+        /// A plan file; `-` reads standard input
+        #[arg(value_name = "PLANFILE")]
+        file: PathBuf,
+        /// Print a series over time
+        #[arg(long, value_name = "SERIES", value_parser = super::choices::series_names())]
+        series: Option<String>,
+        /// The samples a second, such as 100Hz
+        #[arg(long, value_name = "RATE", requires = "series", value_parser = super::choices::rate, default_value = "100Hz")]
+        rate: f64,
+        /// The map from joints to the motors of a robot (docs/robot-map.schema.json)
+        #[arg(long, value_name = "MAPFILE")]
+        map: Option<PathBuf>,
     },
     /// Draw what a program plans, or a plan file, as a page that plays it
     #[command(
@@ -225,7 +272,7 @@ pub(super) struct Globals {
     #[arg(long, global = true, value_name = "WHEN", value_enum, default_value = "auto")]
     pub color: Color,
     /// The folder for plans; nothing is written anywhere else
-    #[arg(long, global = true, value_name = "DIR", default_value = "out")]
+    #[arg(short = 'o', long, global = true, value_name = "DIR", default_value = "out")]
     pub out: PathBuf,
     /// The project: nothing outside is read [default: the folder of the file]
     #[arg(long, global = true, value_name = "DIR")]

@@ -5,18 +5,22 @@
 //! `terminal`.
 
 mod arguments;
+mod choices;
 mod disk;
 mod doc;
 mod editor;
 mod examples;
 mod explain;
+mod export;
 mod fmt;
 mod folders;
+mod import;
 mod judge;
 mod manifest;
 mod new;
 mod output;
 mod pages;
+mod plan;
 mod program;
 mod repl;
 mod report;
@@ -180,6 +184,11 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         Command::Verify { files } => judge::run(files, globals),
         Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
+        Command::Export { files, to } => export::run(files, to, globals),
+        Command::Import { file } => import::run(file, globals),
+        Command::Plan { file, series, rate, map } => {
+            plan::run(file, series.as_deref().map(|name| (name, *rate)), map.as_deref(), globals)
+        }
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::What { file, robot } => repl::what(file, robot, globals),
         Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),

@@ -103,6 +103,65 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
     filled(file, &target, bytes)
 }
 
+/// Writes files into the folder `name` below `folder`, which appears with all of them or not at all: they are written into
+/// a temporary folder beside it, which is then renamed. A folder of that name is replaced if `is_former` returns true for
+/// it, or if it is empty. Returns the path of the folder to show. `files`: names relative to the folder with forward
+/// slashes, and contents.
+///
+/// # Errors
+/// A [`WriteError`] if the name is no name of a folder, a file would lie outside of it, other files are there, or the
+/// operating system refuses.
+pub(super) fn write_folder<'f>(
+    folder: &Path,
+    name: &str,
+    files: impl Iterator<Item = (&'f str, &'f [u8])>,
+    is_former: impl Fn(&Path) -> bool,
+) -> Result<String, WriteError> {
+    if join("", name).is_none_or(|path| path != name || name.contains('/') || name.is_empty()) {
+        return Err(WriteError::Outside);
+    }
+    fs::create_dir_all(folder).map_err(failed)?;
+    let root = fs::canonicalize(folder).map_err(failed)?;
+    let target = root.join(name);
+    let there = match fs::symlink_metadata(&target) {
+        Err(_) => false,
+        Ok(found) if !found.is_dir() => {
+            return Err(WriteError::Failed("a file has this name".to_owned()));
+        }
+        Ok(_) => {
+            let empty = fs::read_dir(&target).map_err(failed)?.next().is_none();
+            if !empty && !is_former(&target) {
+                return Err(WriteError::Failed("a folder of this name holds other files".to_owned()));
+            }
+            true
+        }
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    let made = builder.tempdir_in(&root).map_err(failed)?;
+    for (path, bytes) in files {
+        write(made.path(), path, bytes)?;
+    }
+    if there {
+        // Nobody sees a mixture: the former folder, none for an instant, or the new one.
+        let old = builder.tempdir_in(&root).map_err(failed)?;
+        let aside = old.path().join(name);
+        fs::rename(&target, &aside).map_err(failed)?;
+        if let Err(e) = fs::rename(made.path(), &target) {
+            fs::rename(&aside, &target).map_err(failed)?;
+            return Err(failed(e));
+        }
+    } else {
+        fs::rename(made.path(), &target).map_err(failed)?;
+    }
+    // It has its name now, and must not be removed.
+    let _ = made.keep();
+    sync_folder(&root).map_err(failed)?;
+    Ok(folder.join(name).to_string_lossy().into_owned())
+}
+
 /// Returns the real parent folder of a path below `root`, making missing folders.
 ///
 /// # Errors

@@ -5,9 +5,8 @@ use super::plan::{output_path, write_output};
 use super::rofi;
 use super::save_table;
 use super::show::{Form, picture_of, plot_of};
-use crate::formats::{
-    Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS, mjcf,
-};
+use crate::exchange::{Export, ExportFile, PLAN_FORMATS, PlanFormat};
+use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -27,11 +26,12 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (path, name) = output_path(call, "file")?;
     let ending = ending_of(&name);
     let what = call.arg("what");
-    let bytes = if ending == mjcf::ENDING && moves(what) {
-        let Some(planned) = interpreter.plan_of(what, call.at("what"))? else { return Ok(Value::Unknown) };
-        let model = mjcf::write(&planned.plan).map_err(|fault| call.refuse("what", fault.to_string()))?;
-        model.into_bytes()
-    } else if let Some(plot) = plot_of(what) {
+    if moves(what)
+        && let Some((format, _)) = PlanFormat::of_file(&path)
+    {
+        return export(interpreter, call, format, &path);
+    }
+    let bytes = if let Some(plot) = plot_of(what) {
         let form = match ending {
             "svg" => Form::Svg,
             "png" => Form::Png { time: 0.0, side: Side::Corner },
@@ -70,14 +70,46 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(Value::Nothing)
 }
 
+/// Writes a plan in a format of other programs, below the output folder: several files where the format is of several.
+///
+/// # Errors
+/// A fault where the format has no meaning for the plan, or a file can't be written.
+fn export(interpreter: &mut Interpreter, call: &Call, format: &PlanFormat, path: &str) -> Eval<Value> {
+    let at = call.at("what");
+    let Some(planned) = interpreter.plan_of(call.arg("what"), at)? else { return Ok(Value::Unknown) };
+    if interpreter.shared.options.collects {
+        return Ok(Value::Nothing);
+    }
+    let mut plan = planned.plan.clone();
+    if format.is_motion {
+        // A motion that a robot could execute is judged, as `emit` does.
+        let verdict = interpreter.judge(&planned, interpreter.judge_settings(), None);
+        interpreter.note_exemptions(&planned, &verdict);
+        if !verdict.ok() {
+            interpreter.report_failures(&planned, &verdict, at, None);
+            return Ok(Value::Unknown);
+        }
+        plan.verdict = Some(verdict.as_ref().clone());
+    }
+    let (folder, file) = path.rsplit_once('/').map_or(("", path), |(folder, file)| (folder, file));
+    let (_, stem) = PlanFormat::of_file(file).unwrap_or((format, file));
+    let stem = if stem.is_empty() { "plan" } else { stem };
+    let export = Export { plan: &plan, title: &planned.robot.name, stem };
+    let files = format.write(&export).map_err(|refusal| call.refuse("what", refusal.to_string()))?;
+    for ExportFile { name, bytes } in files {
+        let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };
+        write_output(interpreter, call.at("file"), &path, bytes)?;
+    }
+    Ok(Value::Nothing)
+}
+
 /// Returns the end of a name after its last dot, or after the one before it where a format has two; empty without a
 /// dot.
 fn ending_of(name: &str) -> &str {
-    let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|stem| stem.ends_with('.'));
-    [mjcf::ENDING]
-        .into_iter()
-        .find(ends)
-        .unwrap_or_else(|| name.rsplit_once('.').map_or("", |(_, ending)| ending))
+    match PlanFormat::of_file(name) {
+        Some((format, _)) => format.ending,
+        None => name.rsplit_once('.').map_or("", |(_, ending)| ending),
+    }
 }
 
 /// Returns the plan that a value is or reports on; `None` for other values.
@@ -97,11 +129,13 @@ fn moves(value: &Value) -> bool {
 
 /// Returns the fault of a name whose ending does not fit the value: what fits, or everything that `save` knows.
 fn wrong_ending(call: &Call, ending: &str, value: &str) -> Stop {
-    let model = format!("`.{}`", mjcf::ENDING);
+    let endings: Vec<String> = PLAN_FORMATS.iter().map(|format| format!("`.{}`", format.ending)).collect();
+    let (last, others) = endings.split_last().expect("there are formats");
+    let others = others.join(", ");
     let known = [
-        ("a plan", model.clone()),
-        ("a robot", format!("{model}, {}", ExportFormat::endings(ROBOT_FORMATS))),
-        ("a folding", format!("{model} or {}", ExportFormat::endings(FOLDING_FORMATS))),
+        ("a plan", format!("{others} or {last}")),
+        ("a robot", format!("{others}, {last}, {}", ExportFormat::endings(ROBOT_FORMATS))),
+        ("a folding", format!("{others}, {last} or {}", ExportFormat::endings(FOLDING_FORMATS))),
         ("a plot", "`.svg` or `.png`".to_string()),
         ("a list of records", ExportFormat::endings(TABLE_FORMATS)),
     ];

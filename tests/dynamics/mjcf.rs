@@ -35,7 +35,7 @@ const MANY: u64 = 300;
 
 /// Robots and behaviours: a loop that opens and closes at two places, joints that slide, that follow one and several
 /// others, that are fixed, hinges of bonds, of which one closes a loop, a base that is fixed, and one that settles.
-const PROGRAMS: &[&str] = &[
+pub const PROGRAMS: &[&str] = &[
     "use std.smores.Ring12
 let ring = Ring12()
 let first = Sc(undock(ring.m[11].bottom), wait(1s), dock(ring.m[11].bottom, ring.m[0].top))
@@ -172,7 +172,7 @@ impl Case {
 }
 
 /// A random robot; of every other one the last links of modules have no mass.
-fn random(seed: u64) -> Plan {
+pub fn random(seed: u64) -> Plan {
     let mut plan = oracle::plan(seed);
     if seed % 2 == 1 {
         let mut library = (*plan.library).clone();

@@ -22,6 +22,9 @@ const NOT_BY_TEXT: &[Code] = &[
     code::CANNOT_WRITE,
     code::CANNOT_READ,
     code::BAD_PLAN_FILE,
+    code::NOT_EXPORTED,
+    code::BAD_ROBOT_MAP,
+    code::NOT_IMPORTED,
     code::NOTHING_SHOWN,
 ];
 

@@ -81,8 +81,8 @@ save([A(a: 1)], "a.rofi")
 
 --- an unknown ending lists the known ones
 use std.smores.Car
-save(Car(), "car.urdf")
-//          ^^^^^^^^^^ E0506 `.urdf` is no format that `save` knows | a plan as `.mjcf.xml`, a robot as `.mjcf.xml`, `.rofi` or `.json`, a folding as `.mjcf.xml` or `.fold`, a plot as
+save(Car(), "car.sdf")
+//          ^^^^^^^^^ E0506 `.sdf` is no format that `save` knows | `.gif` or `.frames`, a robot as `.mjcf.xml`, `.urdf`,
 
 --- a name without an ending
 save([1, 2], "a")
@@ -96,10 +96,10 @@ save(none, "a.csv")
 
 --- of a plan a model is saved; the plan itself is emitted
 use std.smores.Car
-save(plan(Car().drive(t: 1s)), "a.csv")
-//                             ^^^^^^^ E0506 a plan is saved as `.mjcf.xml`; `.csv` is for a list of records | `emit` writes the plan itself
+save(plan(Car().drive(t: 1s)), "a.rofi")
+//                             ^^^^^^^^ E0506 a plan is saved as `.mjcf.xml`, `.urdf`, | `emit` writes the plan itself
 save(Car().drive(t: 1s), "a.plan.json")
-//                       ^^^^^^^^^^^^^ E0506 a plan is saved as `.mjcf.xml`; `.json` is for a robot
+//                       ^^^^^^^^^^^^^ E0506 `.json` is for a robot
 save(Car().drive(t: 1s), "a.xml")
 //                       ^^^^^^^ E0506 `.xml` is no format that `save` knows
 
@@ -114,6 +114,17 @@ lattice A of ExpandingCube = row(4)
 lattice B of ExpandingCube = column(4)
 save(squeeze(A, B), "a.mjcf.xml")
 //   ^^^^^^^^^^^^^ E0506 a model for MuJoCo is one of links and joints
+
+--- a closed loop is no tree
+use std.smores.Ring12
+save(Ring12(), "ring.urdf")
+//   ^^^^^^^^ E0506 URDF has no closed loops, and the bond
+
+--- a motion that fails is not written for a robot
+use std.smores.Chain3
+let c = Chain3()
+save(move(c.m[1].tilt, to: 10deg, in: 1ms), "a.trajectory.yaml")
+//   E0
 
 --- a list is no robot
 save([1, 2], "a.mjcf.xml")
