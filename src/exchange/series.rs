@@ -41,7 +41,7 @@ impl Series {
 /// more than [`SAMPLES_MAX`]. `rate`: samples a second, positive.
 pub fn times(duration: f64, rate: f64) -> Option<Vec<f64>> {
     let count = duration * rate;
-    if !(count < SAMPLES_MAX as f64) {
+    if count.is_nan() || count >= SAMPLES_MAX as f64 {
         return None;
     }
     let inside = (0..=count as usize).map(|k| k as f64 / rate).filter(|t| *t < duration);
