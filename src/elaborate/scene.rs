@@ -54,7 +54,7 @@ impl Interpreter<'_> {
             Some(index) => format!("{}[{index}]", obstacle.name),
             None => obstacle.name.to_string(),
         };
-        if let Some(first) = scene.obstacles.borrow().iter().find(|other| other.obstacle.name == name) {
+        if let Some(first) = scene.obstacles.borrow().iter().find(|other| other.name == name) {
             let mut diagnostic =
                 Diagnostic::error(code::DECLARED_TWICE, format!("the obstacle `{name}` stands already"))
                     .label(obstacle.span, "declared again");
@@ -64,7 +64,8 @@ impl Interpreter<'_> {
             return Err(diagnostic.hint("in a loop each has an index: `obstacle post[i] = ...`").into());
         }
         scene.obstacles.borrow_mut().push(ObstacleRecord {
-            obstacle: crate::plan::Obstacle { name, shapes: parts },
+            name,
+            shapes: parts,
             group: obstacle.name,
             index: index.unwrap_or(0),
             span: obstacle.span,

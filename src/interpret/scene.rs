@@ -1,7 +1,7 @@
 //! The places of a scene's parts, its obstacles, and the world of its plans.
 
-use crate::geometry::Pose;
-use crate::plan::{Obstacle, World};
+use crate::geometry::{Placed, Pose};
+use crate::plan::World;
 use crate::source::{Span, Symbol};
 use std::cell::{Cell as Flag, RefCell};
 
@@ -26,8 +26,10 @@ pub struct SceneDesign {
 /// An obstacle of a scene, with its position in the source.
 #[derive(Clone)]
 pub struct ObstacleRecord {
-    /// The obstacle, by its name (`wall`, or `post[3]` in an array), in the world's frame.
-    pub obstacle: Obstacle,
+    /// The name of the obstacle: `wall`, or `post[3]` in an array.
+    pub name: String,
+    /// The shapes whose union the obstacle is, in the world's frame, m.
+    pub shapes: Vec<Placed>,
     /// The name of the array, or of the single obstacle.
     pub group: Symbol,
     /// The index in the array, from 0; 0 for a single obstacle.

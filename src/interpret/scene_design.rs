@@ -18,7 +18,9 @@ impl Design {
     /// Returns the obstacles of a scene in the order of the clauses, in the world's frame; none for other designs.
     pub fn obstacles(&self) -> Arc<[Obstacle]> {
         let Some(scene) = self.scene() else { return Arc::default() };
-        scene.obstacles.borrow().iter().map(|record| record.obstacle.clone()).collect()
+        let obstacle =
+            |record: &ObstacleRecord| Obstacle { name: record.name.clone(), shapes: record.shapes.clone() };
+        scene.obstacles.borrow().iter().map(obstacle).collect()
     }
 
     /// Returns the robots of a scene: for each component of its connections the parts that it is made of, in the order
@@ -51,9 +53,8 @@ pub(super) fn obstacle_value(instance: &Instance, name: Symbol, array: bool, spa
     let mut of_name: Vec<ObstacleRecord> =
         scene.obstacles.borrow().iter().filter(|obstacle| obstacle.group == name).cloned().collect();
     of_name.sort_by_key(|obstacle| obstacle.index);
-    let shape = |record: ObstacleRecord| {
-        Value::Shape(Rc::new(Solid { parts: record.obstacle.shapes, ..Solid::default() }))
-    };
+    let shape =
+        |record: ObstacleRecord| Value::Shape(Rc::new(Solid { parts: record.shapes, ..Solid::default() }));
     if array {
         return Ok(Value::list(of_name.into_iter().map(shape).collect()));
     }

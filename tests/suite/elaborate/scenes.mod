@@ -24,16 +24,16 @@ config Barn { part meadow: Meadow }
 use std.smores.Smores
 scene Two {
   part a: Smores
-//     ~ a is here
-  part b: Smores
 //     ^ E0319 a, b begin at one place | place one with `at`
+  part b: Smores
+//     ~ and this robot, too
 }
 scene Listed { part c[3]: Smores }
 //                  ^ E0319 c[0], c[1], c[2] begin at one place
 scene Placed {
   part a: Smores at [1m, 0m, 0m]
-  part b: Smores at [1m, 0m, 0m] turned(Z, 90deg)
 //     ^ E0319 a, b begin at one place
+  part b: Smores at [1m, 0m, 0m] turned(Z, 90deg)
 }
 scene Apart { part a: Smores  part b: Smores at [0m, 0m, 500mm] }
 
@@ -41,9 +41,9 @@ scene Apart { part a: Smores  part b: Smores at [0m, 0m, 500mm] }
 use std.smores.Smores
 scene Twice {
   part a: Smores at [0m, 0m, 0m]
-//               ~~~~~~~~~~~~~~~ this places a
+//               ^^^^^^^^^^^^^^^ E0320 a, b are one robot, which is placed twice
   part b: Smores at [300mm, 0m, 0m]
-//               ^^^^^^^^^^^^^^^^^^ E0320 a, b are one robot, which is placed twice
+//               ~~~~~~~~~~~~~~~~~~ and this b
   connect a.top -- b.bottom
 }
 scene Once {
@@ -62,6 +62,9 @@ scene Odd {
   obstacle a = box(1m, 1m, 1m)
 //         ^ E0102 `a` is declared twice
 }
+
+--- obstacles are sound, and each stands once
+use std.smores.Smores
 scene Flat {
   part a: Smores
   obstacle y = box(0mm, 1m, 1m)
@@ -89,10 +92,13 @@ scene World {
   if true { world(friction: 2) }
 //          ^^^^^^^^^^^^^^^^^^ E0001 `world` stands at the top
 }
+
+--- the world of a scene is one that the built-in makes
+use std.smores.Smores
 scene Heavy {
   part a: Smores
   world(gravity: -1m/s^2)
-//      ^^^^^^^^^^^^^^^^ E0506 gravity acts downwards
+//               ^^^^^^^ E0506 gravity acts downwards
 }
 
 --- too many robots
@@ -104,3 +110,18 @@ scene Many { part m[i in 0..1000]: Smores at [i * 1m, 0m, 0m] }
 use std.smores.Smores
 config C { part a: Smores  part b: Smores }
 //                              ^ E0305 nothing connects b with a | several are a `scene`
+
+--- obstacles are shapes once they stand
+use std.smores.Smores
+scene Late(high: Bool = false) {
+  part a: Smores
+  obstacle copy = placed(wall, at: [0m, 3m, 0m])
+//                       ^^^^ E0108 the obstacle `wall` is needed before it stands
+  obstacle wall = box(1m, 1m, 1m) at [5m, 0m, 0m]
+}
+scene Low(high: Bool = false) {
+  part a: Smores
+  if high { obstacle roof = box(1m, 1m, 10mm) at [0m, 0m, 1m] }
+  let top = roof
+//          ^^^^ E0506 `roof` does not stand in `Low`
+}

@@ -20,7 +20,7 @@ scene Three(gap: Length = 300mm) {
 }
 let s = Three()
 print(count(s), mass(s), pose(s.p.a), pose(s.q.y).position, pose(s.q.head).position, pose(s.r[1]))
-//> 5 5kg at [50mm, 0mm, 0mm] [300mm, 100mm, 0mm] [300mm, 150mm, 0mm] at [0mm, 2000mm, 500mm]
+//> 5 5kg at [50mm, 0mm, 0mm] [300mm, 100mm, 0mm] [300mm, 150mm, 0mm] at [0mm, 2m, 500mm]
 // The blocks are at x = 0, 300, 300, 0, 0 and y = 0, 0, 100, 1000, 2000 and z = 0, 0, 0, 500, 500.
 print(com(s), distance(s.p.a, Three().p.b))
 //> [120mm, 620mm, 200mm] 100mm
@@ -44,7 +44,7 @@ scene Docked {
 }
 let d = Docked()
 print(pose(d.x), pose(d.y), pose(d.lone))
-//> at [900mm, 0mm, 0mm] at [1000mm, 0mm, 0mm] at [0mm, 5000mm, 0mm]
+//> at [900mm, 0mm, 0mm] at [1m, 0mm, 0mm] at [0mm, 5m, 0mm]
 
 --- plans know the world of their scene, unless another is stated
 use std.smores.Tank7
@@ -74,7 +74,7 @@ print(plan(Pc(t.a.drive(t: 1s), t.b.turn(t: 1s))).duration)
 let lone = Tank7()
 let other = Tank7()
 print(Pc(lone.drive(), other.drive()))
-//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0406 for two robots, make them parts of one `scene`
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0406 for two robots, make them parts of one `scene`
 
 --- formats that know one robot
 use std.smores.Tank7
@@ -86,14 +86,3 @@ save(Two(), "two.mjcf.xml")
 //   ^^^^^ E0506 a model for MuJoCo has one robot and nothing around it
 print(footprint(Two()))
 //              ^^^^^ E0506 a scene has several robots
-
---- obstacles are shapes where they stand
-use std.smores.Smores
-scene Late(high: Bool = false) {
-  part a: Smores
-  let top = wall
-//          ^^^^ E0108 the obstacle `wall` is needed before it stands
-  if high { obstacle roof = box(1m, 1m, 10mm) at [0m, 0m, 1m] }
-  require top == wall
-  obstacle wall = box(1m, 1m, 1m) at [5m, 0m, 0m]
-}
