@@ -237,7 +237,7 @@ impl<'a> Stepper<'a> {
             None => {
                 let (base, placement) = match rollout.begin {
                     Some(entry) => (&entry.base, Placement::Fixed),
-                    None => (&tracks.start.base, unsettled(&world, rollout.as_placed)),
+                    None => (&tracks.start.base, Placement::unsettled(&world, rollout.as_placed)),
                 };
                 Stance::start(&model, posture, base, (&world, placement), rollout.tolerances).0
             }
@@ -260,7 +260,7 @@ impl<'a> Stepper<'a> {
         let placement = if self.on_ground() {
             Placement::Settled
         } else {
-            unsettled(&self.world, self.rollout.as_placed)
+            Placement::unsettled(&self.world, self.rollout.as_placed)
         };
         let (settling, fall) = match self.world.is_sloped() {
             true => self.place_on_slope(&pose),
@@ -550,13 +550,6 @@ impl<'a> Stepper<'a> {
         };
         observe(&sample, &checkpoint)
     }
-}
-
-/// Returns the placement at the start of a robot that does not settle: lowered, unless its base is fixed in the world, or it
-/// is to stay as it is placed where there is no ground.
-fn unsettled(world: &World, as_placed: bool) -> Placement {
-    let stays = world.ground == Ground::Held || (as_placed && !world.has_floor());
-    if stays { Placement::Fixed } else { Placement::Lowered }
 }
 
 /// The changes at an instant: `true` for what differs after it from before.

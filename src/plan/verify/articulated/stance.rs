@@ -9,8 +9,8 @@ use super::tolerances::Tolerances;
 use crate::geometry::Mat3;
 use crate::geometry::ground_features::Feature;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::World;
 use crate::plan::verify::support_polygon::Margin;
+use crate::plan::{Ground, World};
 use nalgebra::{Rotation3, UnitQuaternion};
 
 /// The state of a robot on the ground (or held over it) at a sample, with all that the next sample needs.
@@ -67,6 +67,15 @@ pub enum StepOutcome {
     TipOver,
     /// The fall is beyond the tolerance, but the motion can explain it: a shorter step has to decide.
     Undecided,
+}
+
+impl Placement {
+    /// Returns the placement at the start of a robot that does not settle: lowered, unless its base is fixed in the world, or it
+    /// is to stay as it is placed where there is no ground.
+    pub(super) fn unsettled(world: &World, as_placed: bool) -> Placement {
+        let stays = world.ground == Ground::Held || (as_placed && !world.has_floor());
+        if stays { Placement::Fixed } else { Placement::Lowered }
+    }
 }
 
 impl Stance {
