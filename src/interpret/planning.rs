@@ -14,7 +14,7 @@ use crate::geometry::{Pose, Vec3};
 use crate::plan::visit::equal;
 use crate::plan::{Body, CauseId, Node, Plan, Provenance, Settings, Snapshot, Tracks, Verdict, World, file};
 use crate::robot::{JointId, Library, State};
-use crate::source::{Span, code};
+use crate::source::{Diagnostic, Span, code};
 use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -77,6 +77,14 @@ impl Interpreter<'_> {
         let mut causes = PlanCauses::default();
         let program = causes.renumber(&behavior.node);
         let start = beginning.start.unwrap_or_else(|| robot.start.clone());
+        // Bonds that a motion added are not those of the robot as it is declared, with which a plan begins.
+        if start.bonds.len() > robot.assembly.bonds.len() {
+            let message = "where this begins, ports are docked that were not connected at the start";
+            return Err(Diagnostic::error(code::BAD_VALUE, message)
+                .label(span, "no plan begins there")
+                .hint("plan the whole as one behaviour: `plan(Sc(before, behavior))`")
+                .into());
+        }
         let world = beginning.world.or(robot.world).unwrap_or_default();
         if let Some(kept) = self.kept_plan(&design, &program, &start, &world, &causes.ids) {
             return Ok(Some(kept));
