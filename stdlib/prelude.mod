@@ -727,6 +727,31 @@ extern fn embed<C: Config>(pattern: C, in: Config) -> List<C>
 /// ```
 extern fn pose(of: Port | Module) -> Pose | Signal<Pose>
 
+/// The shortest way over the ground among the obstacles of a scene: the points at which it turns, from `from` to `to`,
+/// both included, at the height of `from`. A part of a scene, or one of its ports, stands for its scene; a robot alone
+/// has no obstacles.
+///
+/// Obstacles are seen from above, each convex part by its outline (a mesh by that of its convex hull), whatever its
+/// height. No point of the way is closer to one than `clearance`. It is the shortest way among the outlines grown by
+/// that distance, with corners that are rounded by an edge for each 22.5 degrees. Refused are ends that are too close to
+/// an obstacle, ends between which no way leads, and obstacles whose grown outlines have more than 4000 corners.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Driver1
+/// scene Yard {
+///   part d: Driver1
+///   obstacle wall = box(20mm, 1m, 200mm) at [500mm, 200mm, 100mm]
+/// }
+/// print(waypoints(Yard(), from: [0m, 0m, 0m], to: [1m, 0m, 0m], clearance: 100mm))
+/// ```
+extern fn waypoints(
+  scene: Config | Port,
+  from: Vec3<Length>,
+  to: Vec3<Length>,
+  clearance: Length,
+) -> List<Vec3<Length>>
+
 /// How far two ports or modules are apart in the start pose, from origin to origin.
 ///
 /// Example:

@@ -50,6 +50,7 @@ pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
 mod truss_limits;
+mod waypoints;
 
 pub use embed::capabilities;
 
@@ -82,6 +83,7 @@ const SUBJECTS: &[Subject] = &[
     natives(family::TABLE),
     natives(robot::TABLE),
     natives(embed::TABLE),
+    natives(waypoints::TABLE),
     natives(action::TABLE),
     natives(plan::TABLE),
     natives(fastest::TABLE),

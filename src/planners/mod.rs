@@ -10,6 +10,7 @@ pub mod fastest;
 pub mod fold;
 pub mod locomote;
 pub mod morph;
+pub mod planar_path;
 pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;

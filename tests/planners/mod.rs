@@ -12,6 +12,7 @@ pub mod fold_orders;
 pub mod fold_random;
 pub mod locomotion;
 pub mod morphing;
+pub mod planar_path;
 pub mod refold;
 pub mod squeeze;
 pub mod surroundings;
