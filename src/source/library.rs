@@ -16,6 +16,7 @@ pub const FILES: &[(&str, &str)] = embed![
     "mori.mod",
     "prelude.mod",
     "rofi.mod",
+    "scenes.mod",
     "shapes.mod",
     "smores.mod",
     "truss.mod",

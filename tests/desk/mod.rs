@@ -10,6 +10,7 @@ pub mod interrupt;
 pub mod json;
 pub mod plots;
 pub mod repl;
+pub mod scenes;
 pub mod simulate;
 pub mod simulation_page;
 pub mod system;

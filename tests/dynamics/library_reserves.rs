@@ -18,8 +18,10 @@ const STATES: &str = "Keeps a reserve of ";
 /// A behaviour of the library with what its documentation says of its reserve.
 #[derive(Debug)]
 struct Stated {
-    /// The library and the robot: `smores.Car`.
+    /// The library and the robot or scene: `smores.Car`.
     robot: String,
+    /// Whether it is a scene, in which no plan begins after a docking: what comes before is judged, too.
+    scene: bool,
     /// The behaviour as a call: `turn()`.
     call: String,
     /// A call of the behaviour that comes before; `None`: it begins in the start pose.
@@ -32,7 +34,7 @@ struct Stated {
 
 /// Reads `Keeps a reserve of 0.45 on level ground with friction 1, as `turn(90deg)`, after `stand()`.`, or `... with its
 /// base held`; `None` where a documentation has no such sentence.
-fn stated(robot: &str, behavior: &str, doc: &str) -> Option<Stated> {
+fn stated(robot: &str, scene: bool, behavior: &str, doc: &str) -> Option<Stated> {
     let words = doc.split_whitespace().collect::<Vec<_>>().join(" ");
     let (_, rest) = words.split_once(STATES)?;
     let (reserve, rest) = rest.split_once(' ')?;
@@ -43,6 +45,7 @@ fn stated(robot: &str, behavior: &str, doc: &str) -> Option<Stated> {
         |word: &str| rest.split_once(&format!(", {word} `")).and_then(|(_, call)| call.split('`').next());
     Some(Stated {
         robot: robot.to_owned(),
+        scene,
         call: said("as").map_or(format!("{behavior}()"), str::to_owned),
         after: said("after").map(str::to_owned),
         ground,
@@ -65,7 +68,7 @@ fn library() -> Vec<Stated> {
                     continue;
                 }
                 let doc = clause.doc.as_deref().unwrap_or("");
-                let stated = stated(&robot, name, doc);
+                let stated = stated(&robot, config.scene, name, doc);
                 found.push(stated.unwrap_or_else(|| panic!("{robot}.{name} does not state its reserve")));
             }
         }
@@ -75,12 +78,16 @@ fn library() -> Vec<Stated> {
 
 /// Returns what is wrong with what the documentation says of a behaviour; `None` if it is right.
 fn contradiction(stated: &Stated) -> Option<String> {
-    let Stated { robot, call, after, ground, reserve } = stated;
+    let Stated { robot, scene, call, after, ground, reserve } = stated;
     let (library, name) = robot.split_once('.').expect("a robot is named with its library");
-    let begin = after.as_ref().map_or(String::new(), |after| format!("from: plan(x.{after}).end, "));
+    let (motion, begin) = match after {
+        Some(after) if *scene => (format!("Sc(x.{after}, x.{call})"), String::new()),
+        Some(after) => (format!("x.{call}"), format!("from: plan(x.{after}).end, ")),
+        None => (format!("x.{call}"), String::new()),
+    };
     let program = format!(
         "use std.{library}.{name}\nlet x = {name}()\n\
-         let p = plan(x.{call}, {begin}world: world(dynamics: full, ground: {ground}))\n\
+         let p = plan({motion}, {begin}world: world(dynamics: full, ground: {ground}))\n\
          let r = verify(p, reserve: 0)\nprint(r.ok)\nprint(r.torque_margin)\nprint(r.failures)\n"
     );
     let (observed, _, _) = desk::run(&MapFiles::of(&program), Mode::Run);
@@ -110,7 +117,7 @@ fn behaviors_of_the_library_keep_the_reserves_that_they_state() {
 
 #[test]
 fn sentences_that_state_a_reserve_are_read() {
-    let read = |doc| stated("a.B", "go", doc).map(|s| (s.call, s.after, s.ground, s.reserve));
+    let read = |doc| stated("a.B", false, "go", doc).map(|s| (s.call, s.after, s.ground, s.reserve));
     let some = |call: &str, after: Option<&str>, ground, reserve| {
         Some((call.to_owned(), after.map(str::to_owned), ground, reserve))
     };

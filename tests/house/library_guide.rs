@@ -45,6 +45,7 @@ fn robots() -> Vec<Robot> {
         let library = path.trim_start_matches("stdlib/").trim_end_matches(".mod");
         for item in parse(FileId(0), &text).file.items {
             if let ItemKind::Config(config) = &item.kind
+                && !config.scene
                 && !config.name.text.as_str().starts_with('_')
             {
                 found.push(robot(library, item.doc.as_deref().unwrap_or(""), config));
