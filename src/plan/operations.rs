@@ -138,10 +138,13 @@ pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve:
     new
 }
 
-/// Places the robots of a plan, if there are several at some time, where they stand at a time (s) of the plan that it is a
-/// part of.
+/// Sets the start of a plan to where its robots stand at a time (s) of the plan that it is a part of, if there are several
+/// then, or that plan began with several.
 fn stand(new: &mut Plan, whole: &Plan, time: f64) {
-    if let (Body::Tracks(tracks), Some((base, clusters))) = (&mut new.body, standing(whole, time)) {
+    let (Body::Tracks(tracks), Some((base, clusters))) = (&mut new.body, standing(whole, time)) else {
+        return;
+    };
+    if !clusters.is_empty() || !tracks.start.clusters.is_empty() {
         (tracks.start.base, tracks.start.clusters) = (base, clusters);
     }
 }

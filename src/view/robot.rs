@@ -149,7 +149,7 @@ fn parts(
 ) -> Vec<Value> {
     let robot = &tracks.robot;
     let mut found = Vec::new();
-    let there = |cluster: &ClusterPath| cluster.exists(time, tracks.duration);
+    let there = |cluster: &ClusterPath| cluster.exists(time);
     for (path, cluster) in clusters.iter().enumerate().filter(|(_, cluster)| there(cluster)) {
         let kinematics = cluster.kinematics(robot, bonds);
         let steps: Vec<Value> = kinematics.steps.iter().map(|step| step_value(step, forms)).collect();

@@ -37,6 +37,8 @@ const ANSWERS: &[Row] = &[
     row("simulate", &["q.mod"], &["report", "printed", "values", "simulations"]),
     row("show", &["a.mod"], &["report", "printed", "values", "written"]),
     row("show", &["p.plan.json"], &["report", "written"]),
+    row("export", &["p.plan.json", "--to", "csv"], &["report", "written"]),
+    row("plan", &["p.plan.json"], &["report", "printed"]),
     row("what", &["a.mod", "Driver1"], &["report", "robot"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
     row("fmt", &["--check", "a.mod"], &["report", "written"]),
@@ -47,6 +49,9 @@ const ANSWERS: &[Row] = &[
     wrong("run", &["nothing.mod"]),
     wrong("verify", &["nothing.plan.json"]),
     wrong("simulate", &["nothing.plan.json"]),
+    wrong("export", &["nothing.plan.json", "--to", "csv"]),
+    wrong("plan", &["nothing.plan.json"]),
+    wrong("import", &["nothing.urdf"]),
     wrong("new", &["a.mod"]),
     wrong("explain", &["E9999"]),
     // The command line can't be read.

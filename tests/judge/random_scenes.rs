@@ -8,11 +8,12 @@ use modl::plan::verify::verify;
 use modl::plan::{Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status, file};
 use modl::robot::ClusterPose;
 
-/// Four rods that move along x in a world without weight: a carrier of 100 mm and a rod of 80 x 20 x 20 mm each.
+/// Four rods that move along x in a world without weight: a carrier of 50 mm and a rod of 80 x 20 x 20 mm each. They are written
+/// docked with each other; in the scenes nothing docks them.
 const RODS: &str = "
 connector Face { mates Face, turns 4, capture 4mm 5deg }
 module Rod {
-  link body = box(100mm, 20mm, 20mm, mass: 5kg)
+  link body = box(50mm, 20mm, 20mm, mass: 5kg)
   link slide = box(80mm, 20mm, 20mm, mass: 50g) at [0mm, 0mm, 30mm]
   joint out : body -> slide = prismatic(axis: X, range: -400mm..400mm, max_force: 50N) at [0mm, 0mm, 30mm]
   port front: Face on slide at [40mm, 0mm, 0mm] facing +X up +Z
@@ -23,7 +24,6 @@ config Four {
   for i in 0..3 { connect m[i].front -- m[i + 1].back }
   behavior go = Sc(
     Pc([move(m[i].out, to: (i + 1) * 10mm, in: 2s) for i in 0..4]),
-    undock(m[0].front), undock(m[1].front), undock(m[2].front),
     Pc([move(m[i].out, to: 0mm, in: 2s) for i in 0..4]),
   )
 }
@@ -33,7 +33,7 @@ emit(plan(Four().go(), world: world(gravity: 0m/s^2, ground: off, dynamics: stat
 /// Half the lengths of a box, m.
 type Half = [f64; 3];
 
-const BODY: Half = [0.050, 0.010, 0.010];
+const BODY: Half = [0.025, 0.010, 0.010];
 const SLIDE: Half = [0.040, 0.010, 0.010];
 const HEIGHT: f64 = 0.030;
 

@@ -124,7 +124,7 @@ save(Ring12(), "ring.urdf")
 use std.smores.Chain3
 let c = Chain3()
 save(move(c.m[1].tilt, to: 10deg, in: 1ms), "a.trajectory.yaml")
-//   E0
+//                                    ^^^ E0402 can't do this in 1ms
 
 --- a list is no robot
 save([1, 2], "a.mjcf.xml")

@@ -38,8 +38,7 @@ pub(super) fn judge(
     // An unsound shape is a failure of the cluster that has it.
     let Ok(bodies) = Bodies::of_plan(tracks) else { return };
     let alone = |time: f64| {
-        tracks.obstacles.is_empty()
-            && clusters.iter().filter(|cluster| cluster.exists(time, rollout.end)).count() < 2
+        tracks.obstacles.is_empty() && clusters.iter().filter(|cluster| cluster.exists(time)).count() < 2
     };
     let mut times: Vec<f64> = paths
         .iter()

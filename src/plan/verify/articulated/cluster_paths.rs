@@ -46,7 +46,7 @@ pub fn standing(plan: &Plan, time: f64) -> Option<(Pose, Vec<ClusterPose>)> {
     let tracks = plan.body.tracks()?;
     let paths = ClusterPaths::of(plan, time)?;
     let base = base_at(plan, time)?;
-    let there = paths.clusters.iter().filter(|cluster| cluster.exists(time, tracks.duration));
+    let there = paths.clusters.iter().filter(|cluster| cluster.exists(time));
     let others = there.filter(|cluster| cluster.modules().binary_search(&tracks.robot.base).is_err());
     let pose = |cluster: &ClusterPath| ClusterPose {
         reference: cluster.base(),
@@ -129,8 +129,8 @@ impl ClusterPath {
         &self.path.poses
     }
 
-    /// Returns true if the cluster exists just after a time (s), or at the end of the plan, at `end` (s).
-    pub fn exists(&self, time: f64, end: f64) -> bool {
-        self.cluster.exists(time, end)
+    /// Returns true if the cluster is there just after a time (s), or at the end of the plan.
+    pub fn exists(&self, time: f64) -> bool {
+        self.cluster.exists(time)
     }
 }

@@ -31,6 +31,8 @@ pub(super) struct Cluster {
     /// The exemptions of the plan, by the same indices, with the parts of this robot; one about other parts is never in
     /// force.
     pub exemptions: Vec<Exemption>,
+    /// True if the cluster is there to the end of the plan: no event ends it, not one at that very time either.
+    pub lasts: bool,
     /// The cluster in words, by its base.
     pub name: String,
 }
@@ -41,10 +43,9 @@ impl Cluster {
         self.modules[self.tracks.robot.base]
     }
 
-    /// Returns true if the cluster is there just after a time (s), or at the end of the plan, at `end` (s).
-    pub(super) fn exists(&self, time: f64, end: f64) -> bool {
-        let to = self.tracks.duration;
-        self.from <= time && (time < to || to == end)
+    /// Returns true if the cluster is there just after a time (s), or at the end of the plan.
+    pub(super) fn exists(&self, time: f64) -> bool {
+        self.from <= time && (time < self.tracks.duration || self.lasts)
     }
 
     /// Returns the rollout of the cluster. `whole`: that of the plan; `begin`: where it comes to be, `None` for one of the
@@ -80,17 +81,17 @@ pub(super) fn of(
     for events in tracks.events.chunk_by(|a, b| a.time == b.time) {
         timeline.pass(events);
     }
-    let Timeline { found, ends, .. } = timeline;
+    let Timeline { found, ends, now, .. } = timeline;
     if found.len() == 1 && tracks.obstacles.is_empty() {
         return None;
     }
     let stated: Vec<usize> = stated_bases(tracks).collect();
     let mut clusters: Vec<Cluster> = Vec::with_capacity(found.len());
-    for (mut part, to) in found.into_iter().zip(ends) {
+    for (index, (mut part, to)) in found.into_iter().zip(ends).enumerate() {
         let mut bases =
             part.parents.iter().map(|parent| clusters[*parent].base()).chain(stated.iter().copied());
         let known = bases.find_map(|base| part.modules.binary_search(&base).ok());
-        let mut cluster = part.cluster(tracks, exemptions, to);
+        let mut cluster = part.cluster(tracks, exemptions, (to, now.contains(&index)));
         cluster.tracks.robot.base = known.unwrap_or_else(|| reference(&cluster));
         let base = cluster.base();
         let holds = |parent: &usize| clusters[*parent].modules.binary_search(&base).is_ok();
@@ -210,8 +211,9 @@ struct Part {
 }
 
 impl Part {
-    /// Returns the cluster that this part is until `to` (s), with its first module as its base.
-    fn cluster(&self, tracks: &Tracks, exemptions: &[Exemption], to: f64) -> Cluster {
+    /// Returns the cluster that this part is until `to` (s), with its first module as its base. `lasts`: true if nothing ends
+    /// it.
+    fn cluster(&self, tracks: &Tracks, exemptions: &[Exemption], (to, lasts): (f64, bool)) -> Cluster {
         let robot = &tracks.robot;
         let module = |module: usize| self.modules.binary_search(&module).ok();
         let port = |port: PortRef| Some(PortRef { module: module(port.module)?, ..port });
@@ -244,7 +246,7 @@ impl Part {
             clusters: vec![],
         };
         let between = |event: &&DockingEvent| {
-            (event.time > self.from || self.parents.is_empty()) && (event.time < to || to == tracks.duration)
+            (event.time > self.from || self.parents.is_empty()) && (event.time < to || lasts)
         };
         let events = tracks
             .events
@@ -273,6 +275,7 @@ impl Part {
             from: self.from,
             parents: vec![],
             joins: self.joins.clone(),
+            lasts,
             name: String::new(),
             modules: self.modules.clone(),
             tracks: Tracks {

@@ -40,9 +40,8 @@ impl<'a> PlacedClusters<'a> {
     /// links, and for a cluster whose path has no samples.
     pub(super) fn place(&mut self, time: f64, poses: &mut [Pose]) -> Vec<usize> {
         let state = self.tracks.state(time);
-        let end = self.tracks.duration;
         let existing: Vec<usize> =
-            (0..self.clusters.len()).filter(|index| self.clusters[*index].0.exists(time, end)).collect();
+            (0..self.clusters.len()).filter(|index| self.clusters[*index].0.exists(time)).collect();
         existing.iter().for_each(|index| self.place_one(*index, time, (&state.joints, &state.bonds), poses));
         existing
     }
