@@ -7,13 +7,13 @@ scene Yard {
 }
 let y = Yard()
 print(waypoints(y, from: [0m, 0m, 50mm], to: [6m, 100mm, 1m], clearance: 0m))
-//> [[0mm, 0mm, 50mm], [2000mm, 1000mm, 50mm], [4000mm, 1000mm, 50mm], [6000mm, 100mm, 50mm]]
+//> [[0mm, 0mm, 50mm], [2m, 1m, 50mm], [4m, 1m, 50mm], [6m, 100mm, 50mm]]
 print(waypoints(y.e, from: [0m, 2m, 0m], to: [6m, 2m, 0m], clearance: 1m))
-//> [[0mm, 2000mm, 0mm], [6000mm, 2000mm, 0mm]]
+//> [[0mm, 2m, 0mm], [6m, 2m, 0mm]]
 print(len(waypoints(y.d.top, from: [0m, 2m, 0m], to: [6m, 2m, 0m], clearance: 1001mm)) > 2)
 //> true
 print(waypoints(Driver1, from: [0m, 0m, 0m], to: [6m, 0m, 0m], clearance: 1m))
-//> [[0mm, 0mm, 0mm], [6000mm, 0mm, 0mm]]
+//> [[0mm, 0mm, 0mm], [6m, 0mm, 0mm]]
 
 --- what is in the way is named
 use std.smores.Driver1
@@ -42,4 +42,4 @@ scene Near {
 let n = Near()
 let p = plan(Sc(dock(n.a.top, n.b.bottom), move(n.a.pan, by: 10deg)))
 print(plan(move(n.a.pan, by: 5deg), from: p.end))
-//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0506 ports are docked that were not connected | plan(Sc(before, behavior))
+//    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0506 ports are docked that were not connected | plan(Sc(before, behavior))
