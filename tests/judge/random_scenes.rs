@@ -64,7 +64,7 @@ fn apart(a: &(Vec3, Half), b: &(Vec3, Half)) -> f64 {
     if outside > 0.0 { outside } else { gaps.iter().copied().fold(f64::NEG_INFINITY, f64::max) }
 }
 
-/// Returns the scene of a seed: a plan, and the boxes in it. Rods stand in two lanes, so that some meet, some pass by a
+/// Returns the scene of a seed: a plan, and the boxes in it. Rods stand in four lanes, so that some meet, some pass by a
 /// fraction of a millimetre, and some stay far.
 fn scene(bare: &Plan, seed: u32) -> (Plan, Vec<Block>) {
     let mut n = Numbers(seed as u64);
