@@ -60,7 +60,7 @@ struct Block {
 /// Returns the signed distance of two boxes along their common axes, exact where they overlap.
 fn apart(a: &(Vec3, Half), b: &(Vec3, Half)) -> f64 {
     let gaps: Vec<f64> = (0..3).map(|i| (a.0[i] - b.0[i]).abs() - a.1[i] - b.1[i]).collect();
-    let outside = gaps.iter().map(|gap| gap.max(0.0).powi(2)).sum::<f64>().sqrt();
+    let outside = gaps.iter().map(|gap| gap.max(0.0) * gap.max(0.0)).sum::<f64>().sqrt();
     if outside > 0.0 { outside } else { gaps.iter().copied().fold(f64::NEG_INFINITY, f64::max) }
 }
 

@@ -41,7 +41,7 @@ fn the_way_round_a_square_turns_at_its_corners() {
 fn the_way_round_a_disc_is_two_tangents_and_an_arc() {
     // From 5 m before to 5 m behind a disc that is 3 m wide with its clearance: tangents of 4 m that meet it at an
     // angle acos(3/5) from the axis, and the arc between them.
-    let arc = PI - 2.0 * (3.0_f64 / 5.0).acos();
+    let arc = PI - 2.0 * libm::acos(3.0 / 5.0);
     let length = 8.0 + 3.0 * arc;
     for (shape, clearance) in [
         (Shape::Sphere { radius: 1.0 }, 2.0),
