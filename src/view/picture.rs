@@ -88,7 +88,7 @@ pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
 }
 
 /// Renders a plan at several times (s) from one viewpoint, so that the camera rests while the robot moves: `see` receives
-/// the palette of each picture as (red, green, blue), at most [`palette::COLOURS_MAX`] colours, and the index in it of
+/// the palette of each picture as (red, green, blue), at most `palette::COLOURS_MAX` colours, and the index in it of
 /// each pixel, row by row from the top. `options`: viewpoint and size; its time is not read. Panics for a width or height
 /// of 0.
 pub fn frames(

@@ -68,10 +68,10 @@ pub struct Drives {
     pub constraints: Vec<(usize, String)>,
 }
 
-/// Returns the names by which the MuJoCo model of a plan is driven: those of the model that [`write`] returns.
+/// Returns the names by which the MuJoCo model of a plan is driven: those of the model that [`write()`] returns.
 ///
 /// # Errors
-/// As for [`write`].
+/// As for [`write()`].
 pub fn drives(plan: &Plan) -> Result<Drives, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
