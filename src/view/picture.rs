@@ -5,13 +5,16 @@ use super::bodies::{self, Drawn, drawn};
 use super::colour::Rgb;
 use super::input::RenderInput;
 use super::link_paths::LinkPaths;
-use super::raster::{Camera, Canvas};
+use super::raster::{Camera, Canvas, Facet};
 use super::tolerances::TOLERANCES;
 use super::{findings, palette, surroundings};
 use crate::geometry::Vec3;
 
 /// Supersampling: a pixel is the mean of this many by this many samples.
 const SUPERSAMPLING: usize = 3;
+
+/// The number of rows of samples that are rendered at once, a multiple of [`SUPERSAMPLING`].
+const BAND_HEIGHT: usize = 16 * SUPERSAMPLING;
 
 /// The width and height of the shadow map, in samples.
 const SHADOW_MAP_SIZE: usize = 1400;
@@ -83,8 +86,7 @@ impl Default for StillOptions {
 /// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. `input`: the
 /// plan with its title; `options`: time, viewpoint and size. Panics for a width or height of 0.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
-    let pixels = pixels(&canvas(input, options), options);
-    encoded(options, &pixels, None)
+    encoded(options, &scene(input, options).pixels(), None)
 }
 
 /// Renders a plan at several times (s) from one viewpoint, so that the camera rests while the robot moves: `see` receives
@@ -109,8 +111,8 @@ pub fn frames(
     let slope = surroundings::slope(input.plan).unwrap_or_default();
     let ground = surroundings::floor(input.plan).then_some(slope);
     for time in times {
-        let canvas = Scene::new(bodies(time), around, ground, options).canvas();
-        let (colours, indices) = palette::reduced(&pixels(&canvas, options));
+        let (colours, indices) =
+            palette::reduced(&Scene::new(bodies(time), around, ground, options).pixels());
         see(colours, indices);
     }
 }
@@ -131,18 +133,18 @@ fn around_both(a: (Vec3, f64), b: (Vec3, f64)) -> (Vec3, f64) {
 /// Returns a picture as the bytes of a PNG file with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a
 /// page to hold.
 pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
-    let (colours, pixels) = palette::reduced(&pixels(&canvas(input, options), options));
+    let (colours, pixels) = palette::reduced(&scene(input, options).pixels());
     encoded(options, &pixels, Some(&colours))
 }
 
-/// Renders the bodies at the time of the picture.
-fn canvas(input: &RenderInput, options: &StillOptions) -> Canvas {
+/// Returns the bodies at the time of the picture, with camera and light.
+fn scene(input: &RenderInput, options: &StillOptions) -> Scene {
     let time = options.time.clamp(0.0, findings::end(input.plan));
     let bodies = drawn(input, time);
     let slope = surroundings::slope(input.plan).unwrap_or_default();
     let ground = surroundings::floor(input.plan).then_some(slope);
     let around = ball(&bodies);
-    Scene::new(bodies, around, ground, options).canvas()
+    Scene::new(bodies, around, ground, options)
 }
 
 /// A scene with its camera and light; lengths in metres.
@@ -153,6 +155,9 @@ struct Scene {
     sun: Camera,
     /// The shadow map: the depths of the bodies as the sun sees them.
     shadows: Canvas,
+    /// The triangles that the camera sees, and of each the indices of its body and of the triangle in its mesh.
+    facets: Vec<Facet>,
+    triangles: Vec<(usize, usize)>,
     /// The centre of the bodies' bounding box, and half its diagonal.
     middle: Vec3,
     radius: f64,
@@ -182,27 +187,67 @@ impl Scene {
         let at = middle + options.side.direction().normalize() * distance;
         let camera = Camera::new(at, middle, Vec3::z(), HALF_FOV_TANGENT, false);
         let sun = Camera::new(middle + SUN * (3.0 * radius), middle, Vec3::y(), 1.1 * radius, true);
-        let mut shadows = Canvas::new(SHADOW_MAP_SIZE, SHADOW_MAP_SIZE);
-        for body in &bodies {
-            shadows.fill(&body.mesh, &sun, &mut |_, _| [0.0; 3]);
-        }
+        let mut shadows = Canvas::new(SHADOW_MAP_SIZE, SHADOW_MAP_SIZE, 0..SHADOW_MAP_SIZE);
+        let seen = |camera: &Camera, width: usize, height: usize| -> (Vec<Facet>, Vec<(usize, usize)>) {
+            let triangles = bodies.iter().enumerate();
+            let triangles =
+                triangles.flat_map(|(i, body)| (0..body.mesh.triangles.len()).map(move |j| (i, j)));
+            let facet = |at: (usize, usize)| {
+                let (corners, _) = &bodies[at.0].mesh.triangles[at.1];
+                Some((Facet::new(corners, camera, width, height)?, at))
+            };
+            triangles.filter_map(facet).unzip()
+        };
+        shadows.fill(&seen(&sun, SHADOW_MAP_SIZE, SHADOW_MAP_SIZE).0);
+        let (facets, triangles) = seen(&camera, width, height);
         let gamma = (0..1024).map(|i| libm::pow(f64::from(i) / 1023.0, 1.0 / 2.2) as f32).collect();
-        Scene { bodies, camera, sun, shadows, middle, radius, ground, width, height, gamma }
+        Scene {
+            bodies,
+            camera,
+            sun,
+            shadows,
+            facets,
+            triangles,
+            middle,
+            radius,
+            ground,
+            width,
+            height,
+            gamma,
+        }
     }
 
-    /// Renders the bodies, their sharp edges, then the background.
-    fn canvas(&self) -> Canvas {
-        let mut canvas = Canvas::new(self.width, self.height);
-        for body in &self.bodies {
-            let base = body.colour.0.map(|c| libm::pow(c, 2.2));
-            canvas.fill(&body.mesh, &self.camera, &mut |p, n| self.lit(base, p, n));
+    /// Renders the bodies, their sharp edges and the background: red, green and blue of each pixel, row by row from the
+    /// top. The samples of a few rows at a time are held, not those of the whole picture.
+    fn pixels(&self) -> Vec<u8> {
+        let bases: Vec<[f64; 3]> =
+            self.bodies.iter().map(|body| body.colour.0.map(|c| libm::pow(c, 2.2))).collect();
+        let floor = self.ground.map(|slope| Floor::new(self, slope));
+        let mut pixels = Vec::with_capacity(self.width * self.height * 3 / (SUPERSAMPLING * SUPERSAMPLING));
+        for top in (0..self.height).step_by(BAND_HEIGHT) {
+            let rows = top..(top + BAND_HEIGHT).min(self.height);
+            let mut canvas = Canvas::new(self.width, self.height, rows);
+            canvas.fill(&self.facets);
+            canvas.shade(
+                &self.facets,
+                &|facet, weights| {
+                    let (body, triangle) = self.triangles[facet];
+                    let (corners, normals) = &self.bodies[body].mesh.triangles[triangle];
+                    let mix = |of: &[Vec3; 3]| of[0] * weights[0] + of[1] * weights[1] + of[2] * weights[2];
+                    self.lit(bases[body], mix(corners), mix(normals))
+                },
+                &|x, y| {
+                    let part = floor.as_ref().map_or(0.0, |floor| floor.shading(x, y));
+                    self.sky(y).mixed(INK, part).0.map(|c| c as f32)
+                },
+            );
+            for body in &self.bodies {
+                let dark = Rgb(body.colour.0.map(|c| c * 0.42));
+                canvas.lines(&body.mesh.edges, &self.camera, SUPERSAMPLING - 1, dark);
+            }
+            push_means(&canvas, &mut pixels);
         }
-        for body in &self.bodies {
-            let dark = Rgb(body.colour.0.map(|c| c * 0.42));
-            canvas.lines(&body.mesh.edges, &self.camera, SUPERSAMPLING - 1, dark);
-        }
-        self.background(&mut canvas);
-        canvas
+        pixels
     }
 
     /// Returns the shaded colour of a surface point.
@@ -236,57 +281,68 @@ impl Scene {
     fn sunlight(&self, p: &Vec3) -> f64 {
         let Some(spot) = self.sun.project(p, SHADOW_MAP_SIZE, SHADOW_MAP_SIZE) else { return 1.0 };
         let slack = TOLERANCES.shadow_depth * self.radius;
-        let mut seen = 0;
-        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            let (x, y) = (spot.x.floor() as i64 + dx, spot.y.floor() as i64 + dy);
-            let inside = |c: i64| (0..SHADOW_MAP_SIZE as i64).contains(&c);
-            let dark = inside(x) && inside(y) && {
+        let (x, y) = (spot.x.floor() as i64, spot.y.floor() as i64);
+        let inside = |c: i64| (0..SHADOW_MAP_SIZE as i64).contains(&c);
+        let mut seen = 9;
+        for y in (y - 1..=y + 1).filter(|y| inside(*y)) {
+            for x in (x - 1..=x + 1).filter(|x| inside(*x)) {
                 let depth = self.shadows.depths[y as usize * SHADOW_MAP_SIZE + x as usize];
-                f64::from(depth) > spot.depth + slack
-            };
-            seen += usize::from(!dark);
+                seen -= usize::from(f64::from(depth) > spot.depth + slack);
+            }
         }
         seen as f64 / 9.0
     }
 
-    /// Draws the sky, and the ground with grid and shadows, where no body covers a pixel.
-    fn background(&self, canvas: &mut Canvas) {
-        for y in 0..self.height {
-            let up = 1.0 - y as f64 / self.height as f64;
-            let u = ((up - 0.1) / 0.9).clamp(0.0, 1.0);
-            let sky = BELOW.mixed(ABOVE, u * u * (3.0 - 2.0 * u));
-            for x in 0..self.width {
-                let at = y * self.width + x;
-                if canvas.depths[at] > f32::NEG_INFINITY {
-                    continue;
-                }
-                let part = self.ground.map_or(0.0, |slope| self.shading(slope, x, y));
-                canvas.colours[at] = sky.mixed(INK, part).0.map(|c| c as f32);
-            }
-        }
+    /// Returns the colour of the sky in a row of samples.
+    fn sky(&self, y: usize) -> Rgb {
+        let up = 1.0 - y as f64 / self.height as f64;
+        let u = ((up - 0.1) / 0.9).clamp(0.0, 1.0);
+        BELOW.mixed(ABOVE, u * u * (3.0 - 2.0 * u))
+    }
+}
+
+/// The ground of a scene, a plane with a grid and shadows on it.
+struct Floor<'a> {
+    scene: &'a Scene,
+    /// Its rise along x and along y, m per m.
+    slope: [f64; 2],
+    /// The height of the camera above it, m.
+    height: f64,
+    /// The distance from the middle of the scene at which it has faded away, m.
+    reach: f64,
+    /// The distance between grid lines, m: the power of ten below the size of the scene.
+    step: f64,
+}
+
+impl Floor<'_> {
+    /// Returns the ground of a scene, a plane of this slope.
+    fn new(scene: &Scene, slope: [f64; 2]) -> Floor<'_> {
+        let height = above(slope, &scene.camera.at);
+        let reach = f64::max(6.0 * scene.radius, 2.5 * scene.camera.distance);
+        let step = libm::pow(10.0, libm::floor(libm::log10(scene.radius * 0.9)));
+        Floor { scene, slope, height, reach, step }
     }
 
-    /// Returns the darkness of the ground, a plane of this slope, at a pixel, 0..1: grid lines and shadow.
-    fn shading(&self, slope: [f64; 2], x: usize, y: usize) -> f64 {
-        let ray = self.camera.ray(x as f64 + 0.5, y as f64 + 0.5, self.width, self.height);
-        // The heights above the plane of the camera and of a point a metre along the ray.
-        let above = |v: &Vec3| v.z - slope[0] * v.x - slope[1] * v.y;
-        let (height, rate) = (above(&self.camera.at), above(&ray));
-        if rate >= 0.0 || height <= 0.0 {
+    /// Returns the darkness of the ground at a sample of the picture, 0..1: grid lines and shadow.
+    fn shading(&self, x: usize, y: usize) -> f64 {
+        let scene = self.scene;
+        let ray = scene.camera.ray(x as f64 + 0.5, y as f64 + 0.5, scene.width, scene.height);
+        // The height that a metre along the ray gains.
+        let rate = above(self.slope, &ray);
+        if rate >= 0.0 || self.height <= 0.0 {
             return 0.0;
         }
         // The point where the ray meets the plane.
-        let away = -height / rate;
-        let p = self.camera.at + ray * away;
-        let reach = f64::max(6.0 * self.radius, 2.5 * self.camera.distance);
-        let out = libm::hypot(p.x - self.middle.x, p.y - self.middle.y) / reach;
+        let away = -self.height / rate;
+        let p = scene.camera.at + ray * away;
+        let out = libm::hypot(p.x - scene.middle.x, p.y - scene.middle.y) / self.reach;
         if out >= 0.95 {
             return 0.0;
         }
         let u = ((out - 0.15) / 0.8).clamp(0.0, 1.0);
         let fade = 1.0 - u * u * (3.0 - 2.0 * u);
         // The footprint of a pixel: across the ray, and along the ground.
-        let pixel = 2.0 * HALF_FOV_TANGENT * away / self.height as f64;
+        let pixel = 2.0 * HALF_FOV_TANGENT * away / scene.height as f64;
         let long = pixel / -rate;
         let grid = |step: f64| {
             let line = |c: f64| {
@@ -295,12 +351,15 @@ impl Scene {
             };
             f64::max(line(p.x), line(p.y)) * (step / long / SUPERSAMPLING as f64 / 8.0 - 0.25).clamp(0.0, 1.0)
         };
-        // Lines at the power of ten below the size of the scene, and at ten times that.
-        let step = libm::pow(10.0, libm::floor(libm::log10(self.radius * 0.9)));
-        let lines = f64::max(grid(step) * 0.10, grid(10.0 * step) * 0.22);
-        let shade = (1.0 - self.sunlight(&p)) * 0.34;
+        let lines = f64::max(grid(self.step) * 0.10, grid(10.0 * self.step) * 0.22);
+        let shade = (1.0 - scene.sunlight(&p)) * 0.34;
         (1.0 - (1.0 - lines) * (1.0 - shade)) * fade
     }
+}
+
+/// Returns the height of a point above a plane of this slope through the origin, m.
+fn above(slope: [f64; 2], v: &Vec3) -> f64 {
+    v.z - slope[0] * v.x - slope[1] * v.y
 }
 
 /// Returns the centre and half the diagonal of the bounding box of all bodies, in metres.
@@ -312,21 +371,24 @@ fn ball(bodies: &[Drawn]) -> (Vec3, f64) {
     ((low + high) / 2.0, ((high - low).norm() / 2.0).max(TOLERANCES.radius))
 }
 
-/// Returns red, green and blue of each pixel: the means of its samples.
-fn pixels(canvas: &Canvas, options: &StillOptions) -> Vec<u8> {
-    let (width, height) = (options.width, options.height);
-    let mut pixels = Vec::with_capacity(width * height * 3);
-    for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
-        for part in 0..3 {
-            let fine = (0..SUPERSAMPLING * SUPERSAMPLING).map(|i| {
-                let (fx, fy) = (x * SUPERSAMPLING + i % SUPERSAMPLING, y * SUPERSAMPLING + i / SUPERSAMPLING);
-                canvas.colours[fy * canvas.width + fx][part]
-            });
-            let mean = fine.sum::<f32>() / (SUPERSAMPLING * SUPERSAMPLING) as f32;
-            pixels.push(libm::roundf(mean * 255.0) as u8);
+/// Appends red, green and blue of each pixel of some rows: the means of its samples.
+fn push_means(canvas: &Canvas, pixels: &mut Vec<u8>) {
+    for (y, x) in canvas
+        .rows
+        .clone()
+        .step_by(SUPERSAMPLING)
+        .flat_map(|y| (0..canvas.width).step_by(SUPERSAMPLING).map(move |x| (y, x)))
+    {
+        let mut sums = [0.0_f32; 3];
+        for row in y..y + SUPERSAMPLING {
+            let at = canvas.place(x, row);
+            for colour in &canvas.colours[at..at + SUPERSAMPLING] {
+                (0..3).for_each(|part| sums[part] += colour[part]);
+            }
         }
+        let means = sums.map(|sum| sum / (SUPERSAMPLING * SUPERSAMPLING) as f32);
+        pixels.extend(means.map(|mean| libm::roundf(mean * 255.0) as u8));
     }
-    pixels
 }
 
 /// Returns pixels as the bytes of a PNG file; `pixels` holds red, green and blue of each, 3 times `width` times

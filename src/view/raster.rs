@@ -1,8 +1,8 @@
 //! A software rasteriser: triangles and lines into pixels with a depth buffer, by edge functions.
 
 use super::colour::Rgb;
-use super::mesh::Mesh;
 use crate::geometry::Vec3;
+use std::ops::Range;
 
 /// The near plane: nothing nearer to the camera than this fraction of the distance to the target is drawn.
 const NEAR: f64 = 0.02;
@@ -30,18 +30,23 @@ pub(super) struct Camera {
     pub distance: f64,
 }
 
-/// An image under construction, with its depth buffer.
+/// Some rows of an image under construction, with their depth buffer.
 pub(super) struct Canvas {
-    /// The width of the canvas in pixels.
+    /// The width of the image in pixels.
     pub width: usize,
-    /// The height of the canvas in pixels.
+    /// The height of the whole image in pixels.
     pub height: usize,
-    /// Red, green and blue of each pixel, sRGB encoded, in 0..1, row by row from the top.
+    /// The rows of the image that this canvas holds, counted from the top.
+    pub rows: Range<usize>,
+    /// Red, green and blue of each pixel, sRGB encoded, in 0..1, row by row from the top; empty until
+    /// [`Canvas::shade`].
     pub colours: Vec<[f32; 3]>,
     /// The depths of pixels, in the order of `colours`: one over the distance from the camera along the viewing
     /// direction (1/m), or minus that distance (m) for an orthographic camera; the greater is nearer. Minus infinity
     /// where nothing is drawn.
     pub depths: Vec<f32>,
+    /// The index of the triangle seen at each pixel, in the order of `colours`; of no meaning where nothing is drawn.
+    seen: Vec<u32>,
 }
 
 /// A point projected into a picture: x and y in pixels, and its depth.
@@ -89,82 +94,151 @@ impl Camera {
     }
 }
 
-impl Canvas {
-    /// Returns an empty image of this size in pixels: black, with nothing drawn.
-    pub(super) fn new(width: usize, height: usize) -> Canvas {
-        let pixels = width * height;
-        Canvas { width, height, colours: vec![[0.0; 3]; pixels], depths: vec![f32::NEG_INFINITY; pixels] }
-    }
+/// A triangle projected into a picture.
+pub(super) struct Facet {
+    /// Its corners in the picture.
+    spots: [Projected; 3],
+    /// Twice its signed area, in square pixels; neither zero nor infinite.
+    area: f64,
+    /// True for an orthographic camera, false for a perspective one.
+    parallel: bool,
+}
 
-    /// Rasterises the triangles of a mesh in the world; `shade` returns the colour of a point, sRGB encoded, by its
-    /// position and normal there. Triangles with a corner behind the near plane are left out.
-    pub(super) fn fill(
-        &mut self,
-        mesh: &Mesh,
-        camera: &Camera,
-        shade: &mut dyn FnMut(Vec3, Vec3) -> [f32; 3],
-    ) {
-        for (corners, normals) in &mesh.triangles {
-            let spots = corners.map(|p| camera.project(&p, self.width, self.height));
-            if let [Some(a), Some(b), Some(c)] = spots {
-                self.triangle([a, b, c], camera.parallel, &mut |weights| {
-                    let mix = |of: &[Vec3; 3]| of[0] * weights[0] + of[1] * weights[1] + of[2] * weights[2];
-                    shade(mix(corners), mix(normals))
-                });
-            }
-        }
-    }
-
-    /// Rasterises one triangle by edge functions where it is not hidden; `colour` gets the barycentric weights of its
-    /// corners at a pixel, correct for the perspective.
-    fn triangle(
-        &mut self,
-        spots: [Projected; 3],
-        parallel: bool,
-        colour: &mut dyn FnMut([f64; 3]) -> [f32; 3],
-    ) {
-        let [a, b, c] = spots;
+impl Facet {
+    /// Projects a triangle of the world, corners in m, into a picture of this size in pixels; `None` if a corner is
+    /// behind the near plane or the triangle is seen edge on.
+    pub(super) fn new(corners: &[Vec3; 3], camera: &Camera, width: usize, height: usize) -> Option<Facet> {
+        let [a, b, c] = corners.each_ref().map(|p| camera.project(p, width, height));
+        let (a, b, c) = (a?, b?, c?);
         let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        if area == 0.0 || !area.is_finite() {
-            return;
-        }
-        // The pixels of the bounding box within the picture.
-        let range = |low: f64, high: f64, size: usize| {
-            (low.floor().max(0.0) as usize, (high.ceil().max(0.0) as usize).min(size))
-        };
-        let bounds = |pick: fn(&Projected) -> f64| {
-            let values = spots.each_ref().map(pick);
-            (values.iter().copied().fold(f64::MAX, f64::min), values.iter().copied().fold(f64::MIN, f64::max))
-        };
-        let ((left, right), (top, bottom)) = (bounds(|s| s.x), bounds(|s| s.y));
-        let ((x0, x1), (y0, y1)) = (range(left, right, self.width), range(top, bottom, self.height));
-        for y in y0..y1 {
-            for x in x0..x1 {
-                let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
-                // Barycentric coordinates, from the edge functions.
-                let u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
-                let v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
-                let w = 1.0 - u - v;
-                if u < 0.0 || v < 0.0 || w < 0.0 {
-                    continue;
-                }
-                let depth = u * a.depth + v * b.depth + w * c.depth;
-                let at = y * self.width + x;
-                if depth as f32 > self.depths[at] {
-                    self.depths[at] = depth as f32;
-                    // Perspective-correct interpolation.
-                    let weights = match parallel {
-                        true => [u, v, w],
-                        false => [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth],
-                    };
-                    self.colours[at] = colour(weights);
+        (area != 0.0 && area.is_finite()).then_some(Facet {
+            spots: [a, b, c],
+            area,
+            parallel: camera.parallel,
+        })
+    }
+
+    /// Returns the pixels of its bounding box along one axis that lie within 0..`size`.
+    fn range(&self, pick: fn(&Projected) -> f64, size: usize) -> Range<usize> {
+        let values = self.spots.each_ref().map(pick);
+        let low = values.iter().copied().fold(f64::MAX, f64::min);
+        let high = values.iter().copied().fold(f64::MIN, f64::max);
+        low.floor().max(0.0) as usize..(high.ceil().max(0.0) as usize).min(size)
+    }
+
+    /// Returns a part of `range` outside of which no centre of a pixel of row `y` lies in the triangle, from where its
+    /// sides cross the row.
+    fn span(&self, y: usize, range: &Range<usize>) -> Range<usize> {
+        let py = y as f64 + 0.5;
+        let (mut low, mut high) = (range.start as f64, range.end as f64);
+        for side in 0..3 {
+            let [p, q] = [self.spots[side], self.spots[(side + 1) % 3]];
+            // The edge function along the row is its value at x = 0 plus x times this slope.
+            let slope = p.y - q.y;
+            let size = p.x.abs().max(q.x.abs()).max((p.y - py).abs()).max((q.y - py).abs());
+            let crossing = (p.x * (q.y - py) - (p.y - py) * q.x) / -slope;
+            // Two pixels, and many times what rounding does to the crossing.
+            let margin = 2.0 + 64.0 * f64::EPSILON * size * size / slope.abs();
+            if crossing.is_finite() && margin.is_finite() {
+                match slope * self.area > 0.0 {
+                    true => low = low.max(crossing - margin),
+                    false => high = high.min(crossing + margin),
                 }
             }
+        }
+        low as usize..(high.max(low).ceil() as usize).min(range.end)
+    }
+
+    /// Returns the barycentric coordinates of the centre of a pixel, from the edge functions; `None` outside the
+    /// triangle.
+    fn coordinates(&self, x: usize, y: usize) -> Option<[f64; 3]> {
+        let [a, b, c] = self.spots;
+        let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
+        let u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / self.area;
+        let v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / self.area;
+        let w = 1.0 - u - v;
+        (u >= 0.0 && v >= 0.0 && w >= 0.0).then_some([u, v, w])
+    }
+
+    /// Returns the depth at barycentric coordinates; see [`Canvas::depths`].
+    fn depth(&self, [u, v, w]: [f64; 3]) -> f64 {
+        let [a, b, c] = self.spots;
+        u * a.depth + v * b.depth + w * c.depth
+    }
+
+    /// Returns the weights of its corners in the world at barycentric coordinates in the picture, correct for the
+    /// perspective.
+    fn weights(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = self.spots;
+        let depth = self.depth([u, v, w]);
+        match self.parallel {
+            true => [u, v, w],
+            false => [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth],
+        }
+    }
+}
+
+impl Canvas {
+    /// Returns these rows of an empty image of this size in pixels, with nothing drawn.
+    pub(super) fn new(width: usize, height: usize, rows: Range<usize>) -> Canvas {
+        let pixels = width * rows.len();
+        Canvas {
+            width,
+            height,
+            rows,
+            colours: Vec::new(),
+            depths: vec![f32::NEG_INFINITY; pixels],
+            seen: vec![0; pixels],
+        }
+    }
+
+    /// Returns the index in `colours` and `depths` of a pixel in the rows of the canvas.
+    pub(super) fn place(&self, x: usize, y: usize) -> usize {
+        (y - self.rows.start) * self.width + x
+    }
+
+    /// Rasterises triangles where they are not hidden: their depths, and which one is seen.
+    pub(super) fn fill(&mut self, facets: &[Facet]) {
+        for (index, facet) in facets.iter().enumerate() {
+            let range = facet.range(|s| s.y, self.height);
+            let columns = facet.range(|s| s.x, self.width);
+            for y in range.start.max(self.rows.start)..range.end.min(self.rows.end) {
+                for x in facet.span(y, &columns) {
+                    let Some(coordinates) = facet.coordinates(x, y) else { continue };
+                    let depth = facet.depth(coordinates) as f32;
+                    let at = self.place(x, y);
+                    if depth > self.depths[at] {
+                        self.depths[at] = depth;
+                        self.seen[at] = index as u32;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Colours all pixels, after [`Canvas::fill`] with the same triangles: `shade` returns the colour, sRGB encoded, where
+    /// one is seen, by its index and the weights of its corners there, `behind` where none is, by column and row.
+    pub(super) fn shade(
+        &mut self,
+        facets: &[Facet],
+        shade: &dyn Fn(usize, [f64; 3]) -> [f32; 3],
+        behind: &dyn Fn(usize, usize) -> [f32; 3],
+    ) {
+        self.colours = Vec::with_capacity(self.depths.len());
+        for (y, x) in self.rows.clone().flat_map(|y| (0..self.width).map(move |x| (y, x))) {
+            let at = self.colours.len();
+            let index = self.seen[at] as usize;
+            let drawn = self.depths[at] > f32::NEG_INFINITY;
+            let coordinates = drawn.then(|| facets[index].coordinates(x, y)).flatten();
+            self.colours.push(match coordinates {
+                Some(coordinates) => shade(index, facets[index].weights(coordinates)),
+                None => behind(x, y),
+            });
         }
     }
 
     /// Rasterises lines, given by their ends in the world, of a width in pixels. A line with an end behind the near
-    /// plane is left out.
+    /// plane is left out, and so is what lies before the background.
     pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], camera: &Camera, width: usize, colour: Rgb) {
         let colour = colour.0.map(|c| c as f32);
         for [p, q] in lines {
@@ -173,6 +247,10 @@ impl Canvas {
             else {
                 continue;
             };
+            let rows = (self.rows.start as f64 - width as f64, self.rows.end as f64 + width as f64);
+            if a.y.max(b.y) < rows.0 || a.y.min(b.y) > rows.1 {
+                continue;
+            }
             let length = f64::max((b.x - a.x).abs(), (b.y - a.y).abs());
             let steps = (length.ceil().max(1.0) as usize).min(4 * (self.width + self.height));
             for i in 0..=steps {
@@ -189,11 +267,12 @@ impl Canvas {
     fn dot(&mut self, x: f64, y: f64, width: usize, depth: f32, colour: [f32; 3]) {
         for (dx, dy) in (0..width).flat_map(|dx| (0..width).map(move |dy| (dx as f64, dy as f64))) {
             let (x, y) = (x + dx, y + dy);
-            if x < 0.0 || y < 0.0 || x >= self.width as f64 || y >= self.height as f64 {
+            let rows = self.rows.start as f64..self.rows.end as f64;
+            if x < 0.0 || x >= self.width as f64 || !rows.contains(&y) {
                 continue;
             }
-            let at = y as usize * self.width + x as usize;
-            if depth >= self.depths[at] {
+            let at = self.place(x as usize, y as usize);
+            if self.depths[at] > f32::NEG_INFINITY && depth >= self.depths[at] {
                 self.colours[at] = colour;
             }
         }
