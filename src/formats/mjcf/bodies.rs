@@ -6,16 +6,17 @@ use crate::formats::masses::{MASS_MIN, sound_inertia};
 use crate::formats::xml::{Attribute, Xml, number, numbers, placed, vector};
 use crate::geometry::pose::shifted;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
-use crate::robot::{Link, Motion, Step, mate};
+use crate::plan::Obstacle;
+use crate::robot::{Motion, Step, mate};
 use std::collections::BTreeSet;
 
 /// Half the distance between the two points that a constraint holds together on the axis of a hinge, m.
 const HINGE_ARM: f64 = 0.05;
 
-/// Returns the shapes of a link and their poses in the link's frame, with unions taken apart.
-fn pieces(link: &Link) -> Vec<(Pose, &Shape)> {
+/// Returns shapes and their poses in the frame that they are placed in, with unions taken apart.
+fn pieces(placed: &[Placed]) -> Vec<(Pose, &Shape)> {
     let mut pieces = Vec::new();
-    let mut open: Vec<(Pose, &Placed)> = link.collides.iter().rev().map(|p| (Pose::identity(), p)).collect();
+    let mut open: Vec<(Pose, &Placed)> = placed.iter().rev().map(|p| (Pose::identity(), p)).collect();
     while let Some((X_LP, part)) = open.pop() {
         let X_LS = X_LP * part.pose;
         match &part.shape {
@@ -44,18 +45,29 @@ fn mesh_name(trees: &Trees, link: usize, piece: usize) -> String {
     format!("{}{other}.{}.{piece}", declared.name, declared.links[index].name)
 }
 
-/// Adds the element `asset` with a mesh for each convex hull and mesh among the shapes of the links; nothing if there
-/// is none.
-pub(super) fn assets(xml: &mut Xml, trees: &Trees) {
+/// Returns the name of the mesh of a piece of an obstacle.
+fn obstacle_mesh_name(obstacle: &Obstacle, piece: usize) -> String {
+    format!("{}: {piece}", obstacle.name)
+}
+
+/// Adds the element `asset` with a mesh for each convex hull and mesh among the shapes of the links and of obstacles;
+/// nothing if there is none.
+pub(super) fn assets(xml: &mut Xml, trees: &Trees, obstacles: &[Obstacle]) {
     let mut known = BTreeSet::new();
     let mut meshes: Vec<(String, &[Vec3])> = Vec::new();
     let mut hollow = false;
     for link in trees.depth_first() {
         if known.insert(trees.kind(link)) {
-            for (piece, (_, shape)) in pieces(trees.link(link)).into_iter().enumerate() {
+            for (piece, (_, shape)) in pieces(&trees.link(link).collides).into_iter().enumerate() {
                 meshes.extend(points(shape).map(|points| (mesh_name(trees, link, piece), points)));
                 hollow |= matches!(shape, Shape::Mesh { .. });
             }
+        }
+    }
+    for obstacle in obstacles {
+        for (piece, (_, shape)) in pieces(&obstacle.shapes).into_iter().enumerate() {
+            meshes.extend(points(shape).map(|points| (obstacle_mesh_name(obstacle, piece), points)));
+            hollow |= matches!(shape, Shape::Mesh { .. });
         }
     }
     if meshes.is_empty() {
@@ -141,32 +153,50 @@ fn contents(xml: &mut Xml, trees: &Trees, link: usize, friction: f64) {
             ("fullinertia", numbers(sound_inertia(declared))),
         ],
     );
-    for (piece, (X_LS, shape)) in pieces(declared).into_iter().enumerate() {
-        let mut attributes = vec![("type", geom_type(shape).to_owned())];
-        let along = |axis: &Vec3, length: f64| {
-            let (p, half) = (X_LS.translation.vector, X_LS.rotation * axis.normalize() * (length / 2.0));
-            numbers((p - half).iter().chain((p + half).iter()).copied())
-        };
-        match shape {
-            Shape::Box { size } => attributes.push(("size", vector(&(size / 2.0)))),
-            Shape::Sphere { radius } => attributes.push(("size", number(*radius))),
-            Shape::Cylinder { radius, length, axis } | Shape::Capsule { radius, length, axis } => {
-                attributes.push(("size", number(*radius)));
-                if *length > 0.0 {
-                    attributes.push(("fromto", along(axis, *length)));
-                }
-            }
-            Shape::Hull { .. } | Shape::Mesh { .. } | Shape::Union { .. } => {
-                attributes.push(("mesh", mesh_name(trees, link, piece)));
-            }
-        }
-        if !attributes.iter().any(|(name, _)| *name == "fromto") {
-            attributes.extend(placed(&X_LS));
-        }
+    for (piece, (X_LS, shape)) in pieces(&declared.collides).into_iter().enumerate() {
+        let mut attributes = geom(&X_LS, shape, || mesh_name(trees, link, piece));
         attributes.push(("friction", number(declared.friction * friction)));
         xml.leaf("geom", &attributes);
     }
     sites(xml, trees, link);
+}
+
+/// Adds the geoms of obstacles, which stand fast in the world; `friction` is their coefficient, which is not used: links
+/// have the higher priority, and theirs counts.
+pub(super) fn obstacles(xml: &mut Xml, obstacles: &[Obstacle], friction: f64) {
+    for obstacle in obstacles {
+        for (piece, (X_WS, shape)) in pieces(&obstacle.shapes).into_iter().enumerate() {
+            let mesh = obstacle_mesh_name(obstacle, piece);
+            let mut attributes = vec![("name", mesh.clone())];
+            attributes.extend(geom(&X_WS, shape, || mesh));
+            attributes.extend([("priority", "0".to_owned()), ("friction", number(friction))]);
+            xml.leaf("geom", &attributes);
+        }
+    }
+}
+
+/// Returns the attributes of the geom of a shape at a pose in its body; `mesh` names the mesh of a hull or mesh.
+fn geom(X: &Pose, shape: &Shape, mesh: impl FnOnce() -> String) -> Vec<Attribute<'static>> {
+    let mut attributes = vec![("type", geom_type(shape).to_owned())];
+    let along = |axis: &Vec3, length: f64| {
+        let (p, half) = (X.translation.vector, X.rotation * axis.normalize() * (length / 2.0));
+        numbers((p - half).iter().chain((p + half).iter()).copied())
+    };
+    match shape {
+        Shape::Box { size } => attributes.push(("size", vector(&(size / 2.0)))),
+        Shape::Sphere { radius } => attributes.push(("size", number(*radius))),
+        Shape::Cylinder { radius, length, axis } | Shape::Capsule { radius, length, axis } => {
+            attributes.push(("size", number(*radius)));
+            if *length > 0.0 {
+                attributes.push(("fromto", along(axis, *length)));
+            }
+        }
+        Shape::Hull { .. } | Shape::Mesh { .. } | Shape::Union { .. } => attributes.push(("mesh", mesh())),
+    }
+    if !attributes.iter().any(|(name, _)| *name == "fromto") {
+        attributes.extend(placed(X));
+    }
+    attributes
 }
 
 fn geom_type(shape: &Shape) -> &'static str {

@@ -10,8 +10,6 @@ pub enum MjcfFault {
     NoJoints,
     /// The plan is not valid, for the reason given.
     Invalid(PlanFault),
-    /// The plan is one of several robots, or has obstacles: a model has one robot.
-    Scene,
     /// More links hang on each other in a row than MuJoCo reads.
     TooDeep {
         /// The number of links in the longest row.
@@ -28,9 +26,6 @@ impl fmt::Display for MjcfFault {
                 "a model for MuJoCo is one of links and joints, which lattices and trusses have not",
             ),
             MjcfFault::Invalid(fault) => write!(f, "the plan is not valid: {fault}"),
-            MjcfFault::Scene => {
-                f.write_str("a model for MuJoCo has one robot and nothing around it, and this is a scene")
-            }
             MjcfFault::TooDeep { depth, most } => write!(
                 f,
                 "{depth} links hang on each other in a row, and MuJoCo reads {most} at most: a base nearer to the \

@@ -14,7 +14,7 @@ mod servo;
 mod tree;
 
 use crate::formats::xml::{Xml, number, numbers};
-use crate::plan::verify::articulated::base_at;
+use crate::plan::verify::articulated::{base_at, standing};
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 pub use fault::MjcfFault;
 use tree::Trees;
@@ -31,26 +31,25 @@ const BOND_TIME: f64 = 4e-3;
 /// The time constant of contacts, s. With MuJoCo's own, 0.02 s, the ground is softer than the servos, and a robot on
 /// many feet has all of them down, which it has not.
 const CONTACT_TIME: f64 = 5e-3;
-/// The coefficient of friction of the floor. It is not used: links have the higher priority, and theirs counts.
+/// The coefficient of friction of the floor and of obstacles. It is not used: links have the higher priority, and theirs counts.
 const FLOOR_FRICTION: f64 = 1e-3;
 
 /// The greatest number of bodies inside each other that MuJoCo's reader takes, by trial with its version 4.0.
 const DEPTH_MAX: usize = 496;
 
 /// Returns the MuJoCo model (MJCF, XML) of a plan's robot, with the state in which the plan starts as the keyframe
-/// `start`: the base stands where the judge places it. The text is the same for the same plan.
+/// `start`: all robots stand where the judge places them, among the plan's obstacles. The text is the same for the same
+/// plan.
 ///
 /// # Errors
-/// A [`MjcfFault`] for a lattice or truss, for several robots or obstacles, for a plan that is not valid, and for a
-/// chain of too many links.
+/// A [`MjcfFault`] for a lattice or truss, for a plan that is not valid, and for a chain of too many links.
 pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
-    if !tracks.start.clusters.is_empty() || !tracks.obstacles.is_empty() {
-        return Err(MjcfFault::Scene);
-    }
-    let X_WB = base_at(plan, 0.0).unwrap_or(tracks.start.base);
-    let trees = Trees::new(tracks, &X_WB);
+    let start = standing(plan, 0.0);
+    let (X_WB, clusters) = start
+        .unwrap_or_else(|| (base_at(plan, 0.0).unwrap_or(tracks.start.base), tracks.start.clusters.clone()));
+    let trees = Trees::new(tracks, &X_WB, &clusters);
     let depth = trees.depth();
     if depth > DEPTH_MAX {
         return Err(MjcfFault::TooDeep { depth, most: DEPTH_MAX });
@@ -75,7 +74,7 @@ pub struct Drives {
 pub fn drives(plan: &Plan) -> Result<Drives, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
-    let trees = Trees::new(tracks, &tracks.start.base);
+    let trees = Trees::new(tracks, &tracks.start.base, &tracks.start.clusters);
     let driven = trees.moved().into_iter().filter(|(joint, _)| trees.is_driven(*joint));
     let terms = |link: usize| trees.steps[link].as_ref().map_or(Vec::new(), |step| step.terms().to_vec());
     let actuators = driven.map(|(joint, link)| (trees.joint_name(joint), terms(link))).collect();
@@ -111,7 +110,7 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
     xml.leaf("equality", &[("solref", numbers([BOND_TIME, 1.0]))]);
     servo::defaults(&mut xml);
     xml.close("default");
-    bodies::assets(&mut xml, trees);
+    bodies::assets(&mut xml, trees, &tracks.obstacles);
     xml.open("worldbody", &[]);
     if world.has_floor() {
         xml.comment("Links have the higher priority, so that the friction of a contact is theirs.");
@@ -128,6 +127,7 @@ fn model(plan: &Plan, tracks: &Tracks, trees: &Trees) -> String {
         }
         xml.leaf("geom", &floor);
     }
+    bodies::obstacles(&mut xml, &tracks.obstacles, FLOOR_FRICTION);
     let held = matches!(world.ground, Ground::Fixed | Ground::Held);
     bodies::bodies(&mut xml, trees, held, world.friction);
     xml.close("worldbody");

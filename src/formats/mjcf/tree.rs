@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{LastingTrees, Tracks};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
+use crate::robot::{Assembly, ClusterPose, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -36,14 +36,15 @@ pub(super) struct Trees<'a> {
 }
 
 impl<'a> Trees<'a> {
-    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m.
-    pub(super) fn new(tracks: &'a Tracks, X_WB: &Pose) -> Trees<'a> {
+    /// Returns the trees of a plan's robots; `X_WB`: the world pose of the base module's body at the start, m; `clusters`:
+    /// those of the references of further clusters then.
+    pub(super) fn new(tracks: &'a Tracks, X_WB: &Pose, clusters: &[ClusterPose]) -> Trees<'a> {
         let robot = &tracks.robot;
         let links: Vec<(usize, usize)> = (0..robot.modules.len())
             .flat_map(|module| (0..robot.module_type(module).links.len()).map(move |link| (module, link)))
             .collect();
         let LastingTrees { trees: kinematics, joint_of, constraints, start, poses } =
-            LastingTrees::new(tracks, X_WB, &tracks.start.clusters, &[]);
+            LastingTrees::new(tracks, X_WB, clusters, &[]);
         let mut trees = Trees {
             robot,
             roots: Vec::new(),
