@@ -1,6 +1,7 @@
 //! Plans in the formats of other programs: what is in the files, and what the readers of these programs say of it.
 
 mod command;
+mod designs;
 mod files;
 mod imports;
 mod maps;
