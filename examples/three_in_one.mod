@@ -2,7 +2,8 @@
 use std.scenes.ThreeInOne
 
 let three = ThreeInOne()
-let whole = Sc(three.build(), three.drive())
+let build = three.build()
+let whole = Sc(build, three.drive())
 let report = verify(whole)
 print(report)
 show(whole, "three_in_one.html")
@@ -10,11 +11,12 @@ show(whole, "three_in_one.html")
 test "nine modules drive as one" {
   expect report.ok
   // Before the drive and after it the first chain is where its own wheels took it: 2 s at 1 rad/s on wheels of 45.3 mm.
-  let built = plan(three.build()).end.pose(three.a.head)
-  let there = plan(whole).end.pose(three.a.head)
+  let built = plan(build).end.pose(three.a.head)
+  let end = plan(whole).end
+  let there = end.pose(three.a.head)
   let way = norm(there.position - built.position)
   expect way > 70mm and way < 91mm, "it drives {way}"
   // Nine modules of 100 mm in line.
-  let tail = plan(whole).end.pose(three.c.tail).position
+  let tail = end.pose(three.c.tail).position
   expect abs(norm(there.position - tail) - 900mm) < 1mm
 }

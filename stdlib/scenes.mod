@@ -71,15 +71,13 @@ fn _begin(after: Behavior?) -> Time = if after == _ { 1ms } else { plan(after el
 // The plan of a behaviour that comes after another, if there is one.
 fn _planned(b: Behavior, after: Behavior?) -> Plan = plan(Sc(after else wait(1ms), b))
 
-// Where a port gets by a behaviour after another, as seen from where it was.
-fn _moved(b: Behavior, p: Port, after: Behavior?) -> Stance = {
-  let whole = _planned(b, after)
-  _seen(stance(whole.at(_begin(after)).pose(p)), stance(whole.end.pose(p)))
-}
-
 // Where a port is after a behaviour, if there is one, or else at the start. `then` is what comes next.
 fn _stands(p: Port, after: Behavior?, then: Behavior) -> Stance =
   stance(_planned(then, after).at(_begin(after)).pose(p))
+
+// Where a port gets by a behaviour after another, as seen from where it was then, `begin`.
+fn _moved(b: Behavior, p: Port, after: Behavior?, begin: Stance) -> Stance =
+  _seen(begin, stance(_planned(b, after).end.pose(p)))
 
 /// Measures what two behaviours of a robot do to one of its ports: `drive(v, t)`, which drives straight at speed `v` of
 /// the wheels for time `t`, in 1 s and in 2 s, and `turn(a)`, which turns on the spot to the left, by 20 and by 60
@@ -101,13 +99,23 @@ fn gauge(
   turn: fn(Angle) -> Behavior,
   v: AngularSpeed = 2rad/s,
   after: Behavior?,
+) -> Gauge = _gauge(p, drive, turn, v, after, _stands(p, after, drive(v, 1s)))
+
+// What `gauge` returns, of a port that stands at `begin` after `after`.
+fn _gauge(
+  p: Port,
+  drive: fn(AngularSpeed, Time) -> Behavior,
+  turn: fn(Angle) -> Behavior,
+  v: AngularSpeed,
+  after: Behavior?,
+  begin: Stance,
 ) -> Gauge = {
-  let short = _moved(drive(v, 1s), p, after)
-  let long = _moved(drive(v, 2s), p, after)
+  let short = _moved(drive(v, 1s), p, after, begin)
+  let long = _moved(drive(v, 2s), p, after, begin)
   let speed = (norm(_point(long)) - norm(_point(short))) / 1s
   require speed > 1mm/s, "`drive` does not get on: it gains {speed in mm/s:.2}"
-  let little = _moved(turn(20deg), p, after)
-  let much = _moved(turn(60deg), p, after)
+  let little = _moved(turn(20deg), p, after, begin)
+  let much = _moved(turn(60deg), p, after, begin)
   let factor = _wrapped(much.heading - little.heading) / 40deg
   require factor > 0.01, "`turn` does not turn to the left: {factor:.3} of what is asked"
   // The port goes from 0 to `much`: what stays in place is half of the way aside, and ahead of it by the half angle.
@@ -167,6 +175,8 @@ record _Driver {
   turn: fn(Angle) -> Behavior
   v: AngularSpeed
   after: Behavior?
+  // Where the port stands after that.
+  begin: Stance
   gauge: Gauge
   corners: List<Vec3<Length>>
   closing: Length
@@ -203,7 +213,7 @@ fn _commands(d: _Driver, l: _Leg) -> List<Behavior> = {
 fn _way(d: _Driver, goal: Stance) -> Behavior =
   Sc(flatten([_commands(d, l) for l in _legs_to(d, goal)]) ++ [wait(200ms)])
 
-fn _tried(d: _Driver, aim: Stance) -> _Trial = _Trial(aim: aim, reached: _moved(_way(d, aim), d.port, d.after))
+fn _tried(d: _Driver, aim: Stance) -> _Trial = _Trial(aim: aim, reached: _moved(_way(d, aim), d.port, d.after, d.begin))
 
 // How far a stance is from where it should be, in parts of what is allowed: 1 % of the way or 1 mm, 0.2 degrees.
 fn _off(reached: Stance, goal: Stance) -> Number = {
@@ -258,11 +268,11 @@ fn drive_to(
   clearance: Length = 300mm,
   after: Behavior?,
 ) -> Behavior = {
-  let g = gauge(port, drive, turn, v, after)
+  let begin = _stands(port, after, drive(v, 1s))
+  let g = _gauge(port, drive, turn, v, after, begin)
   let aside = asin(abs(sin(g.course)))
   require closing == 0mm or aside < 0.5deg,
   "the port looks {aside in deg:.1} aside from where the robot drives: it can't close in"
-  let begin = _stands(port, after, drive(v, 1s))
   let aim = _seen(begin, goal)
   let straight = _Driver(
     port: port,
@@ -270,6 +280,7 @@ fn drive_to(
     turn: turn,
     v: v,
     after: after,
+    begin: begin,
     gauge: g,
     corners: [],
     closing: closing,
@@ -411,16 +422,19 @@ scene ThreeInOne {
   /// The second chain docks behind the first, and the third behind the second.
   ///
   /// Keeps a reserve of 0.80 on level ground with friction 1.
-  behavior build = Sc(
-    second(),
-    drive_and_dock(
-      c.head,
-      b.tail,
-      (v, t) => chain_drive(c, v, t),
-      x => chain_turn(c, x),
-      after: second(),
-    ),
-  )
+  behavior build = {
+    let first = second()
+    Sc(
+      first,
+      drive_and_dock(
+        c.head,
+        b.tail,
+        (v, t) => chain_drive(c, v, t),
+        x => chain_turn(c, x),
+        after: first,
+      ),
+    )
+  }
 
   /// All nine modules drive as one.
   ///
