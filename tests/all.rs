@@ -12,3 +12,7 @@ mod plans;
 mod robots;
 mod simulate;
 mod support;
+
+/// The allocator of the tool, so that the tests take the time that it takes.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;

@@ -13,3 +13,10 @@ pub fn cases(cases: u32) -> Config {
     let cases = if whole { cases * WHOLE } else { cases };
     Config { cases, rng_seed, failure_persistence: None, ..Config::default() }
 }
+
+/// Returns the seeds of random cases that are as many in `.ci/full`, with `MODL_WHOLE=1`: the first quarter of them in the
+/// gate, all there.
+pub fn seeds(many: u64) -> std::ops::Range<u64> {
+    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    0..if whole { many } else { many / 4 }
+}

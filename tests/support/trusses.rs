@@ -107,6 +107,9 @@ pub fn distance(p: [Vec3; 2], q: [Vec3; 2]) -> f64 {
 /// moments between two places of the nodes.
 pub fn looked_at(truss: &Structure, x: &[Vec3], y: &[Vec3], samples: usize) -> (f64, f64, (f64, f64)) {
     let (mut apart, mut height, mut lengths) = (f64::INFINITY, f64::INFINITY, (f64::INFINITY, 0.0f64));
+    // No point of a strut moves more than its ends do; so a distance bounds that of the later moments.
+    let way = |node: usize| (y[node] - x[node]).norm();
+    let mut bounds = vec![f64::NEG_INFINITY; truss.struts.len() * truss.struts.len()];
     for sample in 0..=samples {
         let part = sample as f64 / samples as f64;
         let at: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect();
@@ -114,13 +117,21 @@ pub fn looked_at(truss: &Structure, x: &[Vec3], y: &[Vec3], samples: usize) -> (
         for (i, &(a, b)) in truss.struts.iter().enumerate() {
             let length = (at[a] - at[b]).norm();
             lengths = (lengths.0.min(length), lengths.1.max(length));
-            for &(c, d) in &truss.struts[i + 1..] {
+            for (j, &(c, d)) in truss.struts.iter().enumerate().skip(i + 1) {
+                if a == c || a == d || b == c || b == d {
+                    continue;
+                }
+                let bound = &mut bounds[i * truss.struts.len() + j];
+                let travel = (way(a).max(way(b)) + way(c).max(way(d))) * part + 1e-12;
                 // Balls around them say enough of most.
                 let far = ((at[a] + at[b]) - (at[c] + at[d])).norm() / 2.0;
                 let reach = (length + (at[c] - at[d]).norm()) / 2.0;
-                if a != c && a != d && b != c && b != d && far - reach < apart {
-                    apart = apart.min(distance([at[a], at[b]], [at[c], at[d]]));
+                if *bound - travel >= apart || far - reach >= apart {
+                    continue;
                 }
+                let gap = distance([at[a], at[b]], [at[c], at[d]]);
+                *bound = gap + travel - 2e-12;
+                apart = apart.min(gap);
             }
         }
     }
