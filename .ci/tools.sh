@@ -46,6 +46,12 @@ install_browser() {
   fi
 }
 
+# Robots that people have published, and Rerun, for the tests of files that come in and leave (tests/exchange).
+install_exchange() {
+  "$PWD/target/python/bin/python" -m pip install --quiet --disable-pip-version-check example-robot-data rerun-sdk \
+    || echo "no example-robot-data or rerun-sdk: the tests with them will be skipped"
+}
+
 # The validator of glTF, for the tests of scenes (tests/exchange/readers.rs).
 install_gltf() {
   local gltf="$PWD/target/gltf"

@@ -1,4 +1,5 @@
-//! Plans as animated scenes in glTF 2.0, in one binary file (GLB): a node for each link, cell or strut.
+//! Plans as animated scenes in glTF 2.0, in one binary file (GLB): a node for each link, cell or strut, and for each
+//! obstacle.
 
 use super::export::{Export, ExportFile};
 use super::refusal::Refusal;
@@ -20,6 +21,9 @@ const NODES_MAX: usize = 100_000;
 const STRAIGHT: f64 = 2e-5;
 /// The radius of a strut, in parts of its least length.
 const STRUT_RADIUS: f64 = 0.015;
+
+/// The colour of obstacles: red, green and blue, linear, 0..1.
+const OBSTACLE: [f64; 3] = [0.55, 0.53, 0.49];
 
 /// The place of a node at a time: position, orientation, and scale along the axes of its mesh.
 #[derive(Clone, Copy, PartialEq)]
@@ -80,7 +84,7 @@ fn times(plan: &Plan, what: &'static str, nodes: usize) -> Result<Vec<f64>, Refu
     Ok(times)
 }
 
-/// Returns the scene of an articulated robot.
+/// Returns the scene of articulated robots among their obstacles.
 fn links(plan: &Plan, tracks: &Tracks) -> Result<Scene, Refusal> {
     let robot = &tracks.robot;
     let names = super::names::Names::of(robot).links;
@@ -113,11 +117,18 @@ fn links(plan: &Plan, tracks: &Tracks) -> Result<Scene, Refusal> {
         nodes.push(Node { name: names[link].clone(), mesh });
         drawn.push(link);
     }
+    for obstacle in &*tracks.obstacles {
+        meshes.push((geometries.len(), OBSTACLE));
+        geometries.push(triangles(&obstacle.shapes));
+        nodes.push(Node { name: obstacle.name.clone(), mesh: meshes.len() - 1 });
+    }
     let paths = LinkPaths::of(plan).ok_or(Refusal::NoJoints { format: "a scene of links" })?;
     let one = Vec3::repeat(1.0);
     let at = |time: &f64| {
         let poses = paths.at(*time);
-        drawn.iter().map(|link| Place { pose: poses[*link], scale: one }).collect()
+        let links = drawn.iter().map(|link| Place { pose: poses[*link], scale: one });
+        let fast = Place { pose: Pose::identity(), scale: one };
+        links.chain(tracks.obstacles.iter().map(|_| fast)).collect()
     };
     let places = times.iter().map(at).collect();
     Ok(Scene { geometries, meshes, nodes, times, places })

@@ -23,6 +23,7 @@ mod ros_messages;
 pub mod series;
 mod trajectory;
 mod urdf;
+mod urdf_masses;
 mod urdf_reader;
 mod urdf_shapes;
 

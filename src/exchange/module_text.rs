@@ -1,8 +1,9 @@
 //! Robot descriptions as modules of the language: a text to read, to give ports to, and to build robots of.
 
-use super::urdf_reader::{ImportFault, Urdf, UrdfJoint, UrdfKind, UrdfLink, UrdfShape, read};
+use super::urdf_masses::{LinkMass, masses};
+use super::urdf_reader::{ImportFault, Urdf, UrdfJoint, UrdfKind, UrdfShape, read};
 use crate::formats::masses::MASS_MIN;
-use crate::geometry::pose::turned;
+use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3, hull};
 use std::collections::BTreeSet;
 
@@ -22,8 +23,6 @@ pub struct Imported {
 const CORNERS_MAX: usize = 48;
 /// The radius of the ball that stands for a link without shape, m.
 const POINT_RADIUS: f64 = 1e-3;
-/// The part of the greatest moment of inertia below which a product of inertia is rounding.
-const PRODUCT: f64 = 1e-6;
 /// Words that are no names in the module: keywords and units.
 const TAKEN: &[&str] = &[
     "and", "or", "not", "if", "else", "for", "in", "let", "fn", "use", "true", "false", "expect", "require",
@@ -56,6 +55,8 @@ struct Writer<'u> {
     /// The pose of each link in the module's frame, all joints at zero; joints that follow others at their offsets.
     poses: Vec<Pose>,
     order: Vec<(usize, Option<usize>)>,
+    /// The mass of each link.
+    masses: Vec<LinkMass>,
     notes: Vec<String>,
 }
 
@@ -71,7 +72,7 @@ impl<'u> Writer<'u> {
                 let joint = &urdf.joints[joint];
                 let offset = joint.mimic.map_or(0.0, |(_, _, offset)| offset);
                 let moved = match joint.kind {
-                    UrdfKind::Prismatic => crate::geometry::pose::shifted(joint.axis * offset),
+                    UrdfKind::Prismatic => shifted(joint.axis * offset),
                     UrdfKind::Fixed => Pose::identity(),
                     UrdfKind::Revolute | UrdfKind::Continuous => turned(joint.axis, offset),
                 };
@@ -79,7 +80,9 @@ impl<'u> Writer<'u> {
             }
         }
         let module = type_name(&urdf.name);
-        Writer { urdf, module, links, joints, poses, order, notes: urdf.notes.clone() }
+        let (masses, of_masses) = masses(urdf, &poses);
+        let notes = urdf.notes.iter().cloned().chain(of_masses).collect();
+        Writer { urdf, module, links, joints, poses, order, masses, notes }
     }
 
     fn text(&mut self, source: &str) -> String {
@@ -112,14 +115,15 @@ impl<'u> Writer<'u> {
     fn link(&mut self, link: usize, massless: bool) -> String {
         let declared = &self.urdf.links[link];
         let X = self.poses[link];
+        let mass = &self.masses[link];
         let mut facts = Vec::new();
         if !massless {
-            // A link has some mass in the language.
-            facts.push(format!("mass: {}", quantity(declared.mass.unwrap_or(0.0).max(MASS_MIN), "kg")));
-            if declared.mass.unwrap_or(0.0) > 0.0 {
-                facts.push(format!("com: {}", place(&declared.centre.translation.vector)));
-                facts.extend(self.inertia(declared));
-            }
+            facts.push(format!("mass: {}", quantity(mass.mass, "kg")));
+            facts.extend(mass.centre.map(|centre| format!("com: {}", place(&centre))));
+            facts.extend(mass.moments.map(|moments| {
+                let moments = moments.map(|x| quantity(x, "kg*m^2"));
+                format!("inertia: [{}]", moments.join(", "))
+            }));
         }
         let mut shapes: Vec<(Pose, String)> = Vec::new();
         for (X_LS, shape) in &declared.shapes {
@@ -130,8 +134,9 @@ impl<'u> Writer<'u> {
                 }
             }
         }
-        if shapes.is_empty() {
-            shapes.push((Pose::identity(), format!("sphere(radius: {}", length(POINT_RADIUS))));
+        if shapes.is_empty() || mass.needs_room {
+            let centre = shifted(mass.centre.filter(|_| !massless).unwrap_or_default());
+            shapes.push((centre, format!("sphere(radius: {}", length(POINT_RADIUS))));
         }
         let solid = match &shapes[..] {
             [(X_LS, only)] if *X_LS == Pose::identity() => joined(only, facts),
@@ -148,33 +153,16 @@ impl<'u> Writer<'u> {
             }
         };
         let mut line = format!("  link {} = {solid}", self.links[link]);
-        if X.translation.vector != Vec3::zeros() {
+        let turn = turn_of(&X);
+        if X.translation.vector != Vec3::zeros() || turn.is_some() {
             line.push_str(&format!(" at {}", place(&X.translation.vector)));
         }
-        if let Some((axis, angle)) = turn_of(&X) {
+        if let Some((axis, angle)) = turn {
             line.push_str(&format!(" turned({}, {})", direction(&axis), quantity(angle, "rad")));
         }
         line.push_str(&renamed(&self.links[link], &declared.name));
         line.push('\n');
         line
-    }
-
-    /// Returns the inertia of a link along the axes of its frame, if it states one that a body can have.
-    fn inertia(&mut self, link: &UrdfLink) -> Option<String> {
-        let [xx, yy, zz, xy, xz, yz] = link.inertia;
-        let R = link.centre.rotation.to_rotation_matrix();
-        let own = nalgebra::Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-        let I = R.matrix() * own * R.matrix().transpose();
-        let most = I.diagonal().max();
-        if most <= 0.0 {
-            return None;
-        }
-        let products = [I[(0, 1)], I[(0, 2)], I[(1, 2)]];
-        if products.iter().any(|product| product.abs() > PRODUCT * most) {
-            self.notes.push(format!("the products of inertia of `{}` are left out", link.name));
-        }
-        let moments = [I[(0, 0)], I[(1, 1)], I[(2, 2)]].map(|x| quantity(x, "kg*m^2"));
-        Some(format!("inertia: [{}]", moments.join(", ")))
     }
 
     fn joint(&mut self, index: usize) -> String {

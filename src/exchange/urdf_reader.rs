@@ -3,6 +3,7 @@
 use crate::formats::MESH_FORMATS;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
+use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, QUANTITY_MAX};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -154,7 +155,9 @@ impl<'d> Reader<'d, '_> {
             self.urdf.links.push(link);
         }
         if links.is_empty() {
-            return Err(self.fault(root, "the robot has no links"));
+            let xacro = root.namespaces().any(|space| space.name() == Some("xacro"));
+            let how = if xacro { ": it is made of macros, which `xacro` expands" } else { "" };
+            return Err(self.fault(root, format!("the robot has no links{how}")));
         }
         let nodes: Vec<Node> = root.children().filter(|node| node.has_tag_name("joint")).collect();
         let mut joints = BTreeMap::new();
@@ -336,7 +339,8 @@ impl<'d> Reader<'d, '_> {
         };
         let (parent, child) = (end("parent")?, end("child")?);
         let mut axis = Vec3::x();
-        if let Some(stated) = Self::child(node, "axis") {
+        // The axis of a joint that does not move has no meaning, and is often zero.
+        if let Some(stated) = Self::child(node, "axis").filter(|_| kind != UrdfKind::Fixed) {
             axis = Vec3::from(self.numbers(stated, "xyz", [1.0, 0.0, 0.0])?);
         }
         let Some(axis) = axis.try_normalize(0.0) else {
@@ -352,9 +356,9 @@ impl<'d> Reader<'d, '_> {
         if bounded && low > high {
             return Err(self.fault(node, format!("the limits of `{name}` are the wrong way round")));
         }
-        // Zeros stand for what is not known.
-        let (effort, speed) =
-            (stated("effort")?.filter(|x| *x > 0.0), stated("velocity")?.filter(|x| *x > 0.0));
+        // Zeros, and numbers beyond all limits, stand for what is not known.
+        let known = |x: &f64| *x > 0.0 && *x <= QUANTITY_MAX;
+        let (effort, speed) = (stated("effort")?.filter(known), stated("velocity")?.filter(known));
         let damping = match Self::child(node, "dynamics") {
             Some(dynamics) => self.number(dynamics, "damping")?.filter(|x| *x > 0.0),
             None => None,
@@ -370,7 +374,9 @@ impl<'d> Reader<'d, '_> {
             }
             None => None,
         };
-        let range = (bounded && low < high).then_some((low, high));
+        let most = if kind == UrdfKind::Prismatic { MODULE_EXTENT_MAX } else { POSITION_MAX };
+        let limits = low.abs().max(high.abs()) <= most;
+        let range = (bounded && low < high && limits).then_some((low, high));
         let origin = self.origin(node)?;
         Ok(UrdfJoint { name, kind, parent, child, origin, axis, range, effort, speed, damping, mimic })
     }

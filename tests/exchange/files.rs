@@ -244,6 +244,38 @@ fn scenes_have_a_node_for_each_link_at_its_pose() {
 }
 
 #[test]
+fn obstacles_stand_in_scenes_where_they_are() {
+    let plan = planned(
+        "use std.smores.Driver1
+scene S {
+  part d: Driver1
+  obstacle wall = box(20mm, 1m, 200mm) at [300mm, 700mm, 100mm] turned(Z, 90deg)
+  behavior go = d.drive(t: 300ms)
+}
+let p = plan(S().go())",
+    );
+    let (json, _) = parts(&exported(&plan, "glb")[0].bytes);
+    let nodes = json["nodes"].as_array().expect("nodes");
+    let wall: Vec<&Value> = nodes.iter().filter(|node| node["name"] == "wall").collect();
+    let [wall] = wall.as_slice() else { panic!("one wall: {nodes:?}") };
+    let mesh = &json["meshes"][wall["mesh"].as_u64().expect("an index") as usize];
+    let points = mesh["primitives"][0]["attributes"]["POSITION"].as_u64().expect("an index") as usize;
+    let bound = |side: &str| -> Vec<f64> {
+        let bound = json["accessors"][points][side].as_array().expect("numbers");
+        bound.iter().map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let moved: Vec<f64> = match wall.get("translation") {
+        Some(at) => at.as_array().expect("numbers").iter().map(|x| x.as_f64().expect("a number")).collect(),
+        None => vec![0.0; 3],
+    };
+    // A metre along x, 20 mm along y, from the ground to 200 mm.
+    for (axis, (low, high)) in [(-0.2, 0.8), (0.69, 0.71), (0.0, 0.2)].into_iter().enumerate() {
+        assert!((bound("min")[axis] + moved[axis] - low).abs() < 1e-6, "{:?}", bound("min"));
+        assert!((bound("max")[axis] + moved[axis] - high).abs() < 1e-6, "{:?}", bound("max"));
+    }
+}
+
+#[test]
 fn moving_pictures_have_as_many_pictures_as_they_say() {
     let plan = planned("use std.smores.Driver1\nlet p = plan(Driver1().drive(t: 300ms))");
     let files = exported(&plan, "gif");

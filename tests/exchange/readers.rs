@@ -37,12 +37,13 @@ fn python() -> Option<PathBuf> {
 }
 
 /// Plans of every kind of module: those of the tests of MuJoCo's models, random robots, a folding with hulls and hinges, a
-/// snake of RoFI modules; with `MODL_WHOLE=1` the behaviours of `std.smores` and more random robots.
+/// scene in which a crate is docked and put down, a snake of RoFI modules; with `MODL_WHOLE=1` the behaviours of `std.smores` and more random robots.
 fn plans() -> Vec<(String, Plan)> {
     let whole = std::env::var_os("MODL_WHOLE").is_some();
     let own = [
         "use std.smores.Walk4\nlet p = plan(Walk4().walk())",
         "use std.mori.Mori\nuse std.shapes.octahedron\nlet p = fold(octahedron(edge: 80mm), module: Mori)",
+        "use std.scenes.Carrier\nlet c = Carrier()\nlet p = plan(Sc(c.take(), c.put()))",
         "use std.rofi.Snake\nlet s = Snake(n: 4)
 let p = plan(move(s.m[3].beta, to: 10deg), world: world(ground: off, gravity: off))",
     ];
@@ -226,6 +227,42 @@ const fs = require('fs');
   }
 })();
 ";
+
+/// Recordings in Rerun's own importer (the wheel `rerun-sdk`): it finds no fault, and draws what it has a picture for.
+#[test]
+fn rerun_shows_what_recordings_hold() {
+    let rerun = python().map(|python| python.with_file_name("rerun")).filter(|rerun| rerun.is_file());
+    let Some(rerun) = rerun else {
+        skipped("recordings in Rerun", "it is not installed (.ci/full exchange installs it)");
+        return;
+    };
+    let folder = tempfile::TempDir::new().expect("a temporary folder");
+    for (index, (name, mut plan)) in plans().into_iter().enumerate() {
+        let verdict = verify(&plan);
+        plan.verdict = Some(verdict);
+        let path = folder.path().join(format!("{index}.mcap"));
+        std::fs::write(&path, &exported(&plan, "mcap")[0].bytes).expect("a file can be written");
+        let shown = folder.path().join(format!("{index}.rrd"));
+        let run = |arguments: &[&std::ffi::OsStr]| {
+            let mut command = Command::new(&rerun);
+            command.args(arguments).env("NO_COLOR", "1").env("RUST_LOG", "error");
+            let ran = command.output().expect("rerun runs");
+            let said =
+                format!("{}{}", String::from_utf8_lossy(&ran.stdout), String::from_utf8_lossy(&ran.stderr));
+            assert!(ran.status.success() && !said.contains("ERROR"), "{name}: {said}");
+            said
+        };
+        let checked = run(&["mcap".as_ref(), "check".as_ref(), path.as_ref()]);
+        let topics: Vec<&str> = checked.lines().filter(|line| line.contains("  /")).collect();
+        let sound = topics.len() >= 4 && topics.iter().all(|line| line.starts_with("ok "));
+        assert!(sound, "{name}: {checked}");
+        run(&["mcap".as_ref(), "convert".as_ref(), path.as_ref(), "-o".as_ref(), shown.as_ref()]);
+        let holds = run(&["rrd".as_ref(), "print".as_ref(), shown.as_ref()]);
+        for part in ["TextLog:text", "Transform3D:translation", "/joint_states/position"] {
+            assert!(holds.contains(part), "{name}: no {part}");
+        }
+    }
+}
 
 #[test]
 fn the_validator_of_gltf_finds_no_fault_in_scenes() {
