@@ -49,6 +49,14 @@ impl Checker<'_> {
             (Type::Pose, Type::Signal(_)) => {
                 Some("a signal is asked for where it is wanted: `series(pose(port))`".into())
             }
+            (Type::Signal(of), Type::Behavior)
+                if [Dimension::TORQUE, Dimension::FORCE].iter().any(|load| of.dimension() == Some(*load)) =>
+            {
+                Some(format!(
+                    "there is no action for a torque or a force: a joint takes positions (`move`) and speeds (`spin`), and \
+                     `{written}` is what its motor supplies, in a condition or a series"
+                ))
+            }
             (Type::Instance(id), Type::AnyOf(Family::Config)) => {
                 let word = self.family(*id)?.word();
                 Some(format!(

@@ -365,3 +365,14 @@ config A { part m: Smores
 //              ^^^^ E0101 `moev` is not known here | `move`?
 }
 print(A().nod().duration)
+
+--- a torque is no action
+use std.smores.Smores
+config Push {
+  part m: Smores
+  behavior push = torque(m.tilt, 0.5N*m)
+//                ^^^^^^^^^^^^^^^^^^^^^^ E0202 a `Signal<Torque>` | there is no action for a torque or a force
+//                               ^^^^^^ E0205 too many arguments for `torque`
+  behavior both = Sc(torque(m.tilt), wait(1s))
+//                   ^^^^^^^^^^^^^^ E0202 a `Signal<Torque>` | `torque(m.tilt)` is what its motor supplies
+}
