@@ -130,15 +130,18 @@ pub(super) enum Command {
         #[arg(long, value_name = "FORMAT", value_parser = super::choices::targets())]
         to: String,
     },
-    /// Write the module that a robot description (URDF) declares
+    /// Write the module or configuration that files of other programs declare
     #[command(
-        after_help = "Example:\n  modl import robots/arm.urdf -o robots\n\nThe module is written below the output folder, with \
-        links, joints, limits, masses and shapes, and a place for\nports. Meshes (STL, OBJ, OFF, PLY) become hulls."
+        after_help = "Examples:\n  modl import robots/arm.urdf -o robots\n  modl import walkbot.conf walkbot.gait\n\nURDF becomes \
+        a module, with links, joints, limits, masses and shapes, and a place for ports; meshes (STL, OBJ,\nOFF, PLY) become \
+        hulls. Configurations of the SMORES tools (.conf, .struct, VSPARC's XML) become\nconfigurations, and the motions \
+        (.gait, VSPARC's XML) named after them their behaviours. The program is\nwritten below the output folder, named after \
+        the first file. docs/exchange.md tells more."
     )]
     Import {
-        /// The description
-        #[arg(value_name = "FILE")]
-        file: PathBuf,
+        /// The robot, and motions of it
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
     },
     /// Say what a plan file holds, sample it, and hold it against the map of a robot
     #[command(

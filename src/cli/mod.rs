@@ -185,7 +185,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Verify { files } => judge::run(files, globals),
         Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
         Command::Export { files, to } => export::run(files, to, globals),
-        Command::Import { file } => import::run(file, globals),
+        Command::Import { files } => import::run(files, globals),
         Command::Plan { file, series, rate, map } => {
             plan::run(file, series.as_deref().map(|name| (name, *rate)), map.as_deref(), globals)
         }

@@ -1,4 +1,4 @@
-//! Plans and robots in the formats of other programs, and robots of other programs as modules of the language.
+//! Plans and robots in the formats of other programs, and robots of other programs as modules and configurations.
 //!
 //! A writer gets an [`Export`], a plan with its title and the stem of its file names, and returns whole files
 //! ([`ExportFile`]), or the [`Refusal`] that says why there are none. To add a format, write its file and add its line to
@@ -21,6 +21,7 @@ mod recording;
 mod refusal;
 mod ros_messages;
 pub mod series;
+mod smores;
 mod trajectory;
 mod urdf;
 mod urdf_masses;
@@ -29,8 +30,9 @@ mod urdf_shapes;
 
 pub use bundle::{FIRST_LINE, bundle};
 pub use export::{Export, ExportFile};
-pub use module_text::{Imported, import_urdf};
+pub use module_text::{ImportFile, Imported};
 pub use plan_formats::{PLAN_FORMATS, PlanFormat};
 pub use refusal::Refusal;
+pub use smores::{FaultIn, import};
 pub use trajectory::{Trajectory, TrajectoryPoint, trajectories};
 pub use urdf_reader::ImportFault;

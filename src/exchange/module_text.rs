@@ -7,10 +7,21 @@ use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3, hull};
 use std::collections::BTreeSet;
 
-/// A module made of a robot description.
+/// A file to be imported.
+#[derive(Clone, Debug)]
+pub struct ImportFile<'f> {
+    /// Its name, without folders.
+    pub name: &'f str,
+    /// Its text.
+    pub text: &'f str,
+}
+
+/// A module or configuration made of a file of another program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Imported {
-    /// The name of the module.
+    /// The word of the language for what it is: `module` or `config`.
+    pub what: &'static str,
+    /// The name of the module or configuration.
     pub module: String,
     /// The text of the program that declares it.
     pub text: String,
@@ -35,7 +46,7 @@ const TAKEN: &[&str] = &[
 ///
 /// # Errors
 /// The first [`ImportFault`] of the description.
-pub fn import_urdf(
+pub(super) fn import_urdf(
     text: &str,
     source: &str,
     open: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
@@ -43,7 +54,7 @@ pub fn import_urdf(
     let urdf = read(text, open)?;
     let mut writer = Writer::new(&urdf);
     let text = writer.text(source);
-    Ok(Imported { module: writer.module, text, notes: writer.notes })
+    Ok(Imported { what: "module", module: writer.module, text, notes: writer.notes })
 }
 
 /// The writer of a module.
@@ -63,8 +74,8 @@ struct Writer<'u> {
 impl<'u> Writer<'u> {
     fn new(urdf: &'u Urdf) -> Writer<'u> {
         let mut taken = BTreeSet::new();
-        let links = urdf.links.iter().map(|link| name_of(&link.name, &mut taken)).collect();
-        let joints = urdf.joints.iter().map(|joint| name_of(&joint.name, &mut taken)).collect();
+        let links = urdf.links.iter().map(|link| name_of(&link.name, "link", &mut taken)).collect();
+        let joints = urdf.joints.iter().map(|joint| name_of(&joint.name, "link", &mut taken)).collect();
         let order = urdf.in_order();
         let mut poses = vec![Pose::identity(); urdf.links.len()];
         for &(link, joint) in &order {
@@ -270,7 +281,7 @@ fn renamed(name: &str, original: &str) -> String {
 }
 
 /// Returns a number with the fewest digits that read back to it.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     let x = x + 0.0;
     let plain = format!("{x}");
     if plain.len() > 24 { format!("{x:e}") } else { plain }
@@ -303,7 +314,8 @@ fn direction(v: &Vec3) -> String {
 }
 
 /// Returns a name of the language for a name of a description, in lower case with `_`, which no other has.
-fn name_of(original: &str, taken: &mut BTreeSet<String>) -> String {
+/// `kind` stands before a name that could not begin so.
+pub(super) fn name_of(original: &str, kind: &str, taken: &mut BTreeSet<String>) -> String {
     let mut name = String::new();
     let mut lower_before = false;
     for c in original.chars() {
@@ -318,7 +330,7 @@ fn name_of(original: &str, taken: &mut BTreeSet<String>) -> String {
         name = name.replace("__", "_");
     }
     if name.is_empty() || name.starts_with(|c: char| c.is_ascii_digit()) || TAKEN.contains(&name.as_str()) {
-        name = format!("link_{name}").trim_end_matches('_').to_owned();
+        name = format!("{kind}_{name}").trim_end_matches('_').to_owned();
     }
     let numbered = (2..).map(|number| format!("{name}_{number}"));
     let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
@@ -328,7 +340,7 @@ fn name_of(original: &str, taken: &mut BTreeSet<String>) -> String {
 }
 
 /// Returns a name of the language for a module: words that begin in upper case, without anything between.
-fn type_name(original: &str) -> String {
+pub(super) fn type_name(original: &str) -> String {
     let words = original.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let upper = |word: &str| {
         let mut letters = word.chars();

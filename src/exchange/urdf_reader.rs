@@ -102,6 +102,13 @@ pub struct ImportFault {
     pub column: usize,
 }
 
+impl ImportFault {
+    /// Returns a fault of a file as a whole.
+    pub(super) fn of_file(message: impl Into<String>) -> ImportFault {
+        ImportFault { message: message.into(), line: 0, column: 0 }
+    }
+}
+
 impl fmt::Display for ImportFault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.message)

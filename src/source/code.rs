@@ -114,7 +114,7 @@ codes! {
     BAD_PLAN_FILE = "E0704", "a plan file that is not sound";
     NOT_EXPORTED = "E0705", "a plan that a format cannot hold";
     BAD_ROBOT_MAP = "E0706", "a robot map that does not fit the plan";
-    NOT_IMPORTED = "E0707", "a robot description that cannot be taken in";
+    NOT_IMPORTED = "E0707", "a robot of another program that cannot be taken in";
     // E08xx: planners.
     NO_WAY = "E0801", "shapes that no plan leads between";
     NOT_COVERED = "E0802", "a problem that the planner does not cover";

@@ -6,6 +6,8 @@ mod files;
 mod imports;
 mod maps;
 mod readers;
+mod smores;
+mod smores_motions;
 mod traps;
 
 use modl::exchange::{Export, ExportFile, PlanFormat};
