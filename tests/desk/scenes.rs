@@ -4,7 +4,7 @@ use crate::support::desk;
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 
-/// What a program starts with: a tank among others, and how far a port ends from a goal (mm and degrees).
+/// The beginning of a program: a tank among others, and how far a port ends from a goal (mm and degrees).
 const PRELUDE: &str = "use std.scenes.{Stance, chain_drive, chain_turn, drive_to, drive_and_dock, stance, tank_turn}\n\
     use std.smores.{Chain3, Tank7}\n\
     fn off(p: Port, b: Behavior, x: Length, y: Length, heading: Angle) -> Bool = {\n\

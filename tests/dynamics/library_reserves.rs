@@ -20,7 +20,7 @@ const STATES: &str = "Keeps a reserve of ";
 struct Stated {
     /// The library and the robot or scene: `smores.Car`.
     robot: String,
-    /// Whether it is a scene, in which no plan begins after a docking: what comes before is judged, too.
+    /// True for a scene, in which no plan begins after a docking: what comes before is judged, too.
     scene: bool,
     /// The behaviour as a call: `turn()`.
     call: String,

@@ -47,7 +47,7 @@ fn a_bundle_is_one_folder_whole_or_not_there() {
     assert_eq!(sandbox.run(&["export", "out/drive.plan.json", "--to", "bundle", "-o", "ex"]).code, 0);
     assert_eq!(listed(sandbox.path("ex/drive")), files);
     assert_eq!(listed(sandbox.path("ex")), ["drive"], "nothing else is left");
-    // What someone else put there stays.
+    // A file that someone else put there stays.
     fs::remove_file(sandbox.path("ex/drive/README.md")).expect("it is there");
     let ran = sandbox.run(&["export", "out/drive.plan.json", "--to", "bundle", "-o", "ex"]);
     assert_eq!(ran.code, 1);

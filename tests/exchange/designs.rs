@@ -10,7 +10,7 @@ use std::path::Path;
 /// Designs of each kind, for the gate: open and closed robots, robots with hinges between modules, a scene.
 const SAMPLE: [&str; 6] = ["Walk4", "TwoCars", "Snake", "Wheel", "Caterpillar", "Carrier"];
 
-/// What has no links and joints, as the end of a program.
+/// Plans without links and joints, each as the beginning of a program.
 const LATTICES_AND_TRUSSES: [&str; 2] = [
     "use std.crystal.ExpandingCube
 lattice A of ExpandingCube = row(4)
@@ -43,7 +43,7 @@ fn declared(file: &str) -> Vec<String> {
     names.collect()
 }
 
-/// What a program writes that saves `x` in a format, and what it is told.
+/// The files that a program writes that saves `x` in a format, and the diagnostics.
 fn saved(program: &str, ending: &str) -> (Desk, Vec<String>) {
     let (observed, desk, _) =
         run(&MapFiles::of(&format!("{program}\nsave(x, \"design.{ending}\")\n")), Mode::Run);
@@ -51,7 +51,7 @@ fn saved(program: &str, ending: &str) -> (Desk, Vec<String>) {
     (desk, said)
 }
 
-/// Whether a file begins as those of its format do.
+/// True if a file begins as those of its format do.
 fn begins_rightly(name: &str, bytes: &[u8]) -> bool {
     let start: &[u8] = match name.rsplit_once('.').expect("an ending").1 {
         "glb" => b"glTF",

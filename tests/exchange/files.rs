@@ -1,4 +1,4 @@
-//! What is in exported files, read here: trajectories and tables are the plan's motion, scenes have its poses.
+//! Exported files, read here: trajectories and tables are the plan's motion, scenes have its poses.
 #![allow(non_snake_case)]
 
 use super::{exported, planned, text};

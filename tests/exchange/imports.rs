@@ -156,7 +156,7 @@ fn descriptions_come_in_and_leave_with_the_same_kinematics() {
     }
 }
 
-/// How far apart two descriptions place any link and the centre of mass; what Python says where it does not come so far.
+/// The greatest distance of a link or the centre of mass in two descriptions, m; the error where Python has one.
 fn apart(python: &Path, first: &Path, second: &Path) -> Result<f64, String> {
     let output = Command::new(python).args(["-c", COMPARE]).arg(first).arg(second).output();
     let output = output.expect("Python runs, it has before");

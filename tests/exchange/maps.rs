@@ -29,7 +29,7 @@ fn sandbox() -> (Sandbox, Plan) {
     (sandbox, file::read(&text).expect("a plan that was written is read"))
 }
 
-/// What a motor is told at a time by the page's map: the joint's position in the plan, turned and moved by hand.
+/// The command to a motor at a time by the page's map: the joint's position in the plan, turned and moved by hand.
 fn expected(plan: &Plan, channel: usize, t: f64) -> f64 {
     let tracks = plan.body.tracks().expect("it has joints");
     let (joint, sign, zero) =

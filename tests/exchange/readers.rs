@@ -87,7 +87,7 @@ fn positions(robot: &Assembly, numbers: &mut Numbers) -> Vec<f64> {
     all
 }
 
-/// What readers must find in a description of the robot with these bonds: joints, and of each link the orientation and the
+/// The answers that readers must give of a description of the robot with these bonds: joints, and of each link the orientation and the
 /// centre of mass in the frame of the root, by our own kinematics.
 fn states(robot: &Assembly, holds: &[bool], root: usize, numbers: &mut Numbers) -> Vec<Value> {
     let kinematics = Kinematics::new(robot, holds, root);

@@ -83,6 +83,5 @@ scene Two { part a: Rofi  part b: Rofi at [1m, 0m, 0m] }
 save(Two(), "two.rofi.json")
 //   ^^^^^ E0506 `Two` is a scene: a file of RoFI's has one robot
 save(Two(), "two.mjcf.xml")
-//   ^^^^^ E0506 a model for MuJoCo has one robot and nothing around it
 print(footprint(Two()))
 //              ^^^^^ E0506 a scene has several robots
