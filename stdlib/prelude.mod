@@ -1780,6 +1780,12 @@ extern type State {
   fn contacts() -> List<Contact>?
   /// The pose of a module's body or of a port in the world.
   fn pose(of: Module | Port) -> Pose
+
+  /// The state of one of the robots of a scene: of its joints and modules alone.
+  ///
+  /// Its `base` and `com` are the robot's own; `margin` and `clearance` are its own with what is docked with it, and
+  /// `clearance` counts what is near it. `plan(behaviour, from: p.end.of(s.a))` begins a behaviour of that robot alone there.
+  fn of(robot: Config) -> State
 }
 
 /// A force of the ground on a robot.

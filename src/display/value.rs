@@ -127,7 +127,7 @@ impl Interpreter<'_> {
                 planned.actions()
             ),
             Record::Report(verdict, headline) => verdicts::in_words(verdict, headline),
-            Record::State(state) => format!("a state of {}", state.robot.name),
+            Record::State(state) => state.in_words(),
             Record::World(world) => format!(
                 "ground {:?}{}, gravity {}, friction {}",
                 world.ground,

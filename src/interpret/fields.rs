@@ -138,10 +138,7 @@ fn texts(texts: impl IntoIterator<Item = String>) -> Value {
 const STATE: &[Field<StateValue>] = &[
     ("time", |state| Value::time(state.time)),
     ("base", |state| Value::Pose(Rc::new(state.base()))),
-    ("com", |state| {
-        let (com, _) = state.body.centre_of(&state.poses());
-        Value::Vec3(com, Dimension::LENGTH)
-    }),
+    ("com", |state| Value::Vec3(state.centre_of_mass(), Dimension::LENGTH)),
     ("margin", |state| length_if(state.judged(Detail::Stance, |known| known.margin).flatten())),
     ("clearance", |state| length_if(state.clearance())),
 ];

@@ -8,6 +8,7 @@ use crate::plan::verify::articulated::{self, Detail, Instant};
 use crate::plan::{CauseId, Plan, Settings, Verdict, World, WorldFrom};
 use std::any::Any;
 use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// A plan with what the language knows about it: its robot, causes and verdict.
@@ -28,10 +29,11 @@ pub struct PlanValue {
     instance: OnceCell<Rc<Instance>>,
     /// The verdicts so far.
     pub(super) judged: RefCell<Vec<Judged>>,
-    /// The judge's quantities at the times that were asked for last: without loads, and with them.
-    instants: RefCell<[AtTimes<Instant>; 2]>,
-    /// The least distances of links that may not touch at the times that were asked for last, m.
-    clearances: RefCell<AtTimes<Option<f64>>>,
+    /// The judge's quantities of the plan's base and of each robot at the times that were asked for last: without loads, and
+    /// with them.
+    instants: RefCell<BTreeMap<Option<usize>, [AtTimes<Instant>; 2]>>,
+    /// The least distances of links that may not touch at the times that were asked for last, m, of all robots and of each.
+    clearances: RefCell<BTreeMap<Option<usize>, AtTimes<Option<f64>>>>,
     /// True if the robot comes apart; empty until it is asked for.
     comes_apart: OnceCell<bool>,
 }
@@ -148,11 +150,12 @@ impl PlanValue {
 
     /// Returns the judge's quantities at these times (s, ascending), one instant for each; fewer if the limit of
     /// samples is reached before the last. Kept for the next call with the same times. `detail`: the quantities that
-    /// are computed.
-    pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail) -> Rc<Vec<Instant>> {
-        let kept = &mut self.instants.borrow_mut()[usize::from(detail == Detail::Loads)];
+    /// are computed; `robot`: the base of the robot that is meant, by its index, `None` for that of the plan.
+    pub fn instants(&self, times: &Rc<Vec<f64>>, detail: Detail, robot: Option<usize>) -> Rc<Vec<Instant>> {
+        let mut all = self.instants.borrow_mut();
+        let kept = &mut all.entry(robot).or_default()[usize::from(detail == Detail::Loads)];
         if kept.0 != *times {
-            *kept = (times.clone(), Rc::new(articulated::instants(&self.plan, times, detail)));
+            *kept = (times.clone(), Rc::new(articulated::instants(&self.plan, times, detail, robot)));
         }
         kept.1.clone()
     }
@@ -164,11 +167,12 @@ impl PlanValue {
 
     /// Returns the least signed distance of links that may not touch at each of these times (s), m; `None` where there
     /// are no two such links. Empty for a plan that is not of an articulated robot, or is not valid. Kept for the next
-    /// call with the same times.
-    pub fn clearances(&self, times: &Rc<Vec<f64>>) -> Rc<Vec<Option<f64>>> {
-        let mut kept = self.clearances.borrow_mut();
+    /// call with the same times. `robot`: the base of the robot that is meant, by its index, `None` for all.
+    pub fn clearances(&self, times: &Rc<Vec<f64>>, robot: Option<usize>) -> Rc<Vec<Option<f64>>> {
+        let mut all = self.clearances.borrow_mut();
+        let kept = all.entry(robot).or_default();
         if kept.0 != *times {
-            let found = articulated::clearances_at(&self.plan, times).unwrap_or_default();
+            let found = articulated::clearances_at(&self.plan, times, robot).unwrap_or_default();
             *kept = (times.clone(), Rc::new(found));
         }
         kept.1.clone()

@@ -373,7 +373,7 @@ pub fn state_value(
     let time = times[own];
     let Snapshot::Robot(state) = planned.plan.body.state(time) else { return None };
     let (robot, planned, among) = (planned.robot.clone(), planned.clone(), (times.clone(), own));
-    Some(StateValue { robot, body, state, time, planned, base, among })
+    Some(StateValue { robot, body, state, time, planned, base, among, only: None })
 }
 
 /// Returns the corners of the support polygon of a robot that stands at rest in its start state on level ground under

@@ -1,7 +1,7 @@
 //! Records: values with fields, of a program's own declarations or given back by built-ins, and how each field
 //! is read.
 
-use super::design::Design;
+use super::design::{Design, Instance};
 use super::plan_value::PlanValue;
 use super::robot::Robot;
 use super::value::Value;
@@ -70,11 +70,24 @@ pub struct StateValue {
     pub time: f64,
     /// The plan that the state was taken from.
     pub planned: Rc<PlanValue>,
-    /// The pose `X_WB` of the base in the world; empty until it is asked for.
+    /// The pose `X_WB` of the plan's base in the world; empty until it is asked for.
     pub base: OnceCell<Pose>,
     /// The times (s) of the states that were made together with this one, and the index of its own time among them,
     /// from 0.
     pub among: (Rc<Vec<f64>>, usize),
+    /// The robot that the state is of; `None` for all robots of the plan.
+    pub only: Option<Rc<OneRobot>>,
+}
+
+/// One of the robots with which a plan begins.
+#[derive(Debug)]
+pub struct OneRobot {
+    /// The robot as the program names it: an instance with its base.
+    pub instance: Rc<Instance>,
+    /// The module that is its base, by its index in the plan's robot.
+    pub reference: usize,
+    /// Its modules, by their indices in the plan's robot, ascending.
+    pub modules: Vec<usize>,
 }
 
 /// The name of a field of a record, with the function that reads its value.
@@ -99,14 +112,50 @@ pub fn first_world(plan: &Plan) -> World {
 
 impl std::fmt::Debug for StateValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a state of {}", self.robot.name)
+        f.write_str(&self.in_words())
     }
 }
 
 impl StateValue {
+    /// Returns the state in words, as `print` shows it.
+    pub fn in_words(&self) -> String {
+        match &self.only {
+            Some(one) => format!("a state of {} in {}", one.instance.path, self.robot.name),
+            None => format!("a state of {}", self.robot.name),
+        }
+    }
+
+    /// Returns the state of one of its robots at the same time.
+    pub fn of(&self, robot: OneRobot) -> StateValue {
+        StateValue {
+            robot: self.robot.clone(),
+            body: self.body.clone(),
+            state: self.state.clone(),
+            time: self.time,
+            planned: self.planned.clone(),
+            base: OnceCell::new(),
+            among: self.among.clone(),
+            only: Some(Rc::new(robot)),
+        }
+    }
+
+    /// Returns true if the state is one of this module, too, by its index in the plan's robot.
+    pub fn has(&self, module: usize) -> bool {
+        self.only.as_ref().is_none_or(|one| one.modules.binary_search(&module).is_ok())
+    }
+
+    /// Returns the centre of mass in the world, m, of the robot or the robots that the state is of.
+    pub fn centre_of_mass(&self) -> Vec3 {
+        let poses = self.poses();
+        match &self.only {
+            Some(one) => self.body.centre_of_modules(one.modules.iter().copied(), &poses).0,
+            None => self.body.centre_of(&poses).0,
+        }
+    }
+
     /// Returns the poses `X_WL` of all links in the world (metres), by their numbers in the kinematics.
     pub fn poses(&self) -> Vec<Pose> {
-        let stood = self.base();
+        let stood = self.base_of_plan();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
         if self.planned.comes_apart()
             && let Some(paths) = ClusterPaths::of(&self.planned.plan, self.time)
@@ -128,20 +177,33 @@ impl StateValue {
     /// get there. States that were made together are computed together. `detail`: the quantities that are computed.
     pub fn judged<T>(&self, detail: Detail, read: impl FnOnce(&Instant) -> T) -> Option<T> {
         let (times, own) = &self.among;
-        self.planned.instants(times, detail).get(*own).map(read)
+        self.planned.instants(times, detail, self.reference()).get(*own).map(read)
     }
 
     /// Returns the least signed distance, at the time of the state, of links that may not touch, m; `None` where
     /// there are no two such links, or the plan is not valid.
     pub fn clearance(&self) -> Option<f64> {
         let (times, own) = &self.among;
-        self.planned.clearances(times).get(*own).copied().flatten()
+        self.planned.clearances(times, self.reference()).get(*own).copied().flatten()
     }
 
-    /// Returns the world pose `X_WB` of the base module's body, m. If any world of the plan has ground, it is the
+    /// Returns the base of the robot that the state is of; `None` for all robots.
+    fn reference(&self) -> Option<usize> {
+        self.only.as_ref().map(|one| one.reference)
+    }
+
+    /// Returns the world pose `X_WB` of the base module's body, m: of the robot that the state is of, or of the plan.
+    pub fn base(&self) -> Pose {
+        match self.reference() {
+            Some(reference) => self.body.kinematics.module_pose(reference, &self.poses()),
+            None => self.base_of_plan(),
+        }
+    }
+
+    /// Returns the world pose `X_WB` of the body of the plan's base, m. If any world of the plan has ground, it is the
     /// judge's: that of its last sample up to the time of this state, with the standing, rolling and tipping until
     /// then. Otherwise, or if the plan is not valid, it is the pose in the state.
-    pub fn base(&self) -> Pose {
+    fn base_of_plan(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {
             if !grounded {

@@ -63,8 +63,13 @@ impl Robot {
         if self.start.clusters.is_empty() {
             return self.kinematics.centre_of_mass(&self.assembly, poses);
         }
+        self.centre_of_modules(0..self.assembly.modules.len(), poses)
+    }
+
+    /// Returns (centre, mass) of some modules, given by their indices, as [`centre_of`](Self::centre_of) does of all.
+    pub fn centre_of_modules(&self, modules: impl Iterator<Item = usize>, poses: &[Pose]) -> (Vec3, f64) {
         let (mut moment, mut mass) = (Vec3::zeros(), 0.0);
-        for module in 0..self.assembly.modules.len() {
+        for module in modules {
             for (link, declared) in
                 self.kinematics.links_of(module).zip(&self.assembly.module_type(module).links)
             {

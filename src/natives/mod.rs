@@ -34,6 +34,7 @@ pub mod folding;
 mod list;
 mod math;
 mod mesh_file;
+mod one_robot;
 mod plan;
 pub mod plot;
 pub mod refold;
@@ -86,6 +87,7 @@ const SUBJECTS: &[Subject] = &[
     natives(waypoints::TABLE),
     natives(action::TABLE),
     natives(plan::TABLE),
+    natives(one_robot::TABLE),
     natives(fastest::TABLE),
     natives(show::TABLE),
     Subject { natives: simulate::TABLE, records: simulate::records },

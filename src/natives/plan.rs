@@ -1,6 +1,7 @@
 //! Built-ins that plan, judge, print and write.
 
 use super::Native;
+use super::one_robot;
 use super::show::Form;
 use crate::behavior::{self, Problem};
 use crate::geometry::HeightField;
@@ -17,9 +18,7 @@ use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Behavior, Value};
 use crate::interpret::verdicts::failure_line;
 use crate::plan::verify::articulated;
-use crate::plan::{
-    self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, Verdict, World,
-};
+use crate::plan::{self, CauseId, DynamicsModel, Ground, Node, Plan, Provenance, Settings, Stability, World};
 use crate::robot::{Assembly, State};
 use crate::source::{Diagnostic, Span, code, files};
 use crate::view;
@@ -52,7 +51,6 @@ pub(super) const TABLE: &[Native] = &[
         parameters![what: &Value, sample: Positive, unstable_for: f64, stability: Stability, world: Option<World>, reserve: f64, slip_max: Option<f64>],
         verify,
     ),
-    Native::on_run("Report.of", parameters![self: &Rc<Verdict>, robot: &Rc<Instance>], report_of),
     Native::on_run("Plan.at", parameters![self: &Value, time: f64], plan_at),
     Native::on_run("Plan.slice", parameters![self: &Value, times: (f64, f64)], plan_slice),
 ];
@@ -130,11 +128,18 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let behavior = call.get::<&Rc<Behavior>>("behavior")?.clone();
     let mut beginning = Beginning::default();
     if let Some(state) = call.get::<Option<&StateValue>>("from")? {
-        interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
-        let mut start = state.state.clone();
-        if let Some((base, clusters)) = articulated::standing(&state.planned.plan, state.time) {
-            (start.base, start.clusters) = (base, clusters);
-        }
+        let start = match &state.only {
+            Some(one) => one_robot::beginning(interpreter, call, &behavior, (state, one))?,
+            None => {
+                interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
+                let mut start = state.state.clone();
+                if let Some((base, clusters)) = articulated::standing(&state.planned.plan, state.time) {
+                    (start.base, start.clusters) = (base, clusters);
+                }
+                Some(start)
+            }
+        };
+        let Some(start) = start else { return Ok(Value::Unknown) };
         beginning.start = Some(start);
     }
     beginning.world = call.get("world")?;
@@ -250,33 +255,6 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     interpreter.note_exemptions(&planned, &verdict);
     let headline = plan::headline_under(&planned.plan, &planned.worlds_in(world), &verdict);
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
-}
-
-/// Runs `Report.of`: the report on one of the robots of a scene.
-///
-/// # Errors
-/// A fault where the plan has no robot to which the modules belong.
-fn report_of(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let (verdict, robot) = (call.get::<&Rc<Verdict>>("self")?, call.get::<&Rc<Instance>>("robot")?);
-    let names: Vec<String> = robot
-        .modules
-        .indices(robot.design.module_count())
-        .map(|module| robot.robot.module_name(module).to_string())
-        .collect();
-    let found = verdict.robots.iter().find(|one| names.contains(&one.reference));
-    let Some(found) = found else {
-        let known: Vec<String> =
-            verdict.robots.iter().map(|one| format!("the robot of `{}`", one.reference)).collect();
-        let message = format!("`{}` is no robot with which the scene of this report begins", robot.path);
-        let diagnostic =
-            Diagnostic::error(code::BAD_VALUE, message).label(call.at("robot"), "none of the report's");
-        return Err(match known.is_empty() {
-            true => diagnostic.hint("the report is on one robot: ask it itself").into(),
-            false => diagnostic.hint(format!("it is about {}", known.join(", "))).into(),
-        });
-    };
-    let headline = if found.verdict.ok() { "verified" } else { "not verified" };
-    Ok(Value::Record(Rc::new(Record::Report(Rc::new(found.verdict.clone()), headline.to_owned()))))
 }
 
 /// Runs `emit`: writes the plan with its verdict, and a page of it if the run draws pages. Of a plan that fails

@@ -1,6 +1,7 @@
 //! Built-ins that ask about robots, lattices and trusses.
 
 use super::Native;
+use super::one_robot::{has_joint, has_modules};
 use crate::geometry::{Pose, Vec3};
 use crate::interpret::argument::parameters;
 use crate::interpret::design::{Design, DesignKind, Instance, Subject, port_ref};
@@ -222,6 +223,7 @@ fn rigidity(_: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn state_position(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    has_joint(call, state, joint)?;
     let id = state.body.joint(joint);
     Ok(Value::Quantity(state.state.joints[id.0 as usize], joint.dimension))
 }
@@ -248,5 +250,10 @@ fn state_pose(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let state = call.get::<&StateValue>("self")?;
     let (robot, frame) = frame(call.get::<&Value>("of")?);
     interpreter.common_robot(Some(&state.robot), Some(&robot), call.span)?;
+    let module = match frame {
+        MovingFrame::Module(module) => module,
+        MovingFrame::Port(port) => port.module,
+    };
+    has_modules(call, state, "of", &[module])?;
     Ok(Value::Pose(Rc::new(pose_in(state, frame))))
 }

@@ -1,6 +1,7 @@
 //! Time series of plans: values of signals, and states.
 
 use super::Native;
+use super::one_robot::{has_joint, has_modules};
 use super::robot::pose_in;
 use super::sequence::STEP_ROUNDING;
 use crate::geometry::pose::lean;
@@ -136,7 +137,7 @@ fn states<'p>(
 /// # Errors
 /// A fault where the judge took all samples that are allowed before the last time.
 fn instants(call: &Call, plan: &PlanValue, times: &Rc<Vec<f64>>, detail: Detail) -> Eval<Rc<Vec<Instant>>> {
-    let instants = plan.instants(times, detail);
+    let instants = plan.instants(times, detail, None);
     if instants.len() == times.len() {
         return Ok(instants);
     }
@@ -210,7 +211,7 @@ fn plan_series(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             };
             return Ok(Value::list(states(&plan, &times, &known).map(value).collect()));
         }
-        Measure::Clearance => (plan.clearances(&times).to_vec(), Dimension::LENGTH),
+        Measure::Clearance => (plan.clearances(&times, None).to_vec(), Dimension::LENGTH),
         Measure::Margin => (judged(Detail::Stance, |known, _| known.margin)?, Dimension::LENGTH),
         Measure::GroundForce(_) => (judged(Detail::Loads, normal_force)?, Dimension::FORCE),
     };
@@ -282,6 +283,7 @@ fn unknown(call: &Call, plan: &PlanValue, measure: &Measure, time: f64) -> Stop 
 fn state_speed(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    has_joint(call, state, joint)?;
     let tracks = state.planned.plan.body.tracks().expect("a state is one of a robot");
     let speed = speed(tracks, state.body.joint(joint), state.time);
     Ok(Value::Quantity(speed, speed_dimension(joint.dimension)))
@@ -290,6 +292,7 @@ fn state_speed(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn state_effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, joint) = (call.get::<&StateValue>("self")?, call.get::<&JointValue>("joint")?);
     interpreter.common_robot(Some(&state.robot), Some(&joint.robot), call.span)?;
+    has_joint(call, state, joint)?;
     let dimension = effort_dimension(joint.dimension);
     let joint = Measure::Sensed(Signal::Effort(state.body.joint(joint)));
     let known = state.judged(Detail::Loads, |known| effort_of(known, &joint)).flatten();
@@ -299,6 +302,7 @@ fn state_effort(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
 fn state_ground_force(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let (state, on) = (call.get::<&StateValue>("self")?, call.get::<&Rc<Instance>>("on")?);
     interpreter.common_robot(Some(&state.robot), Some(&on.robot), call.span)?;
+    has_modules(call, state, "on", &modules_of(on))?;
     let modules = Measure::GroundForce(modules_of(on));
     let known = state.judged(Detail::Loads, |known| normal_force(known, &modules)).flatten();
     Ok(Value::optional(known.map(|force| Value::Quantity(force, Dimension::FORCE))))
@@ -306,9 +310,10 @@ fn state_ground_force(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
 
 fn state_contacts(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let state = call.get::<&StateValue>("self")?;
-    let Some(forces) = state.judged(Detail::Loads, |known| known.forces.clone()).flatten() else {
+    let Some(mut forces) = state.judged(Detail::Loads, |known| known.forces.clone()).flatten() else {
         return Ok(Value::Missing);
     };
+    forces.retain(|push| state.has(push.module));
     let contact = |push: &GroundForce| {
         let module = state.body.assembly.modules[push.module].name.clone();
         Value::Record(Rc::new(Record::Native(Rc::new(Contact { module, push: *push }))))

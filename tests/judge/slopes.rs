@@ -35,7 +35,7 @@ fn plan(degrees: &str, dynamics: &str) -> Plan {
 /// Returns the effort of each joint at some times.
 fn efforts(plan: &Plan) -> Vec<Vec<f64>> {
     let times: Vec<f64> = (0..=20).map(|i| 0.1 * f64::from(i)).collect();
-    let found = instants(plan, &times, Detail::Loads);
+    let found = instants(plan, &times, Detail::Loads, None);
     found.iter().map(|i| i.efforts.iter().map(|e| e.expect("known")).collect()).collect()
 }
 

@@ -85,3 +85,68 @@ save(Two(), "two.rofi.json")
 save(Two(), "two.mjcf.xml")
 print(footprint(Two()))
 //              ^^^^^ E0506 a scene has several robots
+
+--- the state of one robot of a scene is that of its own joints, centre of mass, support and surroundings
+module Slider {
+  link body = box(100mm, 100mm, 100mm, mass: 3kg)
+  link rod = box(20mm, 20mm, 20mm, mass: 1kg) at [80mm, 0mm, 0mm]
+  joint out : body -> rod = prismatic(axis: X, range: 0mm..100mm, max_speed: 1m/s, max_accel: 1m/s^2) at [80mm, 0mm, 0mm]
+}
+scene Three {
+  part a: Slider
+  part b: Slider at [300mm, 0mm, 0mm]
+  part c: Slider at [300mm, 500mm, 0mm]
+  obstacle ball = sphere(10mm) at [300mm, 600mm, 50mm]
+  world(dynamics: statics)
+}
+let yard = Three()
+let p = plan(move(yard.a.out, to: 40mm, in: 1s))
+// The rod, a quarter of the mass, moves the centre of mass by a quarter of its way, from 20mm to 30mm of the 50mm to the edge.
+for at in [p.start, p.end] {
+  print("{at.of(yard.a).com.x in mm:.3}", "{at.of(yard.b).com.x in mm:.3}", "{at.of(yard.b).base.position.x in mm:.3}")
+  print("{at.of(yard.a).margin in mm:.3}", "{at.of(yard.b).margin in mm:.3}", at.of(yard.a).displacement(yard.a.out))
+  print("{at.of(yard.a).clearance in mm:.3}", "{at.of(yard.b).clearance in mm:.3}", "{at.of(yard.c).clearance in mm:.3}", "{at.clearance in mm:.3}")
+}
+//> 20.000mm 320.000mm 300.000mm
+//> 30.000mm 30.000mm 0mm
+//> 160.000mm 160.000mm 40.000mm 40.000mm
+//> 30.000mm 320.000mm 300.000mm
+//> 20.000mm 30.000mm 40mm
+//> 120.000mm 120.000mm 40.000mm 40.000mm
+let force = p.end.of(yard.c).ground_force(yard.c) else 0N
+print(p.end.of(yard.a), abs(force - 4 * 9.80665N) < 1e-6N)
+//> a state of a in Three true
+print([f.module for f in p.end.of(yard.c).contacts() else [] if f.point.x > 300mm])
+//> [c, c]
+let lone = Slider()
+let back = plan(move(lone.out, to: 0mm, in: 1s), from: p.end.of(yard.a))
+print(back.start.displacement(lone.out), plan(move(yard.b.out, to: 10mm), from: p.end).start.displacement(yard.a.out))
+//> 40mm 40mm
+
+--- a state is of one of the robots with which its scene begins
+module Slider {
+  link body = box(100mm, 100mm, 100mm, mass: 3kg)
+  link rod = box(20mm, 20mm, 20mm, mass: 1kg) at [80mm, 0mm, 0mm]
+  joint out : body -> rod = prismatic(axis: X, range: 0mm..100mm, max_speed: 1m/s, max_accel: 1m/s^2) at [80mm, 0mm, 0mm]
+}
+scene Two { part a: Slider  part b: Slider at [300mm, 0mm, 0mm] }
+let yard = Two()
+let lone = Slider()
+let p = plan(move(yard.a.out, to: 40mm, in: 1s))
+let q = plan(move(lone.out, to: 40mm, in: 1s))
+print(p.end.of(yard))
+//             ^^^^ E0506 `Two` is 2 robots: a state `of` is of one
+print(p.end.of(lone))
+//             ^^^^ E0506 `Slider` is no robot with which the scene of this state begins
+print(q.end.of(lone))
+//             ^^^^ E0506 `Slider` is no robot with which the scene of this state begins
+print(p.end.of(yard.a).of(yard.b))
+//                        ^^^^^^ E0506 `b` is no robot with which the scene of this state begins
+print(p.end.of(yard.a).displacement(yard.b.out))
+//                                  ^^^^^^^^^^ E0506 `b` is not of `a`, whose state this is
+print(p.end.of(yard.a).pose(yard.b))
+//                          ^^^^^^ E0506 `b` is not of `a`, whose state this is
+print(plan(move(yard.b.out, to: 40mm, in: 1s), from: p.end.of(yard.a)))
+//                                                   ^^^^^^^^^^^^^^^^ E0406 this is the state of `a` alone, and the behaviour is not one of `a` alone
+print(verify(p).of(yard))
+//                 ^^^^ E0506 `Two` is 2 robots: a report `of` is of one

@@ -50,15 +50,7 @@ pub(super) fn judge(
     times.retain(|time| !alone(*time));
     let pairs_of: Vec<(&Cluster, &BasePath)> = clusters.iter().zip(paths).collect();
     let mut placed = PlacedClusters::new(tracks, pairs_of, rollout.tolerances);
-    let numbers = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
-    let mut links = PlacedLinks {
-        tracks,
-        bodies: &bodies,
-        explained: explained(tracks, clusters, &bodies),
-        poses: vec![Pose::identity(); numbers.link_count()],
-        numbers,
-        found: BTreeMap::new(),
-    };
+    let mut links = PlacedLinks::new(tracks, &bodies, explained(tracks, clusters, &bodies));
     let mut balls = ClusterBalls::new(tracks, clusters, paths, &bodies);
     let mut unproved = 0;
     for &time in &times {
@@ -97,6 +89,41 @@ pub(super) fn judge(
         None => Status::Sampled(times.len()),
     };
     ledger.check(CheckKind::Collision, status);
+}
+
+/// Returns the least signed distance of links of two clusters, or of a cluster and an obstacle, m, for each of `times` (s);
+/// `None` where there are no two. Only those pairs count of which one cluster is `meant`. `None` instead of the list for a shape
+/// that is not sound. `rollout`: that of the whole plan; `paths`: those of the clusters' bases, one for each, with samples.
+pub(super) fn distances_at(
+    rollout: &Rollout,
+    (clusters, paths): (&[Cluster], &[BasePath]),
+    times: &[f64],
+    meant: impl Fn(&Cluster) -> bool,
+) -> Option<Vec<Option<f64>>> {
+    let tracks = &with_obstacles(rollout.tracks);
+    let bodies = Bodies::of_plan(tracks).ok()?;
+    let pairs_of: Vec<(&Cluster, &BasePath)> = clusters.iter().zip(paths).collect();
+    let mut placed = PlacedClusters::new(tracks, pairs_of, rollout.tolerances);
+    let mut links = PlacedLinks::new(tracks, &bodies, BTreeMap::new());
+    let obstacles: Vec<usize> = (rollout.tracks.robot.modules.len()..tracks.robot.modules.len()).collect();
+    let mut at = |time: f64| {
+        interrupt::checkpoint();
+        let existing = placed.place(time, &mut links.poses);
+        let mut ledger = Ledger::new(&[], rollout.end);
+        for (i, &a) in existing.iter().enumerate() {
+            let a = &clusters[a];
+            let others = existing[i + 1..].iter().map(|b| &clusters[*b]);
+            let others = others.filter(|b| meant(a) || meant(b)).flat_map(|b| &b.modules);
+            let solid = obstacles.iter().filter(|_| meant(a));
+            for &y in others.chain(solid) {
+                a.modules.iter().for_each(|x| {
+                    links.observe((*x, y), time, 0.0, &mut ledger);
+                });
+            }
+        }
+        ledger.verdict.clearance.map(|worst| worst.value)
+    };
+    Some(times.iter().map(|time| at(*time)).collect())
 }
 
 /// Returns a plan's tracks whose robot has one more module for each obstacle, after all others: one link without joints.
@@ -202,7 +229,19 @@ struct PlacedLinks<'a> {
     found: BTreeMap<(usize, usize), Collision>,
 }
 
-impl PlacedLinks<'_> {
+impl<'a> PlacedLinks<'a> {
+    /// Returns the links of a plan's robot before they have a place. `explained`: the depths to which modules may overlap
+    /// beyond what all may, m, by their indices.
+    fn new(
+        tracks: &'a Tracks,
+        bodies: &'a Bodies,
+        explained: BTreeMap<(usize, usize), f64>,
+    ) -> PlacedLinks<'a> {
+        let numbers = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
+        let poses = vec![Pose::identity(); numbers.link_count()];
+        PlacedLinks { tracks, bodies, explained, numbers, poses, found: BTreeMap::new() }
+    }
+
     /// Takes the distances of the links of two modules at a time (s): keeps the least in the verdict, and the deepest
     /// collision that no exemption excuses. Returns the least, m, exact if it is less than `moved` (m).
     fn observe(&mut self, (x, y): (usize, usize), time: f64, moved: f64, ledger: &mut Ledger) -> f64 {

@@ -1,10 +1,17 @@
 //! Clearance curves and collision points for those who draw them. Nothing is judged here.
 
 use super::advancement::Advancement;
+use super::base_path::BasePath;
+use super::between_clusters;
 use super::bodies::{Bodies, Body};
 use super::bonded::{BondedLinks, NominalOverlaps};
+use super::cluster_paths::roll_out_path;
+use super::clusters::Cluster;
 use super::history::base_at;
-use super::tolerances::Precision;
+use super::parted;
+use super::rollout::Rollout;
+use super::succession;
+use super::tolerances::{Precision, Tolerances};
 use crate::geometry::distance::signed_distance;
 use crate::geometry::{Pose, Vec3, contact_point};
 use crate::interrupt;
@@ -32,20 +39,50 @@ pub fn clearances(plan: &Plan, until: f64, count: usize) -> Vec<(f64, f64)> {
     let afforded = PAIRS_MAX / (modules * modules).max(1);
     let count = count.min(afforded.max(POINTS_MIN)).max(1);
     let times: Vec<f64> = (0..=count).map(|i| until * i as f64 / count as f64).collect();
-    let found = at_times(tracks, &times).into_iter().flatten();
+    let found = at_times(plan, tracks, &times, None).into_iter().flatten();
     times.iter().zip(found).filter_map(|(time, distance)| Some((*time, distance?))).collect()
 }
 
 /// Returns the least signed distance of links that may not touch, m, for each of `times` (s) in their order, `None`
 /// if there are no two such links. `None` instead of the list for a plan that is not of an articulated robot or not
-/// valid, and for a robot with a shape that is not sound.
-pub fn clearances_at(plan: &Plan, times: &[f64]) -> Option<Vec<Option<f64>>> {
+/// valid, and for a robot with a shape that is not sound. Of several robots and obstacles it is the least of all, or with
+/// `reference`, a module by its index in the plan's robot, of the robot that has it, with what is docked with it.
+pub fn clearances_at(plan: &Plan, times: &[f64], reference: Option<usize>) -> Option<Vec<Option<f64>>> {
     let Form::Tracks(tracks) = &plan.body else { return None };
     validation::check(plan).ok()?;
-    at_times(tracks, times)
+    at_times(plan, tracks, times, reference)
 }
 
-fn at_times(tracks: &Tracks, times: &[f64]) -> Option<Vec<Option<f64>>> {
+/// As [`clearances_at`], of a valid plan, whose body is `tracks`.
+fn at_times(
+    plan: &Plan,
+    tracks: &Tracks,
+    times: &[f64],
+    reference: Option<usize>,
+) -> Option<Vec<Option<f64>>> {
+    let tolerances = Tolerances::default();
+    let rollout = Rollout::of(plan, tracks, &tolerances);
+    let Some(mut clusters) = parted::clusters(&rollout) else { return of_one(tracks, times) };
+    let until = times.iter().copied().fold(0.0, f64::max);
+    let paths = succession::follow(&rollout, &mut clusters, until, &mut |begun| {
+        roll_out_path(begun.rollout(&rollout), until)
+    });
+    let followed = clusters.into_iter().zip(paths).filter(|(_, path)| !path.poses.is_empty());
+    let (clusters, paths): (Vec<Cluster>, Vec<BasePath>) = followed.unzip();
+    let meant = |cluster: &Cluster| reference.is_none_or(|module| cluster.modules.contains(&module));
+    let mut found = between_clusters::distances_at(&rollout, (&clusters, &paths), times, meant)?;
+    for cluster in clusters.iter().filter(|cluster| meant(cluster)) {
+        let its: Vec<usize> = (0..times.len()).filter(|index| cluster.exists(times[*index])).collect();
+        let at: Vec<f64> = its.iter().map(|index| times[*index]).collect();
+        for (index, own) in its.into_iter().zip(of_one(&cluster.tracks, &at)?) {
+            found[index] = found[index].into_iter().chain(own).reduce(f64::min);
+        }
+    }
+    Some(found)
+}
+
+/// Returns the distances of [`clearances_at`] of the robot with the base of `tracks`.
+fn of_one(tracks: &Tracks, times: &[f64]) -> Option<Vec<Option<f64>>> {
     let bodies = Bodies::of_plan(tracks).ok()?;
     let mut advancement = Advancement::new(tracks, &bodies, Precision::default(), usize::MAX);
     let at = |time: &f64| {

@@ -3,9 +3,10 @@
 use super::base_path::BasePath;
 use super::clusters::Cluster;
 use super::history::base_at;
-use super::parted::{self, Beginning, Past};
+use super::parted;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::{Rollout, roll_out};
+use super::succession;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
@@ -78,18 +79,10 @@ impl<'a> ClusterPaths<'a> {
         let tolerances = Tolerances::default();
         let rollout = Rollout::of(plan, tracks, &tolerances);
         let mut clusters = parted::clusters(&rollout)?;
-        let mut past = Past::default();
-        for index in 0..clusters.len() {
-            let mut path = BasePath::default();
-            // A parent that the rollout did not follow to its end leaves no beginning.
-            let begun = past.begin(&rollout, &mut clusters);
-            let cluster = &clusters[index];
-            if let Some(Beginning { entry, .. }) = begun.filter(|_| cluster.from <= until) {
-                path = roll_out_path(cluster.rollout(&rollout, entry.as_ref()), until);
-            }
-            past.paths.push(path);
-        }
-        let followed = clusters.into_iter().zip(past.paths).filter(|(_, path)| !path.poses.is_empty());
+        let paths = succession::follow(&rollout, &mut clusters, until, &mut |begun| {
+            roll_out_path(begun.rollout(&rollout), until)
+        });
+        let followed = clusters.into_iter().zip(paths).filter(|(_, path)| !path.poses.is_empty());
         let clusters = followed.map(|(cluster, path)| ClusterPath { cluster, path }).collect();
         Some(ClusterPaths { tracks, clusters, tolerances })
     }

@@ -4,9 +4,10 @@ use super::base_path::BasePath;
 use super::cluster_paths::roll_out_path;
 use super::clusters::Cluster;
 use super::joining::pose_of_second;
-use super::parted::{self, Beginning, Past};
+use super::parted;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::Rollout;
+use super::succession;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
@@ -29,24 +30,18 @@ pub fn dock_turns(plan: &Plan, bonds: &[usize]) -> Vec<(usize, u32)> {
     };
     let times: Vec<(usize, f64)> = bonds.iter().filter_map(|bond| Some((*bond, docks(*bond)?))).collect();
     let until = times.iter().map(|(_, time)| *time).fold(0.0, f64::max);
-    let mut past = Past::default();
     let mut turns = Vec::new();
-    for index in 0..clusters.len() {
-        let begun = past.begin(&rollout, &mut clusters);
-        let cluster = &clusters[index];
-        let mut path = BasePath::default();
-        if let Some(Beginning { entry, joining }) = begun.filter(|_| cluster.from <= until) {
-            for (bond, error) in &joining.misalignments {
-                let X_PQ = mate(&tracks.robot, *bond) * error;
-                turns.push((*bond, turn(tracks, *bond, &X_PQ)));
-            }
-            path = roll_out_path(cluster.rollout(&rollout, entry.as_ref()), until);
+    succession::follow(&rollout, &mut clusters, until, &mut |begun| {
+        for (bond, error) in &begun.beginning.joining.misalignments {
+            let X_PQ = mate(&tracks.robot, *bond) * error;
+            turns.push((*bond, turn(tracks, *bond, &X_PQ)));
         }
-        for &(bond, time) in times.iter().filter(|_| !path.poses.is_empty()) {
-            turns.extend(inside(&rollout, (cluster, &path), bond, time));
+        let path = roll_out_path(begun.rollout(&rollout), until);
+        for &(bond, time) in &times {
+            turns.extend(inside(&rollout, (begun.cluster(), &path), bond, time));
         }
-        past.paths.push(path);
-    }
+        path
+    });
     turns.retain(|(bond, _)| bonds.contains(bond));
     turns
 }

@@ -3,14 +3,14 @@
 use super::base_path::BasePath;
 use super::contact;
 use super::decimated::Decimated;
-use super::parted::{self, Beginning, Past};
+use super::parted;
 use super::rollout::{Rollout, Sample, roll_out};
+use super::succession;
 use super::tolerances::Tolerances;
 use super::torque::LoadGauge;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
 use crate::plan::{Body, Ground, Plan, validation};
-use nalgebra::{Rotation3, UnitQuaternion};
 
 /// The greatest number of moments of a history besides the last: of a rollout with more samples only every second,
 /// fourth, ... is kept.
@@ -103,30 +103,20 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
         });
         return;
     };
-    let mut past = Past::default();
-    for index in 0..clusters.len() {
-        let begun = past.begin(&rollout, &mut clusters);
-        let cluster = &clusters[index];
+    succession::follow(&rollout, &mut clusters, until, &mut |begun| {
         let mut path = BasePath::default();
-        let own = cluster.modules.binary_search(&tracks.robot.base).ok();
-        if let Some(Beginning { entry, .. }) = begun.filter(|_| cluster.from <= until) {
-            let part = cluster.rollout(&rollout, entry.as_ref());
-            roll_out(part, None, until.min(cluster.tracks.duration), &mut |sample, _| {
-                let pose = sample.stance.base_pose(sample.model);
-                path.poses.push((sample.time, pose));
-                if let Some(module) = own {
-                    let link = sample.model.kinematics.link(module, 0);
-                    let posture = &sample.stance.posture;
-                    let turn = Rotation3::from_matrix_unchecked(posture.R[link]);
-                    let X_RB =
-                        Pose::from_parts(posture.p[link].into(), UnitQuaternion::from_rotation_matrix(&turn));
-                    see(sample, PlacedBase { pose: pose * X_RB, whole: false });
-                }
-                true
-            });
-        }
-        past.paths.push(path);
-    }
+        let own = begun.cluster().modules.binary_search(&tracks.robot.base).ok();
+        let part = begun.rollout(&rollout);
+        roll_out(part, None, until.min(part.tracks.duration), &mut |sample, _| {
+            path.poses.push((sample.time, sample.stance.base_pose(sample.model)));
+            if let Some(module) = own {
+                let link = sample.model.kinematics.link(module, 0);
+                see(sample, PlacedBase { pose: sample.stance.link_pose(link), whole: false });
+            }
+            true
+        });
+        path
+    });
 }
 
 fn moment(sample: &Sample, base: Pose) -> Moment {

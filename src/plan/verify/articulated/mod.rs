@@ -66,6 +66,7 @@ mod joining;
 mod one_robot;
 mod parted;
 mod placed_clusters;
+mod succession;
 mod support_area;
 mod time_series;
 

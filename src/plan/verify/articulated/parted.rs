@@ -6,15 +6,16 @@ use super::between_clusters;
 use super::clusters::{self, Cluster};
 use super::docking;
 use super::entry::Entry;
-use super::joining::{Joining, joints_rest};
+use super::joining::joints_rest;
 use super::model::Model;
 use super::one_robot;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::Rollout;
+use super::succession::{self, Begun};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, DockingKind, Exemption, Failure, Ground, RobotVerdict, Status};
+use crate::plan::{CheckKind, Exemption, Failure, Ground, RobotVerdict, Status};
 use crate::robot::Kinematics;
 use crate::units::{Dimension, counted, quantity};
 
@@ -38,101 +39,59 @@ fn central(cluster: &Cluster, tolerances: &Tolerances) -> usize {
     })
 }
 
-/// The clusters of a plan as far as they have been rolled out, in their order.
-#[derive(Default)]
-pub(super) struct Past {
-    /// The path of the base of each.
-    pub paths: Vec<BasePath>,
-    /// The bonds by which robots docked that stood by themselves, and that hold since, with their misalignments, by their
-    /// indices in the plan's robot, ascending.
-    misalignments: Vec<(usize, Pose)>,
-}
-
-/// The beginning of a cluster.
-pub(super) struct Beginning {
-    /// The beginning of its rollout; `None` for a cluster of the start.
-    pub entry: Option<Entry>,
-    /// The docking of its parents with each other.
-    pub joining: Joining,
-}
-
-impl Past {
-    /// Returns the beginning of the next of some clusters, to which it gives the misalignments of its bonds; `None` where a
-    /// parent has no path up to there.
-    pub(super) fn begin(&mut self, rollout: &Rollout, clusters: &mut [Cluster]) -> Option<Beginning> {
-        let index = self.paths.len();
-        let (before, rest) = clusters.split_at_mut(index);
-        let next = &mut rest[0];
-        let reaches =
-            |parent: &usize| self.paths[*parent].poses.last().is_some_and(|last| last.0 >= next.from);
-        if !next.parents.iter().all(reaches) {
-            return None;
-        }
-        let known: Vec<(&Cluster, &BasePath)> = before.iter().zip(&self.paths).collect();
-        let joining = match next.joins.is_empty() {
-            true => Joining::default(),
-            false => Joining::of(rollout, next, &known),
-        };
-        let holds =
-            |bond: usize| next.bonds.binary_search(&bond).map_or(true, |own| next.tracks.start.bonds[own]);
-        self.misalignments.retain(|(bond, _)| holds(*bond));
-        self.misalignments.extend(&joining.misalignments);
-        self.misalignments.sort_by_key(|(bond, _)| *bond);
-        let entry = next.parents.first().map(|parent| entry(rollout, next, known[*parent]));
-        next.misalign(&self.misalignments);
-        Some(Beginning { entry, joining })
-    }
-}
-
 /// Judges the clusters of a plan one after the other: failures and worst values are those of all, and the travel is that
 /// of the clusters with the plan's base. `rollout`: that of the whole plan.
 pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Ledger) {
-    let mut past = Past::default();
     let exemptions: Vec<Vec<Exemption>> = clusters.iter().map(|cluster| cluster.exemptions.clone()).collect();
     let mut parts = Vec::with_capacity(clusters.len() + 1);
     let mut missed: Vec<usize> = Vec::new();
-    for index in 0..clusters.len() {
-        let Some(Beginning { entry, joining }) = past.begin(rollout, clusters) else {
-            // The judge gave up on a parent, and said so: nothing is known of what comes of it.
-            return ledger.merge(parts);
-        };
-        let cluster = &clusters[index];
-        let own = cluster.rollout(rollout, entry.as_ref());
-        let mut part = Ledger::new(&exemptions[index], rollout.end);
-        missed.extend(joining.judge(rollout, cluster, &mut part));
-        let before: Vec<usize> =
-            missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
-        let own_missed = docking::judge(&own, &mut part);
-        missed.extend(own_missed.iter().map(|bond| cluster.bonds[*bond]));
-        let came_off = entry.as_ref().zip(cluster.parents.first()).filter(|_| cluster.parents.len() == 1);
-        if let Some((entry, _)) = came_off.filter(|(_, parent)| cluster.base() != clusters[**parent].base()) {
-            unheld(&own, entry, &mut part);
-        }
-        let mut path = BasePath::default();
-        one_robot::judge(&own, [before, own_missed].concat(), &mut part, Some(&mut path));
-        let moves = |parent: usize| {
-            let (tracks, path) = (&clusters[parent].tracks, &past.paths[parent]);
-            !joints_rest(tracks, rollout.tolerances) || path.ends_faster(rollout.tolerances.rest_speed)
-        };
-        if came_off.is_some_and(|(_, parent)| own.is_full() && moves(*parent)) {
-            momentum_is_lost(own.subject, &mut part);
-        }
-        past.paths.push(path);
+    let paths = succession::follow(rollout, clusters, f64::INFINITY, &mut |begun| {
+        let mut part = Ledger::new(&exemptions[begun.index], rollout.end);
+        let path = judge_one(rollout, &begun, &mut missed, &mut part);
         parts.push(part);
-    }
-    if past.paths.iter().any(|path| path.poses.is_empty()) {
+        path
+    });
+    if paths.iter().any(|path| path.poses.is_empty()) {
+        // The judge gave up on one, and said so: nothing is known of what comes of it.
         return ledger.merge(parts);
     }
     let mut between = Ledger::new(rollout.exemptions, rollout.end);
     let ended = parts.iter().filter_map(Ledger::ended).min_by(|a, b| a.0.total_cmp(&b.0));
-    between_clusters::judge(rollout, (clusters, &past.paths), ended, &mut between);
+    between_clusters::judge(rollout, (clusters, &paths), ended, &mut between);
     parts.push(between);
-    let travels = Travels::new(rollout, clusters, &past.paths, &parts);
+    let travels = Travels::new(rollout, clusters, &paths, &parts);
     (ledger.verdict.travel, ledger.verdict.heading) = travels.of(rollout.tracks.robot.base);
     if !rollout.tracks.start.clusters.is_empty() {
         ledger.verdict.robots = robots(rollout, clusters, &parts, &travels);
     }
     ledger.merge(parts);
+}
+
+/// Judges one cluster, and returns the path of its base. `missed`: the bonds of the plan's robot whose ports missed so far,
+/// to which it adds.
+fn judge_one(rollout: &Rollout, begun: &Begun, missed: &mut Vec<usize>, part: &mut Ledger) -> BasePath {
+    let (cluster, entry) = (begun.cluster(), begun.beginning.entry.as_ref());
+    let own = begun.rollout(rollout);
+    missed.extend(begun.beginning.joining.judge(rollout, cluster, part));
+    let before: Vec<usize> =
+        missed.iter().filter_map(|bond| cluster.bonds.binary_search(bond).ok()).collect();
+    let own_missed = docking::judge(&own, part);
+    missed.extend(own_missed.iter().map(|bond| cluster.bonds[*bond]));
+    let came_off = entry.zip(cluster.parents.first()).filter(|_| cluster.parents.len() == 1);
+    if let Some((entry, _)) = came_off.filter(|(_, parent)| cluster.base() != begun.clusters[**parent].base())
+    {
+        unheld(&own, entry, part);
+    }
+    let mut path = BasePath::default();
+    one_robot::judge(&own, [before, own_missed].concat(), part, Some(&mut path));
+    let moves = |parent: usize| {
+        let (tracks, path) = (&begun.clusters[parent].tracks, &begun.paths[parent]);
+        !joints_rest(tracks, rollout.tolerances) || path.ends_faster(rollout.tolerances.rest_speed)
+    };
+    if came_off.is_some_and(|(_, parent)| own.is_full() && moves(*parent)) {
+        momentum_is_lost(own.subject, part);
+    }
+    path
 }
 
 /// The way of each module over a plan of several clusters.
@@ -216,31 +175,6 @@ pub(super) fn in_words(clusters: &[Cluster]) -> Option<String> {
         .map(part)
         .collect();
     (!off.is_empty()).then(|| format!("the robot comes apart: {}", off.join(", ")))
-}
-
-/// Returns the beginning of a cluster where the one that holds its base ended. `before`: the other, with its path.
-fn entry(rollout: &Rollout, cluster: &Cluster, (before, path): (&Cluster, &BasePath)) -> Entry {
-    let tracks = rollout.tracks;
-    let state = tracks.state(cluster.from);
-    let mut bonds = tracks.start.bonds.clone();
-    for event in tracks.events.iter().take_while(|event| event.time < cluster.from) {
-        bonds[event.bond] = event.kind == DockingKind::Dock;
-    }
-    let numbers = Kinematics::new(&tracks.robot, &bonds, 0);
-    let mut poses = vec![Pose::identity(); numbers.link_count()];
-    let mut placed = PlacedClusters::new(tracks, vec![(before, path)], rollout.tolerances);
-    placed.place_one(0, cluster.from, (&state.joints, &bonds), &mut poses);
-    let own = |bond: usize| {
-        let ends = [tracks.robot.bonds[bond].a.module, tracks.robot.bonds[bond].b.module];
-        ends.iter().any(|module| cluster.modules.binary_search(module).is_ok())
-    };
-    let causes: Vec<CauseId> = tracks
-        .events
-        .iter()
-        .filter(|event| event.time == cluster.from && own(event.bond))
-        .map(|event| event.cause)
-        .collect();
-    Entry { time: cluster.from, base: numbers.module_pose(cluster.base(), &poses), causes }
 }
 
 /// Records that nothing holds a part: in a world whose fixture holds the base of another, it falls.

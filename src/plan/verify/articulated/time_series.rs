@@ -3,14 +3,19 @@
 //! The rollout is the judge's own. A time between two of its samples is reached by one more step from the sample
 //! before, so that the choice of times does not change the rollout.
 
+use super::cluster_paths::roll_out_path;
+use super::clusters::Cluster;
 use super::dynamics::{Recorder, RolloutLoads};
+use super::parted;
 use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
 use super::stability;
+use super::succession;
 use super::tolerances::Tolerances;
 use super::torque::{self, JudgedLoads};
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{Body, Plan, validation};
+use crate::plan::{Body, Plan, Tracks, validation};
+use crate::robot::JointOwner;
 
 /// The quantities that the judge computes of a robot at an instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,35 +62,79 @@ pub struct GroundForce {
 /// Returns the judge's quantities at these times (s), one instant for each, in the order of `times`. `times` must
 /// ascend (equal ones may follow each other) and lie between 0 and the duration of the plan; a negative one panics.
 /// The list ends early at a time beyond the duration or out of order, and if the judge took all samples that are
-/// allowed before. It is empty for plans of other families, and for plans that are not valid.
-pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
+/// allowed before. It is empty for plans of other families, and for plans that are not valid. `reference`: of several
+/// robots, a module of the one that is meant, by its index in the plan's robot, with what is docked with it; its body is
+/// then the base. `None`: that with the plan's base.
+pub fn instants(plan: &Plan, times: &[f64], detail: Detail, reference: Option<usize>) -> Vec<Instant> {
     let Body::Tracks(tracks) = &plan.body else { return vec![] };
     if validation::check(plan).is_err() {
         return vec![];
     }
     let tolerances = Tolerances::default();
     let rollout = Rollout::of(plan, tracks, &tolerances);
+    let reference = reference.unwrap_or(tracks.robot.base);
+    let Some(mut clusters) = parted::clusters(&rollout).filter(|clusters| clusters.len() > 1) else {
+        return of_rollout(&rollout, tracks.robot.base, times, detail);
+    };
+    let until = times.iter().copied().fold(0.0, f64::max);
+    let mut found: Vec<Instant> = Vec::with_capacity(times.len());
+    succession::follow(&rollout, &mut clusters, until, &mut |begun| {
+        let (cluster, part) = (begun.cluster(), begun.rollout(&rollout));
+        if let Ok(own) = cluster.modules.binary_search(&reference) {
+            let its = times.iter().skip(found.len()).take_while(|time| cluster.exists(**time));
+            let its: Vec<f64> = its.copied().collect();
+            let known = of_rollout(&part, own, &its, detail);
+            found.extend(known.into_iter().map(|instant| in_numbers_of_plan(instant, cluster, tracks)));
+        }
+        roll_out_path(part, until)
+    });
+    found
+}
+
+/// Returns an instant of a cluster with the numbers of the plan's modules and joints: of joints of others nothing is known.
+fn in_numbers_of_plan(instant: Instant, cluster: &Cluster, tracks: &Tracks) -> Instant {
+    let robot = &tracks.robot;
+    let mut own = instant.efforts.into_iter();
+    let owned = |owner: JointOwner| match owner {
+        JointOwner::Module { module, .. } => cluster.modules.binary_search(&module).is_ok(),
+        JointOwner::Bond(bond) => cluster.bonds.binary_search(&bond).is_ok(),
+    };
+    let efforts =
+        robot.joints().map(|owner| if owned(owner) { own.next().flatten() } else { None }).collect();
+    let of_plan = |push: GroundForce| GroundForce { module: cluster.modules[push.module], ..push };
+    let forces = instant.forces.map(|forces| forces.into_iter().map(of_plan).collect());
+    Instant { efforts, forces, ..instant }
+}
+
+/// Returns the quantities of a rollout at these times (s), as [`instants`] does; `base`: the module whose body is the base,
+/// by its index in the rollout's robot.
+fn of_rollout(rollout: &Rollout, base: usize, times: &[f64], detail: Detail) -> Vec<Instant> {
+    let until = rollout.tracks.duration;
     let mut recorder = Recorder::default();
-    let full = rollout.is_full() && detail == Detail::Loads;
+    let full = rollout.is_full() && detail == Detail::Loads && !times.is_empty();
     if full {
-        roll_out(rollout, None, tracks.duration, &mut |sample, _| {
+        roll_out(*rollout, None, until, &mut |sample, _| {
             recorder.observe(sample);
             true
         });
     }
     let mut gauge = Gauge {
-        loads: full.then(|| RolloutLoads::new(&rollout, recorder)),
-        plan,
+        loads: full.then(|| RolloutLoads::new(rollout, recorder)),
+        rollout,
+        base,
         detail,
-        torque: torque::Monitor::new(&tolerances),
-        standing: stability::Monitor::new(&plan.settings, &tolerances),
+        torque: torque::Monitor::new(rollout.tolerances),
+        standing: stability::Monitor::new(rollout.settings, rollout.tolerances),
     };
     let mut found: Vec<Instant> = Vec::with_capacity(times.len());
+    if times.is_empty() {
+        return found;
+    }
     let mut last: Option<Checkpoint> = None;
-    roll_out(rollout, None, tracks.duration, &mut |sample, checkpoint| {
+    roll_out(*rollout, None, until, &mut |sample, checkpoint| {
         while let Some(&time) = times.get(found.len()).filter(|time| **time < sample.time) {
             let from = last.as_ref().expect("the first sample is at the start of the plan");
-            roll_out(rollout, Some(from), time, &mut |between, _| {
+            roll_out(*rollout, Some(from), time, &mut |between, _| {
                 if between.time == time {
                     found.push(gauge.instant(between));
                 }
@@ -108,7 +157,9 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail) -> Vec<Instant> {
 struct Gauge<'a> {
     /// The loads in motion; `None` under statics, and where loads were not requested.
     loads: Option<RolloutLoads<'a>>,
-    plan: &'a Plan,
+    rollout: &'a Rollout<'a>,
+    /// The module whose body is the base, by its index in the rollout's robot.
+    base: usize,
     detail: Detail,
     torque: torque::Monitor<'a>,
     standing: stability::Monitor<'a>,
@@ -117,7 +168,7 @@ struct Gauge<'a> {
 impl Gauge<'_> {
     fn instant(&mut self, sample: &Sample) -> Instant {
         // Of each sample by itself: no worst value of others decides how closely forces are sought.
-        let mut ledger = Ledger::new(&self.plan.exemptions, self.plan.body.duration());
+        let mut ledger = Ledger::new(self.rollout.exemptions, self.rollout.end);
         let unknown = || JudgedLoads { efforts: vec![None; sample.joints.len()], forces: None };
         let loads = match (&self.loads, self.detail) {
             (Some(loads), _) => loads.read(sample.time).map(|(efforts, forces)| JudgedLoads {
@@ -147,7 +198,7 @@ impl Gauge<'_> {
         };
         Instant {
             time: sample.time,
-            base: sample.stance.base_pose(sample.model),
+            base: sample.stance.link_pose(sample.model.kinematics.link(self.base, 0)),
             margin: self.standing.margin(sample),
             efforts: loads.efforts,
             forces: loads.forces.map(|forces| forces.iter().map(force).collect()),
