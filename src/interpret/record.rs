@@ -206,7 +206,7 @@ impl StateValue {
     fn base_of_plan(&self) -> Pose {
         let grounded = self.planned.plan.worlds.iter().any(|w| w.world.ground != Ground::Off);
         let stand = || {
-            if !grounded {
+            if !grounded && !self.planned.comes_apart() {
                 return self.state.base;
             }
             base_at(&self.planned.plan, self.time).unwrap_or(self.state.base)

@@ -208,24 +208,26 @@ impl Dynamics {
         velocities: &[f64],
         origin: &Vec3,
     ) -> Wrench {
+        let motion = twists(kinematics, poses, base, velocities);
+        let links = kinematics.steps.iter().map(|step| step.link);
         let root = kinematics.link(kinematics.root, 0);
-        let mut motion = vec![Twist::default(); self.bodies.len()];
-        motion[root] = *base;
-        let mut sum = self.momentum_of(root, &poses[root], base, origin);
-        for step in &kinematics.steps {
-            let moving = MovingStep {
-                axis: step.joint_axis(poses),
-                velocity: step.terms().iter().map(|&(joint, factor)| factor * velocities[joint]).sum(),
-                acceleration: 0.0,
-            };
-            let (p_A, p_B) = (position(poses, step.parent), position(poses, step.link));
-            let still = Twist::default();
-            motion[step.link] = carried(&(motion[step.parent], still), &moving, &p_A, &p_B).0;
-            let own = self.momentum_of(step.link, &poses[step.link], &motion[step.link], origin);
-            sum.force += own.force;
-            sum.moment += own.moment;
-        }
-        sum
+        self.momentum_of_links(std::iter::once(root).chain(links), (poses, &motion), origin)
+    }
+
+    /// Returns the momentum (N·s) of some links, given by their numbers, and its angular momentum about the point `origin`
+    /// (N·m·s), as [`momentum`](Self::momentum) does of all. `poses` and `motion`: the world poses and twists of all links.
+    /// Panics for a link that has none.
+    pub fn momentum_of_links(
+        &self,
+        links: impl Iterator<Item = usize>,
+        (poses, motion): (&[Pose], &[Twist]),
+        origin: &Vec3,
+    ) -> Wrench {
+        let own = |link: usize| self.momentum_of(link, &poses[link], &motion[link], origin);
+        links.fold(Wrench::default(), |sum, link| {
+            let own = own(link);
+            Wrench { force: sum.force + own.force, moment: sum.moment + own.moment }
+        })
     }
 
     /// Returns the momentum (N·s) of one body with the twist `v` of its link's frame, and its angular momentum about
@@ -306,6 +308,24 @@ impl Dynamics {
         }
         matrix
     }
+}
+
+/// Returns the twist of each link's frame, by its number, with the velocity `base` of the base's frame and the velocities of
+/// the joints by [`JointId`](super::JointId) (rad/s or m/s); zero for links that are not connected with the base. `poses` are
+/// the world poses of all links. Panics if a slice is too short.
+pub fn twists(kinematics: &Kinematics, poses: &[Pose], base: &Twist, velocities: &[f64]) -> Vec<Twist> {
+    let mut motion = vec![Twist::default(); poses.len()];
+    motion[kinematics.link(kinematics.root, 0)] = *base;
+    for step in &kinematics.steps {
+        let moving = MovingStep {
+            axis: step.joint_axis(poses),
+            velocity: step.terms().iter().map(|&(joint, factor)| factor * velocities[joint]).sum(),
+            acceleration: 0.0,
+        };
+        let (p_A, p_B) = (position(poses, step.parent), position(poses, step.link));
+        motion[step.link] = carried(&(motion[step.parent], Twist::default()), &moving, &p_A, &p_B).0;
+    }
+    motion
 }
 
 /// A composite rigid body: bodies that move as one.

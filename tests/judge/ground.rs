@@ -53,6 +53,7 @@ fn seen(motion: &Motion, step: f64) -> Seen {
         end: motion.tracks.duration,
         subject: "the robot",
         as_placed: false,
+        floats: false,
     };
     let mut seen = Seen::default();
     let mut first: Option<(modl::geometry::Pose, Vec3)> = None;

@@ -4,6 +4,7 @@ pub mod collision;
 mod docking;
 pub mod ground;
 pub mod lattice_judge;
+mod momentum;
 pub mod oracle;
 pub mod parting;
 mod random_scenes;

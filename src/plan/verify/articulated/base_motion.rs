@@ -2,7 +2,7 @@
 //! fixed.
 
 use super::contact::ContactPoint;
-use super::rollout::Sample;
+use super::sample::Sample;
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::ledger::Ledger;

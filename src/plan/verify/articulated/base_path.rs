@@ -2,6 +2,7 @@
 
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
+use crate::robot::dynamics::Twist;
 
 /// The path of a cluster's base over its rollout.
 #[derive(Clone, Debug, Default)]
@@ -32,9 +33,17 @@ impl BasePath {
         if time > before { moved / (time - before) } else { 0.0 }
     }
 
-    /// Returns true if the base moves faster than a speed (m/s) from the last sample but one to the last.
-    pub(super) fn ends_faster(&self, speed: f64) -> bool {
-        let [.., (before, from), (time, to)] = self.poses.as_slice() else { return false };
-        (to.translation.vector - from.translation.vector).norm() > speed * (time - before)
+    /// Returns the mean twist of the base's frame from the last sample but one to the last, m/s and rad/s in the world; zero
+    /// with fewer than two samples.
+    pub(super) fn end_twist(&self) -> Twist {
+        let [.., (before, from), (time, to)] = self.poses.as_slice() else { return Twist::default() };
+        let span = time - before;
+        if span <= 0.0 {
+            return Twist::default();
+        }
+        Twist {
+            linear: (to.translation.vector - from.translation.vector) / span,
+            angular: (to.rotation * from.rotation.inverse()).scaled_axis() / span,
+        }
     }
 }

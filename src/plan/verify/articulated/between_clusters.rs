@@ -12,7 +12,7 @@ use super::clusters::Cluster;
 use super::collision::Collision;
 use super::docking;
 use super::placed_clusters::PlacedClusters;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
 use crate::interrupt;

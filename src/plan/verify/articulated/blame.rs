@@ -6,7 +6,9 @@
 
 use super::base_motion::penetrating_contact;
 use super::docking;
-use super::rollout::{Checkpoint, Rollout, Sample, roll_out};
+use super::rollout::{Checkpoint, roll_out};
+use super::rollout_input::Rollout;
+use super::sample::Sample;
 use super::stability;
 use super::torque;
 use crate::plan::verify::ledger::Ledger;

@@ -9,7 +9,7 @@ use super::cluster_paths::roll_out_path;
 use super::clusters::Cluster;
 use super::history::base_at;
 use super::parted;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::succession;
 use super::tolerances::{Precision, Tolerances};
 use crate::geometry::distance::signed_distance;

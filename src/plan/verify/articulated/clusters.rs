@@ -6,9 +6,9 @@
 //! that judges a robot judges it, and as fast.
 
 use super::entry::Entry;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use crate::geometry::Pose;
-use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks};
+use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks, WorldFrom};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
 use std::collections::BTreeSet;
 
@@ -33,6 +33,8 @@ pub(super) struct Cluster {
     pub exemptions: Vec<Exemption>,
     /// True if the cluster is there to the end of the plan: no event ends it, not one at that very time either.
     pub lasts: bool,
+    /// The worlds of the plan as they are for the cluster; `None` where they are no others.
+    pub worlds: Option<Vec<WorldFrom>>,
     /// The cluster in words, by its base.
     pub name: String,
 }
@@ -53,7 +55,9 @@ impl Cluster {
     pub(super) fn rollout<'a>(&'a self, whole: &Rollout<'a>, begin: Option<&'a Entry>) -> Rollout<'a> {
         let as_placed = !whole.tracks.start.clusters.is_empty() || !whole.tracks.obstacles.is_empty();
         let (tracks, exemptions) = (&self.tracks, self.exemptions.as_slice());
-        Rollout { tracks, exemptions, begin, subject: &self.name, as_placed, ..*whole }
+        let floats = whole.is_full();
+        let worlds = self.worlds.as_deref().unwrap_or(whole.worlds);
+        Rollout { tracks, exemptions, worlds, begin, subject: &self.name, as_placed, floats, ..*whole }
     }
 
     /// Gives bonds of the cluster the misalignments that they docked with, as (index in the plan's robot, misalignment),
@@ -276,6 +280,7 @@ impl Part {
             parents: vec![],
             joins: self.joins.clone(),
             lasts,
+            worlds: None,
             name: String::new(),
             modules: self.modules.clone(),
             tracks: Tracks {

@@ -6,7 +6,7 @@ use super::collision::{self, Collision, Findings, Span};
 use super::docking;
 use super::dynamics::{self, DeflectedMotion};
 use super::polyline::Polyline;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::tolerances::Tolerances;
 use super::work_budget::work_max;
 use crate::geometry::Pose;

@@ -6,7 +6,7 @@ use super::clusters::Cluster;
 use super::joining::pose_of_second;
 use super::parted;
 use super::placed_clusters::PlacedClusters;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::succession;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;

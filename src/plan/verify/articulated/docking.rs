@@ -1,6 +1,8 @@
 //! Checks of bonds: ports are within capture when they dock, loops stay closed, and the robot stays connected.
 
-use super::rollout::{Rollout, Sample, positions};
+use super::in_force::positions;
+use super::rollout_input::Rollout;
+use super::sample::Sample;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;

@@ -8,7 +8,7 @@
 use super::in_force::world_at;
 use super::model::{Model, Posture};
 use super::motion_bounds::{Interval, JointMotion, MotionBounds};
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::statics::{LoadKind, Structure, moves};
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;

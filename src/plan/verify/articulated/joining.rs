@@ -5,7 +5,7 @@ use super::base_path::BasePath;
 use super::clusters::Cluster;
 use super::docking::{apart, failure, within};
 use super::placed_clusters::PlacedClusters;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::geometry::pose::turned;
@@ -175,7 +175,7 @@ fn end_speed(rollout: &Rollout, cluster: &Cluster, path: &BasePath) -> f64 {
 }
 
 /// Returns true if no joint of a robot moves as its motion ends.
-pub(super) fn joints_rest(tracks: &Tracks, tolerances: &Tolerances) -> bool {
+fn joints_rest(tracks: &Tracks, tolerances: &Tolerances) -> bool {
     let end = tracks.duration;
     !tracks.tracks.iter().any(|track| {
         let mut around = track.segments.iter().filter(|segment| segment.start < end && end <= segment.end);

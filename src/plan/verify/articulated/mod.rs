@@ -19,7 +19,10 @@ mod minimum_power;
 mod settle;
 mod stance;
 
+mod floating;
 mod rollout;
+mod rollout_input;
+mod sample;
 mod sampling;
 
 mod dynamics;
@@ -79,7 +82,9 @@ pub use dock_turns::dock_turns;
 pub use entry::Entry;
 pub use history::{CONTACTS_MAX, MOMENTS_MAX, Moment, base_at, history};
 pub use model::Model;
-pub use rollout::{Checkpoint, Rollout, RolloutEnd, Sample, TipOver, roll_out};
+pub use rollout::{Checkpoint, RolloutEnd, roll_out};
+pub use rollout_input::Rollout;
+pub use sample::{Sample, TipOver};
 pub use stance::Stance;
 pub use support_area::area;
 pub use time_series::{Detail, GroundForce, Instant, instants};

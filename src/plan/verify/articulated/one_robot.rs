@@ -3,7 +3,8 @@
 use super::base_path::BasePath;
 use super::decimated::Decimated;
 use super::model::Model;
-use super::rollout::{Checkpoint, Rollout, RolloutEnd, roll_out};
+use super::rollout::{Checkpoint, RolloutEnd, roll_out};
+use super::rollout_input::Rollout;
 use super::{
     base_motion, blame, collision_report, docking, dynamics, fixed_base, sampling, slope, stability, torque,
 };

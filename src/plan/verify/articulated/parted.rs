@@ -6,23 +6,44 @@ use super::between_clusters;
 use super::clusters::{self, Cluster};
 use super::docking;
 use super::entry::Entry;
-use super::joining::joints_rest;
+use super::in_force::world_at;
 use super::model::Model;
 use super::one_robot;
 use super::placed_clusters::PlacedClusters;
-use super::rollout::Rollout;
+use super::rollout_input::Rollout;
 use super::succession::{self, Begun};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, Exemption, Failure, Ground, RobotVerdict, Status};
+use crate::plan::{CheckKind, Exemption, Failure, Ground, RobotVerdict, Status, WorldFrom};
 use crate::robot::Kinematics;
 use crate::units::{Dimension, counted, quantity};
 
 /// Returns the clusters of a plan, as [`clusters::of`] does: the base of a cluster that has none of those before, nor one
 /// that is stated, is the module nearest to its centre of mass.
 pub(super) fn clusters(rollout: &Rollout) -> Option<Vec<Cluster>> {
-    clusters::of(rollout.tracks, rollout.exemptions, |cluster| central(cluster, rollout.tolerances))
+    let mut clusters =
+        clusters::of(rollout.tracks, rollout.exemptions, |cluster| central(cluster, rollout.tolerances))?;
+    let mut released: Vec<bool> = Vec::with_capacity(clusters.len());
+    for index in 0..clusters.len() {
+        let cluster = &clusters[index];
+        let off = |parent: &usize| released[*parent] || cluster.base() != clusters[*parent].base();
+        released.push(!cluster.parents.is_empty() && cluster.parents.iter().all(off));
+        if released[index] {
+            clusters[index].worlds = Some(rollout.worlds.iter().map(unheld_in).collect());
+        }
+    }
+    Some(clusters)
+}
+
+/// Returns the world as it is for what no fixture holds: without weight it floats.
+fn unheld_in(from: &WorldFrom) -> WorldFrom {
+    let mut from = from.clone();
+    let fixed = matches!(from.world.ground, Ground::Held | Ground::Fixed);
+    if fixed && from.world.gravity == 0.0 {
+        from.world.ground = Ground::Off;
+    }
+    from
 }
 
 /// Returns the module of a cluster whose body is nearest to the centre of mass as it comes off; the first of those
@@ -84,12 +105,13 @@ fn judge_one(rollout: &Rollout, begun: &Begun, missed: &mut Vec<usize>, part: &m
     }
     let mut path = BasePath::default();
     one_robot::judge(&own, [before, own_missed].concat(), part, Some(&mut path));
-    let moves = |parent: usize| {
-        let (tracks, path) = (&begun.clusters[parent].tracks, &begun.paths[parent]);
-        !joints_rest(tracks, rollout.tolerances) || path.ends_faster(rollout.tolerances.rest_speed)
-    };
-    if came_off.is_some_and(|(_, parent)| own.is_full() && moves(*parent)) {
+    if came_off.is_some_and(|(entry, _)| own.is_full() && lifts(&own, entry)) {
         momentum_is_lost(own.subject, part);
+    }
+    if cluster.lasts
+        && let Some(drift) = drifts(&own, &path)
+    {
+        part.note(drift);
     }
     path
 }
@@ -199,13 +221,37 @@ fn unheld(rollout: &Rollout, entry: &Entry, ledger: &mut Ledger) {
     });
 }
 
-/// Records that travel and balance of a part are not checked, as it comes off in motion.
+/// Returns true if a part on the ground comes off as it lifts or tilts: turning counts with one metre for a radian.
+fn lifts(rollout: &Rollout, entry: &Entry) -> bool {
+    let world = world_at(rollout.worlds, entry.time);
+    let turn = world.ground_pose().rotation.inverse();
+    let (linear, angular) = (turn * entry.twist.linear, turn * entry.twist.angular);
+    let speed = linear.z.abs() + angular.xy().norm();
+    world.ground == Ground::Settle && world.gravity > 0.0 && speed > rollout.tolerances.rest_speed
+}
+
+/// Records that travel and balance of a part are not checked, as it comes off while it lifts or tilts.
 fn momentum_is_lost(subject: &str, ledger: &mut Ledger) {
-    let why = format!("{subject} comes off in motion, and its momentum is not carried over");
+    let why = format!("{subject} comes off as it lifts or tilts, and that momentum is not carried over");
     for check in &mut ledger.verdict.checks {
         let kind = [CheckKind::Traction, CheckKind::Balance].contains(&check.kind);
         if kind && check.status != Status::Failed {
             check.status = Status::NotChecked(why.clone());
         }
     }
+}
+
+/// Returns in words how a robot that floats still drifts as the plan ends; `None` if it does not.
+fn drifts(rollout: &Rollout, path: &BasePath) -> Option<String> {
+    let end = rollout.tracks.duration;
+    if !rollout.floats || world_at(rollout.worlds, end).ground != Ground::Off {
+        return None;
+    }
+    let twist = path.end_twist();
+    let (speed, rate) = (twist.linear.norm(), twist.angular.norm());
+    (speed + rate > rollout.tolerances.rest_speed).then(|| {
+        let [speed, rate] =
+            [(speed, Dimension::SPEED), (rate, Dimension::ANGULAR_SPEED)].map(|(x, unit)| quantity(x, unit));
+        format!("{} drifts on at the end, at {speed} and {rate}", rollout.subject)
+    })
 }

@@ -3,134 +3,20 @@
 //! Everything here is sequential, and depends on nothing but the plan: the attitude of a sample
 //! follows from the sample before.
 
-use super::contact;
 use super::dynamics::{GroundStep, Traction, TravelSummary};
 use super::entry::Entry;
-use super::in_force::{excused, world_at};
+use super::floating::Floating;
+use super::in_force::{excused, positions, world_at};
 use super::model::{Model, Posture};
+use super::rollout_input::Rollout;
+use super::sample::{Sample, TipOver};
 use super::sampling;
 use super::stance::{Placement, Stance, StepOutcome};
-use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::interrupt;
-use crate::plan::{Exemption, Ground, Plan, Settings, Tracks, World, WorldFrom, is_full};
-use crate::robot::dynamics::Dynamics;
+use crate::plan::{Ground, World};
+use crate::robot::dynamics::{Dynamics, Wrench};
 use crate::units::{Dimension, quantity};
-
-/// A plan to roll out, with settings and tolerances. The plan must be valid.
-#[derive(Clone, Copy)]
-pub struct Rollout<'a> {
-    /// The body of the plan: the robot, its state at the start, and the trajectories of its joints.
-    pub tracks: &'a Tracks,
-    /// The worlds that the plan assumes, in order of time.
-    pub worlds: &'a [WorldFrom],
-    /// The exemptions of the plan.
-    pub exemptions: &'a [Exemption],
-    /// The plan's settings of verification.
-    pub settings: &'a Settings,
-    /// The tolerances of the judge.
-    pub tolerances: &'a Tolerances,
-    /// A joint, by the number in its `JointId`, that is held from a time on (s), to find the command to blame; `None`:
-    /// all joints move.
-    pub held: Option<(usize, f64)>,
-    /// The beginning of a robot in the middle of the plan, by docking or undocking; `None`: it begins with the plan.
-    pub begin: Option<&'a Entry>,
-    /// The end of the whole plan, s: later than that of `tracks` for a robot that comes apart before.
-    pub end: f64,
-    /// The robot in words, for messages.
-    pub subject: &'a str,
-    /// True if the height at which the robot is placed counts where there is no ground: it stands so to others.
-    pub as_placed: bool,
-}
-
-impl<'a> Rollout<'a> {
-    /// Returns the rollout of a whole plan, whose body is `tracks`: all its joints move.
-    pub fn of(plan: &'a Plan, tracks: &'a Tracks, tolerances: &'a Tolerances) -> Rollout<'a> {
-        Rollout {
-            tracks,
-            worlds: &plan.worlds,
-            exemptions: &plan.exemptions,
-            settings: &plan.settings,
-            tolerances,
-            held: None,
-            begin: None,
-            end: tracks.duration,
-            subject: "the robot",
-            as_placed: false,
-        }
-    }
-
-    /// Returns the time at which the robot begins, s.
-    pub(super) fn from(&self) -> f64 {
-        self.begin.map_or(0.0, |entry| entry.time)
-    }
-
-    /// Returns the instants (s) that are samples whatever the settings are; see [`sampling::instants`].
-    pub(super) fn instants(&self) -> Vec<f64> {
-        sampling::instants(self.tracks, self.from(), self.worlds, self.exemptions)
-    }
-
-    /// Returns true if the plan is judged under full dynamics: in one of its worlds, and then in all.
-    pub(super) fn is_full(&self) -> bool {
-        is_full(self.worlds)
-    }
-}
-
-/// The robot at one sample of a rollout, with what changed since the sample before.
-pub struct Sample<'a> {
-    /// The time of the sample from the start of the plan, s.
-    pub time: f64,
-    /// The time of the sample before, s; the same as `time` at the start.
-    pub before: f64,
-    /// The positions of all joints, by the number in their `JointId`, rad or m.
-    pub joints: &'a [f64],
-    /// A flag for every bond of the robot, by its index, true if it holds.
-    pub bonds: &'a [bool],
-    /// The model of the robot with those bonds.
-    pub model: &'a Model<'a>,
-    /// The stance of the robot: its posture and attitude, its place in the world, and its contacts.
-    pub stance: &'a Stance,
-    /// The world that the plan assumes just after that time.
-    pub world: &'a World,
-    /// True if anything moved since the sample before.
-    pub moved: bool,
-    /// The fall of the centre of mass as the robot settles with the joints held, m, also where the base is held so that
-    /// it does not; 0 off the ground.
-    pub fall: f64,
-    /// An upper bound on the motion of the robot's points about the centre of mass since the sample before, m; 0 off
-    /// the ground.
-    pub motion: f64,
-    /// The loss of support since the sample before; `None` if there was none.
-    pub tip: Option<&'a TipOver>,
-    /// The slip of each loaded link since the sample before, as (number of the link, slip in m, load as a fraction of
-    /// the weight). Under statics half of the slip comes with the contact patches of the sample before, the other half
-    /// with those of this one, so that a link may occur twice.
-    pub slips: &'a [(usize, f64, f64)],
-    /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
-    /// samples.
-    pub settling: Option<f64>,
-    /// The travel over the ground since the start, with its sensitivity to friction and servo stiffness; all 0 under
-    /// statics.
-    pub travel: TravelSummary,
-}
-
-/// A loss of support: the robot tips over an edge of its support polygon.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TipOver {
-    /// The time at which the robot begins to fall over the edge, s, found by bisection up to the tolerance `time`.
-    pub time: f64,
-    /// The fall of the centre of mass, m, as the robot settles with the joints held at the sample that showed it.
-    pub fall: f64,
-    /// An upper bound on the motion of points about the centre of mass in the step that showed it, m.
-    pub motion: f64,
-    /// The numbers of the links at the two ends of the edge, one if they are the same; all supporting links if the
-    /// support has no area.
-    pub edge: Vec<usize>,
-    /// True if an exemption excuses it.
-    pub excused: bool,
-    /// True if the robot falls onto the ground and not over an edge: it came off another above it.
-    pub in_air: bool,
-}
 
 /// The reason why [`roll_out`] ended, which need not be the end of the plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -183,6 +69,8 @@ struct Stepper<'a> {
     held_since: Option<f64>,
     /// The state of travel and the masses of the robot; `None` under statics.
     traction: Option<(Traction, Dynamics)>,
+    /// The momentum with which the robot floats; `None` while it does not.
+    floating: Option<Floating>,
     /// The number of samples since the start or the checkpoint, without that one.
     samples: usize,
 }
@@ -247,13 +135,28 @@ impl<'a> Stepper<'a> {
             let known = from.and_then(|checkpoint| checkpoint.traction.clone());
             (known.unwrap_or_default(), Dynamics::new(&tracks.robot))
         });
-        Stepper { rollout, model, bonds, stance, now, joints, poses, world, held_since, traction, samples: 0 }
+        let floating = Floating::of(&rollout, &world, rollout.momentum());
+        Stepper {
+            rollout,
+            model,
+            bonds,
+            stance,
+            now,
+            joints,
+            poses,
+            world,
+            held_since,
+            traction,
+            floating,
+            samples: 0,
+        }
     }
 
     /// Sets the robot into its world, and observes the sample at the start; returns false if that stops the rollout.
     fn begin(&mut self, observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool) -> bool {
         if let Some(entry) = self.rollout.begin {
             let step = self.come_off(entry);
+            self.keep_moving(entry);
             return self.show(observe, self.now, &step);
         }
         let pose = self.rollout.tracks.start.base;
@@ -289,7 +192,7 @@ impl<'a> Stepper<'a> {
         if step.fall <= tolerances.fall_floor {
             return step;
         }
-        let edge = if in_air { vec![] } else { edge(&begun, tolerances) };
+        let edge = if in_air { vec![] } else { begun.edge(tolerances) };
         let excused = entry.time < self.rollout.end && excused(self.rollout.exemptions, entry.time);
         step.tip = Some(TipOver { time: entry.time, fall: step.fall, motion: 0.0, edge, excused, in_air });
         if !excused && !in_air {
@@ -306,8 +209,8 @@ impl<'a> Stepper<'a> {
         observe: &mut dyn FnMut(&Sample, &dyn Fn() -> Checkpoint) -> bool,
     ) -> RolloutEnd {
         let (from, rollout) = (self.now, self.rollout);
-        let divisions =
-            sampling::divisions(rollout.tracks, from, target, rollout.settings, rollout.tolerances);
+        let joints = sampling::divisions(rollout.tracks, from, target, rollout.settings, rollout.tolerances);
+        let divisions = joints.max(self.drifts_for(target - from));
         for i in 1..=divisions.max(1) {
             let t =
                 if i >= divisions { target } else { from + (target - from) * i as f64 / divisions as f64 };
@@ -360,12 +263,55 @@ impl<'a> Stepper<'a> {
         let step = match self.on_ground() {
             true => self.step_on_ground(t, posture, may_halve)?,
             false => {
-                self.stance = self.stance.kept(&self.model, posture, &self.world, self.rollout.tolerances);
+                let X_WB = self.floated(t, &joints);
+                let placement = (&self.world, Placement::Fixed);
+                self.stance =
+                    Stance::start(&self.model, posture, &X_WB, placement, self.rollout.tolerances).0;
                 Step { moved: true, ..Step::default() }
             }
         };
         (self.joints, self.now) = (joints, t);
         Some(self.changed(t, changes, step))
+    }
+
+    /// Returns the least number of samples over a time (s) in which the robot drifts or slides on by itself; 0 where it does not.
+    fn drifts_for(&self, span: f64) -> usize {
+        let (settings, tolerances) = (self.rollout.settings, self.rollout.tolerances);
+        let coasts = self.traction.as_ref().is_some_and(|(traction, _)| traction.coasts());
+        match &self.floating {
+            Some(floating) => floating.divisions(&self.model, &self.stance, span, settings, tolerances),
+            None if coasts => (libm::ceil(span / settings.sample - tolerances.sample_count) as usize).max(1),
+            None => 0,
+        }
+    }
+
+    /// Gives a part that comes off in motion, and stands, its motion over the ground.
+    fn keep_moving(&mut self, entry: &Entry) {
+        let Some((traction, dynamics)) = self.traction.as_mut().filter(|_| !self.stance.held) else { return };
+        if self.world.ground == Ground::Settle && self.world.gravity > 0.0 {
+            let ground = GroundStep {
+                rollout: &self.rollout,
+                bonds: &self.bonds,
+                model: &self.model,
+                dynamics,
+                world: &self.world,
+                before: self.now,
+                time: self.now,
+                R_before: &self.stance.R,
+                R: &self.stance.R,
+            };
+            traction.begin(&ground, &entry.twist, self.stance.planar_pose.yaw);
+        }
+    }
+
+    /// Returns the world pose of the base (`X_WB`, m) off the ground at a time (s) with joints at these positions (rad or
+    /// m): where it is, or where its momentum takes it.
+    fn floated(&self, t: f64, joints: &[f64]) -> Pose {
+        let X_WB = self.stance.base_pose(&self.model);
+        let Some(floating) = &self.floating else { return X_WB };
+        let mut middle = Vec::new();
+        positions(&self.rollout, (self.now + t) / 2.0, &mut middle);
+        floating.moved(&self.model, X_WB, [&self.joints, &middle, joints], t - self.now)
     }
 
     /// Follows a change of posture on the ground, by settling or, after a loss of support, by holding the base; `None`
@@ -443,7 +389,7 @@ impl<'a> Stepper<'a> {
         let posture = self.model.posture(&joints, &mut self.poses);
         let attempt = self.stance.attempt(&self.model, posture, tolerances);
         let over = self.stance.holding(&self.model, attempt, tolerances);
-        let edge = edge(&over, tolerances);
+        let edge = over.edge(tolerances);
         let excused = fallen < self.rollout.end && excused(self.rollout.exemptions, fallen);
         TipOver { time: fallen, fall, motion, edge, excused, in_air: false }
     }
@@ -465,6 +411,10 @@ impl<'a> Stepper<'a> {
         if changes.world {
             let before = self.world.ground;
             self.world = world_at(self.rollout.worlds, t);
+            if before != Ground::Off || self.world.ground != Ground::Off {
+                // A robot that leaves the ground begins at rest.
+                self.floating = Floating::of(&self.rollout, &self.world, Wrench::default());
+            }
             self.stance.enter(&self.model, &self.world, self.rollout.tolerances);
             step.moved = true;
             if self.on_ground() && before != Ground::Settle {
@@ -568,31 +518,4 @@ struct Step {
     tip: Option<TipOver>,
     slips: Vec<(usize, f64, f64)>,
     settling: Option<f64>,
-}
-
-/// Returns the links at the ends of the edge of support nearest to the centre of mass of a stance, one if they are the
-/// same; all supporting links if the support has no area.
-fn edge(stance: &Stance, tolerances: &Tolerances) -> Vec<usize> {
-    let points = &stance.contact_points;
-    let mut edge = match contact::margin(points, stance.foot(), |point| point.gap <= tolerances.gap_exact) {
-        Some(margin) => vec![points[margin.edge.0].link, points[margin.edge.1].link],
-        None => points.iter().filter(|x| x.gap <= tolerances.gap_exact).map(|x| x.link).collect(),
-    };
-    edge.dedup();
-    edge
-}
-
-/// Overwrites `joints` with the positions (rad or m) of all joints at a time (s), by the number in their `JointId`;
-/// the joint that the rollout holds keeps the position at which it is held.
-pub(super) fn positions(rollout: &Rollout, t: f64, joints: &mut Vec<f64>) {
-    joints.clear();
-    joints.extend_from_slice(&rollout.tracks.start.joints);
-    for track in &rollout.tracks.tracks {
-        let index = track.joint.0 as usize;
-        let t = match rollout.held {
-            Some((joint, from)) if joint == index => t.min(from),
-            _ => t,
-        };
-        joints[index] = track.position(joints[index], t);
-    }
 }

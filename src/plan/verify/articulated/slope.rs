@@ -2,7 +2,7 @@
 
 use super::contact::ContactPoint;
 use super::dynamics::{free_joint, slide_failure};
-use super::rollout::Sample;
+use super::sample::Sample;
 use super::tolerances::Tolerances;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, DynamicsModel, ExemptionKind, Ground, Status};

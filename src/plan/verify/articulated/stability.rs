@@ -1,7 +1,7 @@
 //! Static stability: tip-overs, and the margin of the centre of mass in the support polygon.
 
 use super::contact;
-use super::rollout::Sample;
+use super::sample::Sample;
 use super::tolerances::Tolerances;
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::verify::support_polygon::{self, Margin};

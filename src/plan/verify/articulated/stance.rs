@@ -194,12 +194,6 @@ impl Stance {
         Stance { held: true, anchors, ..self }
     }
 
-    /// Returns the stance with the same base pose in a new posture in a world, without settling.
-    pub fn kept(&self, model: &Model, posture: Posture, world: &World, tolerances: &Tolerances) -> Stance {
-        let X_WB = self.base_pose(model);
-        Stance::start(model, posture, &X_WB, (world, Placement::Fixed), tolerances).0
-    }
-
     /// Changes the world under the robot, which stays as it is: with a floor its contact points are found, without one
     /// it has none.
     pub fn enter(&mut self, model: &Model, world: &World, tolerances: &Tolerances) {
@@ -226,6 +220,19 @@ impl Stance {
         contact::margin(&self.contact_points, self.foot(), |contact_point| {
             contact_point.gap <= tolerances.gap_exact
         })
+    }
+
+    /// Returns the numbers of the links at the ends of the edge of support nearest to the centre of mass, one if they are the
+    /// same; of all supporting links if the support has no area.
+    pub fn edge(&self, tolerances: &Tolerances) -> Vec<usize> {
+        let points = &self.contact_points;
+        let near = |point: &ContactPoint| point.gap <= tolerances.gap_exact;
+        let mut edge = match contact::margin(points, self.foot(), near) {
+            Some(margin) => vec![points[margin.edge.0].link, points[margin.edge.1].link],
+            None => points.iter().filter(|point| near(point)).map(|point| point.link).collect(),
+        };
+        edge.dedup();
+        edge
     }
 
     /// Returns `X_WB`, the world pose of the base module's body, m.

@@ -1,7 +1,8 @@
 //! The support polygon of a robot at rest.
 
 use super::contact;
-use super::rollout::{Rollout, roll_out};
+use super::rollout::roll_out;
+use super::rollout_input::Rollout;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon::hull;
@@ -25,6 +26,7 @@ pub fn area(robot: &Assembly, state: &State) -> Vec<Vec3> {
         end: 0.0,
         subject: "the robot",
         as_placed: false,
+        floats: false,
     };
     let mut corners = Vec::new();
     roll_out(rollout, None, 0.0, &mut |sample, _| {

@@ -89,6 +89,9 @@ pub struct Tolerances {
     pub dock_speed: f64,
     /// The greatest angular speed of such a port, rad/s. Default 1°/s.
     pub dock_rate: f64,
+    /// The part of the trace of an inertia that is added to it where a robot floats, without unit. Default 1e-12: a line of
+    /// masses, which can't be turned about itself, is not.
+    pub inertia_ridge: f64,
     /// The step by which such speeds are found just before a docking, s. Default 0.1 ms: within it nothing changes its speed
     /// that can be seen.
     pub dock_step: f64,
@@ -150,6 +153,7 @@ impl Default for Tolerances {
             closure_angle: degree,
             dock_speed: 1e-3,
             dock_rate: degree,
+            inertia_ridge: 1e-12,
             dock_step: 1e-4,
             braking_time: 0.05,
             braked: 0.25,

@@ -3,7 +3,7 @@
 
 use super::super::minimum_power::along_ground;
 use super::super::model::Model;
-use super::super::rollout::Rollout;
+use super::super::rollout_input::Rollout;
 use super::loads::{self, Loop, Stop};
 use super::tolerances::PARAMETERS;
 use crate::geometry::Mat3;
@@ -198,10 +198,13 @@ impl<'a> Posed<'a> {
         )
     }
 
-    /// Returns the twist of the base's own frame (m/s, rad/s), in level axes, at which the whole robot has no
-    /// momentum: that of a robot that floats and has started from rest. `None` for a robot without mass.
-    pub(super) fn drifting(&self) -> Option<Twist> {
-        self.compensating(&self.momentum())
+    /// Returns the twist of the base's own frame (m/s, rad/s), in level axes, at which the whole robot has a momentum (N·s,
+    /// and N·m·s about its centre of mass, in level axes): none if it floats and has started from rest. `None` for a robot
+    /// without mass.
+    pub(super) fn drifting(&self, momentum: &Wrench) -> Option<Twist> {
+        let own = self.momentum();
+        let lacking = Wrench { force: own.force - momentum.force, moment: own.moment - momentum.moment };
+        self.compensating(&lacking)
     }
 
     /// Returns the wrenches of [`link_wrenches`](Self::link_wrenches) for a robot that floats: the base, whose velocity

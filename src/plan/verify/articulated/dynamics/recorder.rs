@@ -1,6 +1,6 @@
 //! The attitudes of the robot along a rollout, at whose instants loads are determined.
 
-use super::super::rollout::Sample;
+use super::super::sample::Sample;
 use super::tolerances::PARAMETERS;
 use super::traction::TravelSummary;
 use crate::geometry::Mat3;

@@ -1,9 +1,10 @@
 //! Loads along a rollout, with inertia and friction: of joints, motors and bonds against their limits, and of contacts
 //! against the balance of the robot.
 
+use super::super::in_force::positions;
 use super::super::load_limits::{MotorWork, is_excused, keep_margin, note_open_motors};
 use super::super::model::Model;
-use super::super::rollout::{Rollout, positions};
+use super::super::rollout_input::Rollout;
 use super::super::slope;
 use super::super::statics::{Load, LoadKind, Structure, Wrench as LinkWrench, effects};
 use super::bursts::Bursts;
@@ -160,7 +161,7 @@ impl<'a> RolloutLoads<'a> {
             let posed = self.posed(index);
             let twist = match Support::of(&instant.world) {
                 Support::Stays | Support::Held => None,
-                Support::Floats => posed.drifting(),
+                Support::Floats => posed.drifting(&self.rollout.momentum()),
                 Support::Settles => {
                     let situation = Situation::at_rest(&posed, &instant.world);
                     let found = equilibrium::solve(&situation, None, &mut warm);
@@ -184,13 +185,14 @@ impl<'a> RolloutLoads<'a> {
         (recorded.iter().enumerate().map(motion).collect(), slides)
     }
 
-    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the
-    /// first of them, and from the last of them on.
+    /// Returns the velocity of the base at a time (s), interpolated between those of the instants; zero before the first of
+    /// them, unless it is a part that comes off another in motion, and from the last of them on.
     fn at(&self, velocities: &[Twist], time: f64) -> Twist {
         let recorded = &self.instants;
         let next = recorded.partition_point(|r| r.time <= time);
         if next == 0 || next == recorded.len() {
-            return Twist::default();
+            let begins = next == 0 && self.rollout.begin.is_some_and(|entry| entry.twist != Twist::default());
+            return velocities.first().filter(|_| begins).copied().unwrap_or_default();
         }
         let (a, b) = (&recorded[next - 1], &recorded[next]);
         let part = (time - a.time) / (b.time - a.time);

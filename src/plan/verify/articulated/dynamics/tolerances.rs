@@ -76,6 +76,9 @@ pub(super) struct Parameters {
     /// The least and the greatest time over which friction acts on planar momentum before the twist is determined anew,
     /// s: from about the spacing of instants on.
     pub momentum_step: [f64; 2],
+    /// The speed above which a part that came off in motion slides on with its joints at rest, m/s, to which turning counts
+    /// with one metre for a radian: a tenth of the one below which friction is viscous.
+    pub coasting_speed: f64,
     /// The least size of a robot, by which moments are compared with forces, m.
     pub size_min: f64,
     /// The speed from which on a contact counts as sliding, m/s: five times the one below which friction is viscous.
@@ -156,6 +159,7 @@ pub(super) const PARAMETERS: Parameters = Parameters {
     relaxation: 0.85,
     relaxation_min: 0.1,
     momentum_step: [0.01, 0.015],
+    coasting_speed: 1e-4,
     size_min: 0.05,
     sliding_speed: 5e-3,
     friction_more: 1.25,

@@ -3,9 +3,9 @@
 
 use super::super::minimum_power::PlanarPose;
 use super::super::model::Model;
-use super::super::rollout::Rollout;
+use super::super::rollout_input::Rollout;
 use super::equilibrium::{self, Equilibrium, Warm};
-use super::posed::{Posed, Situation};
+use super::posed::{Posed, Situation, turned};
 use super::slide;
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
@@ -29,6 +29,8 @@ pub(in super::super) struct Traction {
     allowed: TravelPoses,
     /// The time of the last sample at which one holds, s; `None` before the first.
     allowed_at: Option<f64>,
+    /// True for a part that came off another in motion: it slides on whether its joints move or not.
+    came_off: bool,
 }
 
 /// A variation of friction or servo stiffness under which the travel is computed once more, to find how much it
@@ -185,6 +187,45 @@ impl Traction {
             self.allowed_at = Some(step.time);
         }
         (pose.moved(&shift(last.rate)), slips)
+    }
+
+    /// Begins with a robot in motion, at the time of a step that lasts no time. `base`: the twist of its base's own frame in the
+    /// world, m/s and rad/s, of which what is along the ground counts; `yaw`: the heading then, rad.
+    pub(in super::super) fn begin(&mut self, step: &GroundStep, base: &Twist, yaw: f64) {
+        if *base == Twist::default() {
+            return;
+        }
+        let posed = Posed::new(
+            step.model,
+            step.dynamics,
+            step.rollout,
+            (step.time, PARAMETERS.window),
+            (step.R, yaw),
+        );
+        let to_ground = step.world.ground_pose().rotation.inverse();
+        let level =
+            turned(&Twist { linear: to_ground * base.linear, angular: to_ground * base.angular }, -yaw);
+        let arm = posed.poses[step.model.base_link()].translation.vector;
+        let twist = Twist { linear: level.linear - level.angular.cross(&arm), angular: level.angular };
+        let (_, carried) = planar(&posed);
+        let by_joints = carried / step.model.mass;
+        self.came_off = true;
+        self.last = Some(Last {
+            time: step.time,
+            bonds: step.bonds.to_vec(),
+            carried,
+            rate: Vector3::new(twist.linear.x + by_joints.x, twist.linear.y + by_joints.y, twist.angular.z),
+            others: [Vector3::zeros(); Variation::ALL.len()],
+            varied_at: f64::NEG_INFINITY,
+            twist,
+            slips: vec![],
+        });
+    }
+
+    /// Returns true if the robot slides on even if its joints are at rest.
+    pub(in super::super) fn coasts(&self) -> bool {
+        let rate = self.last.as_ref().map_or_else(Vector3::zeros, |last| last.rate);
+        self.came_off && rate.norm() > PARAMETERS.coasting_speed
     }
 
     /// Returns the travel from the start of the rollout to the last step.
