@@ -60,6 +60,23 @@ pub fn in_words(verdict: &Verdict, headline: &str) -> String {
     lines.join("\n  ")
 }
 
+/// Returns the parts and obstacles of a scene that a failure at its start is about, each as (where it is placed, its name).
+fn begins(planned: &PlanValue, failure: &Failure) -> Vec<(Span, String)> {
+    let (Some(config), Some(scene)) = (planned.robot.config(), planned.robot.scene()) else { return vec![] };
+    let groups = config.parts.get().map_or(&[][..], |groups| groups);
+    let mut found: Vec<(Span, String)> = Vec::new();
+    for at in &failure.at {
+        let of =
+            |name: &str| at.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        let part = groups.iter().flat_map(|group| &group.elements).find(|part| of(&part.name));
+        let placed = part.and_then(|part| Some((part.place.as_ref()?.span, part.name.to_string())));
+        let obstacles = scene.obstacles.borrow();
+        let stands = obstacles.iter().find(|obstacle| obstacle.name == *at);
+        found.extend(placed.or_else(|| stands.map(|obstacle| (obstacle.span, obstacle.name.clone()))));
+    }
+    found
+}
+
 /// Returns the error code of a failed check.
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
@@ -139,8 +156,21 @@ impl Interpreter<'_> {
                 diagnostic = in_library(diagnostic, record);
             }
         }
+        let places = if failure.blames_start { begins(planned, failure) } else { vec![] };
+        for (at, name) in &places {
+            diagnostic = add_label(diagnostic, *at, format!("{name} is here"));
+        }
         let diagnostic = add_label(diagnostic, span, "while this plan is verified".to_string());
         match failure.kind {
+            CheckKind::Collision if !places.is_empty() => {
+                diagnostic.hint("robots and obstacles begin apart: place one of them elsewhere")
+            }
+            CheckKind::Docking if !planned.plan.body.tracks().is_none_or(|t| t.start.clusters.is_empty()) => {
+                diagnostic.hint(
+                    "robots dock where their ports are within what the connector captures, and at rest against each \
+                     other: bring them there first, and `wait` before the `dock`",
+                )
+            }
             CheckKind::Stability if failure.until.is_some() => diagnostic
                 .hint("`unstable_for:` allows support to be missing for a while, `allows unstable` to tip"),
             CheckKind::Traction if failure.is_slide() => diagnostic

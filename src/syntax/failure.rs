@@ -455,6 +455,12 @@ impl Mistake<'_> {
             return diagnostic
                 .hint("a text takes values in: `\"{value}\"`; a brace of its own is written `\\{`");
         }
+        let inside = !matches!(self.place, BodyKind::Items | BodyKind::Statements);
+        if inside && words::FAMILIES.contains(&self.found()) {
+            let hint =
+                format!("a `{}` stands by itself in the file, outside of other declarations", self.found());
+            return diagnostic.hint(hint);
+        }
         match words::form(self.token_text(0)).filter(|_| !self.wants_expression() && !self.wants_operator()) {
             Some(form) => diagnostic.hint(format!("it is written `{form}`")),
             None => diagnostic,

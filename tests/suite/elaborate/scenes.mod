@@ -125,3 +125,13 @@ scene Low(high: Bool = false) {
   let top = roof
 //          ^^^^ E0506 `roof` does not stand in `Low`
 }
+
+--- a scene stands in no configuration
+use std.smores.Smores
+config Outer {
+  part a: Smores
+  scene Inner { part b: Smores }
+//^^^^^ E0001 `scene` begins an item of a file, not a clause of a configuration
+}
+config Line { part a: Smores  scene Inner { part b: Smores } }
+//                            ^^^^^ E0001 `scene` cannot stand here | a `scene` stands by itself in the file

@@ -150,3 +150,43 @@ print(plan(move(yard.b.out, to: 40mm, in: 1s), from: p.end.of(yard.a)))
 //                                                   ^^^^^^^^^^^^^^^^ E0406 this is the state of `a` alone, and the behaviour is not one of `a` alone
 print(verify(p).of(yard))
 //                 ^^^^ E0506 `Two` is 2 robots: a report `of` is of one
+
+--- robots that begin in each other, or in an obstacle, are shown where they are placed
+use std.smores.Tank7
+scene Near { part a: Tank7  part b: Tank7 at [100mm, 0m, 0m] }
+//                                        ^^^^^^^^^^^^^^^^^^ E0601 a.steer.front and b.steer.center meet | place one of them
+let near = Near()
+emit(near.a.drive(t: 1s), "near.plan.json")
+scene Buried { part a: Tank7  obstacle rock = box(3m, 3m, 1m) at [0m, 0m, 500mm] }
+//                                     ^^^^ E0601 a.steer.front and rock meet | place one of them
+let buried = Buried()
+emit(buried.a.drive(t: 1s), "buried.plan.json")
+
+--- robots dock where their ports are, and at rest
+use std.smores.Tank7
+scene Apart(gap: Length) {
+  part a: Tank7
+  part b: Tank7 at [gap, 0m, 0m] turned(Z, 180deg)
+  behavior far = Sc(a.drive(t: 1s), wait(200ms), dock(a.nose, b.nose))
+//                                               ^^^^^^^^^^^^^^^^^^^^ E0606 does not dock: the ports are 630.058mm and 0deg apart
+  behavior fast = Pc(a.drive(t: 5s), Sc(wait(3.67s), dock(a.nose, b.nose)))
+//                                                   ^^^^^^^^^^^^^^^^^^^^ E0606 docks too fast: the ports move at
+}
+emit(Apart(1m).far(), "far.plan.json")
+emit(Apart(600mm).fast(), "fast.plan.json")
+
+--- a part that is let go above the ground falls, and the command is to blame
+connector Face { mates Face, turns 4 }
+module Block {
+  link body = box(100mm, 100mm, 100mm, mass: 1kg)
+  port top: Face on body at [0mm, 0mm, 50mm] facing +Z up +X
+  port bottom: Face on body at [0mm, 0mm, -50mm] facing -Z up +X
+}
+config Tower {
+  part m[2]: Block
+  connect m[0].top -- m[1].bottom
+  base m[0]
+  behavior drop = Sc(wait(300ms), undock(m[0].top), wait(700ms))
+//                                ^^^^^^^^^^^^^^^^ E0602 the part with `m[1]` falls at 300ms, by 100mm
+}
+emit(Tower().drop(), "drop.plan.json")

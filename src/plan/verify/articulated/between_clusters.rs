@@ -20,7 +20,7 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Status, Tracks};
 use crate::robot::{JointOwner, Kinematics, Link, ModuleInstance, ModuleType, Surface, mate};
 use crate::units::{Dimension, quantity};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Judges whether links of two clusters meet that are there at the same time, or of a cluster and an obstacle, at all samples
@@ -192,7 +192,17 @@ fn report(
     ledger: &mut Ledger,
 ) {
     let joints: Vec<JointOwner> = tracks.robot.joints().collect();
-    for collision in found.into_values() {
+    // Robots that begin in each other are said to once: what meets later follows from it.
+    let robot_of = |module: usize| {
+        let own = clusters.iter().position(|c| c.from == 0.0 && c.modules.contains(&module));
+        own.map_or((module, true), |own| (own, false))
+    };
+    let robots = |collision: &Collision| {
+        let (a, b) = (robot_of(collision.modules.0), robot_of(collision.modules.1));
+        (a.min(b), a.max(b))
+    };
+    let begun: BTreeSet<_> = found.values().filter(|c| c.time == 0.0).map(robots).collect();
+    for collision in found.into_values().filter(|c| c.time == 0.0 || !begun.contains(&robots(c))) {
         let mut failure = collision.failure(&tracks.robot);
         let cluster_of = |module: usize| {
             clusters.iter().rposition(|c| c.from <= failure.time && c.modules.contains(&module))

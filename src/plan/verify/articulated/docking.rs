@@ -6,7 +6,7 @@ use super::sample::Sample;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, Tracks};
+use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Status, TOLERANCES, Tracks};
 use crate::robot::{Assembly, Bond, Capture, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
@@ -180,8 +180,9 @@ pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) 
 
 /// Returns the distance and the angle between two ports, in words.
 pub(super) fn apart(residual: &Residual) -> String {
-    let distance = quantity(residual.distance, Dimension::LENGTH);
-    format!("the ports are {distance} and {} apart", quantity(residual.angle, Dimension::ANGLE))
+    let seen = |value: f64| if value < TOLERANCES.reported_zero { 0.0 } else { value };
+    let distance = quantity(seen(residual.distance), Dimension::LENGTH);
+    format!("the ports are {distance} and {} apart", quantity(seen(residual.angle), Dimension::ANGLE))
 }
 
 /// Returns the failure of a check of a bond, whose ports are as far apart as `residual` says, in the words of `message`.
