@@ -4,7 +4,8 @@ use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::value::Value;
-use crate::plan::verify::articulated::{self, Detail, Instant};
+use crate::geometry::Pose;
+use crate::plan::verify::articulated::{self, ClusterPaths, Detail, Instant};
 use crate::plan::{CauseId, Plan, Settings, Verdict, World, WorldFrom};
 use std::any::Any;
 use std::cell::{OnceCell, RefCell};
@@ -36,6 +37,8 @@ pub struct PlanValue {
     clearances: RefCell<BTreeMap<Option<usize>, AtTimes<Option<f64>>>>,
     /// True if the robot comes apart; empty until it is asked for.
     comes_apart: OnceCell<bool>,
+    /// The world poses of all links at the time (s) that was asked for last, of a robot that comes apart.
+    placed: RefCell<Option<(f64, Rc<[Pose]>)>>,
 }
 
 /// Times (s) with what is known at them.
@@ -117,6 +120,7 @@ impl PlanValue {
             instants: RefCell::default(),
             clearances: RefCell::default(),
             comes_apart: OnceCell::new(),
+            placed: RefCell::default(),
         }
     }
 
@@ -163,6 +167,24 @@ impl PlanValue {
     /// Returns true if the robot of the plan comes apart, so that its parts have poses of their own.
     pub fn comes_apart(&self) -> bool {
         *self.comes_apart.get_or_init(|| articulated::comes_apart(&self.plan))
+    }
+
+    /// Returns the world poses `X_WL` of all links at a time (s), m, by their numbers, of a robot that comes apart, as the
+    /// judge's rollout has brought them there; a link that it did not bring there is where the plan's base begins. `None` for
+    /// other plans. Kept for the next call with the same time.
+    pub fn placed(&self, time: f64) -> Option<Rc<[Pose]>> {
+        if let Some((at, poses)) = &*self.placed.borrow()
+            && *at == time
+        {
+            return Some(poses.clone());
+        }
+        let paths = ClusterPaths::of(&self.plan, time)?;
+        let mut poses =
+            vec![self.plan.body.tracks()?.start.base; self.body.as_ref()?.kinematics.link_count()];
+        paths.place(time, &mut poses);
+        let poses: Rc<[Pose]> = poses.into();
+        *self.placed.borrow_mut() = Some((time, poses.clone()));
+        Some(poses)
     }
 
     /// Returns the least signed distance of links that may not touch at each of these times (s), m; `None` where there

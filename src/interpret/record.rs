@@ -7,7 +7,7 @@ use super::robot::Robot;
 use super::value::Value;
 use crate::check::typed::DefId;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::verify::articulated::{ClusterPaths, Detail, Instant, base_at};
+use crate::plan::verify::articulated::{Detail, Instant, base_at};
 use crate::plan::{Ground, Plan, Verdict, World};
 use crate::robot::{Kinematics, State};
 use std::any::Any;
@@ -155,14 +155,13 @@ impl StateValue {
 
     /// Returns the poses `X_WL` of all links in the world (metres), by their numbers in the kinematics.
     pub fn poses(&self) -> Vec<Pose> {
+        if self.planned.comes_apart()
+            && let Some(poses) = self.planned.placed(self.time)
+        {
+            return poses.to_vec();
+        }
         let stood = self.base_of_plan();
         let mut poses = vec![stood; self.body.kinematics.link_count()];
-        if self.planned.comes_apart()
-            && let Some(paths) = ClusterPaths::of(&self.planned.plan, self.time)
-        {
-            paths.place(self.time, &mut poses);
-            return poses;
-        }
         let base = self.body.assembly.base;
         self.body.kinematics.link_poses_from(base, &self.state.joints, &stood, &mut poses);
         for cluster in &self.state.clusters {

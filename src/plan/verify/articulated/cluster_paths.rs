@@ -2,7 +2,6 @@
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
-use super::history::base_at;
 use super::parted;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::roll_out;
@@ -47,7 +46,12 @@ pub fn comes_apart(plan: &Plan) -> bool {
 pub fn standing(plan: &Plan, time: f64) -> Option<(Pose, Vec<ClusterPose>)> {
     let tracks = plan.body.tracks()?;
     let paths = ClusterPaths::of(plan, time)?;
-    let base = base_at(plan, time)?;
+    let kinematics = Kinematics::new(&tracks.robot, &tracks.start.bonds, tracks.robot.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let holds = |cluster: &&ClusterPath| cluster.modules().binary_search(&tracks.robot.base).is_ok();
+    paths.clusters.iter().filter(|cluster| cluster.exists(time)).find(holds)?;
+    paths.place(time, &mut poses);
+    let base = kinematics.module_pose(tracks.robot.base, &poses);
     let there = paths.clusters.iter().filter(|cluster| cluster.exists(time));
     let others = there.filter(|cluster| cluster.modules().binary_search(&tracks.robot.base).is_err());
     let pose = |cluster: &ClusterPath| ClusterPose {
