@@ -90,7 +90,8 @@ impl Interpreter<'_> {
             kinematics = Kinematics::new(&assembly, &holds, assembly.base);
             kinematics.link_poses(&joints, &Pose::identity(), &mut poses);
         }
-        let start = State { joints, bonds: holds, base: Pose::identity(), clusters: vec![] };
+        let start =
+            State { joints, bonds: holds, base: Pose::identity(), clusters: vec![], misalignments: vec![] };
         let (assembly, obstacles, world) = (Arc::new(assembly), Arc::default(), None);
         Ok(Some(Robot { assembly, start, kinematics, poses, obstacles, world }))
     }

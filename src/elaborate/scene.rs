@@ -206,7 +206,7 @@ impl Interpreter<'_> {
         let base = clusters.remove(base.unwrap_or(0));
         clusters.sort_by_key(|cluster| cluster.reference);
         assembly.base = base.reference;
-        Ok((State { joints, bonds, base: base.pose, clusters }, poses))
+        Ok((State { joints, bonds, base: base.pose, clusters, misalignments: vec![] }, poses))
     }
 }
 

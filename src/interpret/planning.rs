@@ -306,7 +306,7 @@ impl Interpreter<'_> {
         let time = time.clamp(0.0, planned.plan.body.duration());
         self.require_joints(planned, span)?;
         let state = state_value(planned, &Rc::new(vec![time]), 0, OnceCell::new());
-        Ok(state.map_or(Value::Unknown, |state| Value::Record(Rc::new(Record::State(state)))))
+        Ok(state.map_or(Value::Unknown, |state| Value::Record(Rc::new(Record::State(Box::new(state))))))
     }
 
     /// Refuses a plan of a lattice or a truss, which has no joints. `planned`: the plan.

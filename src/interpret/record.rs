@@ -24,7 +24,7 @@ pub enum Record {
     /// A `Report`: the verdict of the judge, and the headline under which it is shown.
     Report(Rc<Verdict>, String),
     /// A state of a robot, `State`.
-    State(StateValue),
+    State(Box<StateValue>),
     /// The assumptions about a robot's surroundings, `World`.
     World(World),
     /// A `Frame`: the positions of nodes, m, and struts as pairs of indices of these.

@@ -10,7 +10,8 @@ use crate::interpret::robot::Robot;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::{Behavior, JointValue, Value};
 use crate::plan::Verdict;
-use crate::robot::{Bond, JointOwner, Kinematics, PortRef, State};
+use crate::plan::verify::articulated;
+use crate::robot::{Bond, JointOwner, Kinematics, Misalignment, PortRef, State};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
@@ -54,7 +55,7 @@ fn state_of(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     let mut modules: Vec<usize> = reached.tree.order.iter().map(|(module, _)| *module).collect();
     modules.sort_unstable();
     let one = state.of(OneRobot { instance: robot.clone(), reference, modules });
-    Ok(Value::Record(Rc::new(Record::State(one))))
+    Ok(Value::Record(Rc::new(Record::State(Box::new(one)))))
 }
 
 /// Returns which of some robots, given by the names of their bases, an instance means, by its index. `about`: what is asked;
@@ -162,5 +163,12 @@ pub(super) fn beginning(
     }
     let base = state.body.kinematics.module_pose(modules[robot.base], &state.poses());
     let joints = robot.joints().zip(&own.start.joints).map(|(owner, start)| joint(owner).unwrap_or(*start));
-    Ok(Some(State { joints: joints.collect(), bonds: holds, base, clusters: vec![] }))
+    let then = articulated::standing(&state.planned.plan, state.time);
+    let errors = then.map_or(vec![], |then| then.misalignments);
+    let own_bond = |bond: usize| bonds.iter().position(|known| *known == Some(bond));
+    let own_error =
+        |error: &Misalignment| Some(Misalignment { bond: own_bond(error.bond)?, ..error.clone() });
+    let mut misalignments: Vec<Misalignment> = errors.iter().filter_map(own_error).collect();
+    misalignments.sort_by_key(|error| error.bond);
+    Ok(Some(State { joints: joints.collect(), bonds: holds, base, clusters: vec![], misalignments }))
 }

@@ -133,8 +133,9 @@ fn plan_behavior(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             None => {
                 interpreter.common_robot(behavior.robot.as_deref(), Some(&state.robot), call.at("from"))?;
                 let mut start = state.state.clone();
-                if let Some((base, clusters)) = articulated::standing(&state.planned.plan, state.time) {
-                    (start.base, start.clusters) = (base, clusters);
+                if let Some(then) = articulated::standing(&state.planned.plan, state.time) {
+                    (start.base, start.clusters) = (then.base, then.clusters);
+                    start.misalignments = then.misalignments;
                 }
                 Some(start)
             }

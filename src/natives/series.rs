@@ -119,7 +119,7 @@ fn plan_states(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let times = times(interpreter, call, &plan)?;
     let known = instants(call, &plan, &times, Detail::Stance)?;
     let states = states(&plan, &times, &known);
-    Ok(Value::list(states.map(|state| Value::Record(Rc::new(Record::State(state)))).collect()))
+    Ok(Value::list(states.map(|state| Value::Record(Rc::new(Record::State(Box::new(state))))).collect()))
 }
 
 /// Returns the states of a plan's robot at these times (s), with the poses of its base that the judge knows; none for

@@ -235,6 +235,11 @@ pub enum TracksFault {
         /// The path name of the module that stands for the cluster.
         reference: String,
     },
+    /// A misalignment of a bond that does not hold at the start, or that is stated twice or out of order.
+    Misalignment {
+        /// The name of the bond.
+        bond: String,
+    },
     /// An obstacle that is no solid.
     Obstacle {
         /// The name of the obstacle.
@@ -500,6 +505,9 @@ impl fmt::Display for TracksFault {
             TracksFault::FarJoint { limit } => write!(f, "a joint is moved beyond {limit} rad or m"),
             TracksFault::OneCluster { reference } => {
                 write!(f, "`{reference}` stands for a cluster that is part of another")
+            }
+            TracksFault::Misalignment { bond } => {
+                write!(f, "the misalignment of {bond} is that of no bond at the start, or out of order")
             }
             TracksFault::Obstacle { name, fault } => write!(f, "the obstacle `{name}`: {fault}"),
             TracksFault::NoCommands { joint } => write!(f, "{joint} takes no commands"),

@@ -141,11 +141,12 @@ pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve:
 /// Sets the start of a plan to where its robots stand at a time (s) of the plan that it is a part of, if there are several
 /// then, or that plan began with several.
 fn stand(new: &mut Plan, whole: &Plan, time: f64) {
-    let (Body::Tracks(tracks), Some((base, clusters))) = (&mut new.body, standing(whole, time)) else {
+    let (Body::Tracks(tracks), Some(then)) = (&mut new.body, standing(whole, time)) else {
         return;
     };
-    if !clusters.is_empty() || !tracks.start.clusters.is_empty() {
-        (tracks.start.base, tracks.start.clusters) = (base, clusters);
+    let start = &mut tracks.start;
+    if !then.clusters.is_empty() || !start.clusters.is_empty() || !then.misalignments.is_empty() {
+        (start.base, start.clusters, start.misalignments) = (then.base, then.clusters, then.misalignments);
     }
 }
 

@@ -99,6 +99,18 @@ pub struct ClusterPose {
     pub pose: Pose,
 }
 
+/// The error with which a bond docked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Misalignment {
+    /// The index of the bond in [`Assembly::bonds`].
+    pub bond: usize,
+    /// The pose of its second port in the frame that a perfect mate would give it, in metres.
+    #[serde(with = "crate::geometry::json")]
+    #[schemars(with = "crate::geometry::json::PoseText")]
+    pub pose: Pose,
+}
+
 /// The state of a robot, or of several that are modelled as one assembly of several clusters: the positions of all joints,
 /// the bonds that hold, and the pose of the base and of each further cluster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,6 +127,10 @@ pub struct State {
     /// The poses of the clusters that the base does not belong to, ascending by reference; empty for one robot.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub clusters: Vec<ClusterPose>,
+    /// The misalignments of bonds that hold, ascending by bond: those by which robots docked that stood by themselves. Other
+    /// bonds mate perfectly.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub misalignments: Vec<Misalignment>,
 }
 
 impl Assembly {

@@ -38,7 +38,9 @@ pub mod rofi;
 pub mod rofi_assembly;
 pub mod rofi_json;
 
-pub use assembly::{Assembly, Bond, ClusterPose, JointId, JointOwner, ModuleInstance, PortRef, State};
+pub use assembly::{
+    Assembly, Bond, ClusterPose, JointId, JointOwner, Misalignment, ModuleInstance, PortRef, State,
+};
 pub use drive::{Drive, drives, motor_efforts};
 pub use embedding::{EmbeddingAttempt, embeddings};
 pub use fault::{LibraryFault, ModulePart};

@@ -86,6 +86,7 @@ pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
         bonds: vec![true; bonds.len()],
         base: Pose::identity(),
         clusters: vec![],
+        misalignments: vec![],
     };
     let modules =
         world.modules.iter().map(|module| ModuleInstance { name: format!("m[{}]", module.id), kind: 0 });

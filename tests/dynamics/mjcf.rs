@@ -164,7 +164,7 @@ impl Case {
         let mut poses = vec![Pose::identity(); kinematics.link_count()];
         let X_WB = base_at(&self.plan, 0.0).expect("the plan is valid");
         kinematics.link_poses(&state.joints, &X_WB, &mut poses);
-        let others = standing(&self.plan, 0.0).map_or(vec![], |(_, others)| others);
+        let others = standing(&self.plan, 0.0).map_or(vec![], |stands| stands.clusters);
         assert!(kinematics.tree.loose.is_empty() || !others.is_empty(), "one robot hangs together");
         for cluster in others {
             let own = Kinematics::new(&tracks.robot, &state.bonds, cluster.reference);

@@ -189,6 +189,43 @@ fn plans_run_backwards_and_are_cut_with_robots_where_they_stand() {
     assert!(rest.body.tracks().expect("modules").start.clusters.is_empty(), "they are docked then");
 }
 
+/// A plan that is cut while robots are docked begins with the error with which they docked, also from its file and backwards.
+#[test]
+fn a_plan_cut_while_robots_are_docked_keeps_the_error_of_their_docking() {
+    let plan = fetch(Pose::translation(0.0, 0.0, 0.0039) * turned(Vec3::x(), f64::to_radians(4.9)), 1.0);
+    let rest = sliced(&plan, 3.0, 5.0).expect("a part of the plan");
+    let text = file::write(&rest).expect("a plan that is written");
+    let rest = file::read(&text).expect("a plan that was written is read");
+    let start = &rest.body.tracks().expect("modules").start;
+    assert!(start.clusters.is_empty() && start.bonds == [true], "they are docked then");
+    let same = |a: Pose, b: Pose| {
+        let off = a.inverse() * b;
+        assert!(off.translation.vector.norm() < 1e-9 && off.rotation.angle() < 1e-9, "{a:?} {b:?}");
+    };
+    for time in [0.0, 0.7, 2.0] {
+        same(block(&rest, time), block(&plan, 3.0 + time));
+    }
+    assert!(verify(&rest).ok(), "{:#?}", verify(&rest).failures);
+    let back = reversed(&rest);
+    assert!(verify(&back).ok(), "{:#?}", verify(&back).failures);
+    for time in [0.0, 1.3, 2.0] {
+        same(block(&back, time), block(&plan, 5.0 - time));
+    }
+    // A file that states more than is captured is refused, as a docking is.
+    let mut far = rest.clone();
+    tracks(&mut far).start.misalignments[0].pose = Pose::translation(0.0, 0.0, 0.005);
+    assert!(failures(&verify(&far)).contains(&CheckKind::Docking), "{:#?}", verify(&far).failures);
+    // Undone, the bond is forgotten, and with it its error.
+    let mut undone = rest.clone();
+    let event = tracks(&mut plan.clone()).events[0].clone();
+    tracks(&mut undone).events = vec![DockingEvent { time: 2.0, kind: DockingKind::Undock, ..event }];
+    assert!(verify(&undone).ok(), "{:#?}", verify(&undone).failures);
+    let after = sliced(&undone, 2.0, 2.0).expect("the end of the plan");
+    let start = &after.body.tracks().expect("modules").start;
+    assert!(start.misalignments.is_empty() && start.clusters.len() == 1, "{start:?}");
+    same(start.clusters[0].pose, block(&plan, 5.0));
+}
+
 #[test]
 fn robots_placed_into_each_other_are_refused() {
     let mut plan = fetch(Pose::translation(-0.04, 0.0, 0.0), 1.0);

@@ -281,6 +281,7 @@ pub fn at_rest(robot: &Assembly) -> State {
         bonds: vec![true; robot.bonds.len()],
         base: Pose::identity(),
         clusters: vec![],
+        misalignments: vec![],
     }
 }
 

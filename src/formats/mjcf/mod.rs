@@ -47,8 +47,10 @@ pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
     let start = standing(plan, 0.0);
-    let (X_WB, clusters) = start
-        .unwrap_or_else(|| (base_at(plan, 0.0).unwrap_or(tracks.start.base), tracks.start.clusters.clone()));
+    let (X_WB, clusters) = start.map_or_else(
+        || (base_at(plan, 0.0).unwrap_or(tracks.start.base), tracks.start.clusters.clone()),
+        |stands| (stands.base, stands.clusters),
+    );
     let trees = Trees::new(tracks, &X_WB, &clusters);
     let depth = trees.depth();
     if depth > DEPTH_MAX {

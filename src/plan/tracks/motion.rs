@@ -185,6 +185,7 @@ impl Tracks {
             *joint = track.position(*joint, t);
         }
         state.bonds = self.bonds(t);
+        state.misalignments.retain(|error| state.bonds[error.bond]);
         state
     }
 

@@ -56,6 +56,13 @@ impl Tracks {
                 known.extend(tree.order.iter().map(|(module, _)| *module));
             }
         }
+        let mut before = None;
+        for error in &self.start.misalignments {
+            need_index(error.bond, self.robot.bonds.len(), "bond")?;
+            let sound = self.start.bonds[error.bond] && before < Some(error.bond);
+            need(sound, || TracksFault::Misalignment { bond: self.robot.bond_name(error.bond) })?;
+            before = Some(error.bond);
+        }
         let mut names: BTreeSet<&String> = self.robot.modules.iter().map(|module| &module.name).collect();
         for Obstacle { name, .. } in &*self.obstacles {
             need(names.insert(name), || TracksFault::SharedName { name: name.clone() })?;
@@ -119,6 +126,9 @@ impl Tracks {
             check_library(&self.robot.library).map_err(PlanFault::Library)?;
         }
         check_pose(&self.start.base).map_err(|fault| PlanFault::Pose { of: "the base", fault })?;
+        for error in &self.start.misalignments {
+            check_pose(&error.pose).map_err(|fault| PlanFault::Pose { of: "a misalignment", fault })?;
+        }
         for cluster in &self.start.clusters {
             check_pose(&cluster.pose).map_err(|fault| PlanFault::Pose { of: "a cluster", fault })?;
         }

@@ -55,7 +55,7 @@
 //! # let modules = vec![ModuleInstance { name: "hinge".to_owned(), kind: 0 }];
 //! # let (name, bonds) = ("Turner".to_owned(), vec![]);
 //! # let robot = Assembly { name, library: library.clone(), modules, bonds, base: 0, closed: false, misalignments: vec![] };
-//! # let start = State { base: Pose::identity(), joints: vec![0.0], bonds: vec![], clusters: vec![] };
+//! # let start = State { base: Pose::identity(), joints: vec![0.0], bonds: vec![], clusters: vec![], misalignments: vec![] };
 //! // Three radians in ten seconds.
 //! let control = vec![0.0, 0.0, 0.0, 3.0, 3.0, 3.0];
 //! let segment = Segment { start: 0.0, end: 10.0, control, cause: CauseId(0) };

@@ -56,6 +56,7 @@ impl Sheet {
             bonds: holds,
             base: Pose::identity(),
             clusters: vec![],
+            misalignments: vec![],
         };
         Ok(Sheet { assembly, joints, flat })
     }

@@ -10,7 +10,7 @@ use super::succession;
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::{Body, DockingKind, Plan, Tracks, validation};
-use crate::robot::{Assembly, ClusterPose, Kinematics};
+use crate::robot::{Assembly, ClusterPose, Kinematics, Misalignment, State};
 
 /// The path of one cluster: modules that bonds connect, from the instant at which it comes to be by docking or undocking, or
 /// the start, until it does not hold any more.
@@ -29,21 +29,21 @@ pub struct ClusterPaths<'a> {
     tolerances: Tolerances,
 }
 
-/// Returns true if a valid plan has several clusters: robots that stand by themselves, or parts that come off one.
+/// Returns true if a valid plan has several clusters, robots that stand by themselves or parts that come off one, or one whose
+/// bonds do not all mate perfectly.
 pub fn comes_apart(plan: &Plan) -> bool {
     let Body::Tracks(tracks) = &plan.body else { return false };
     let undocks = tracks.events.iter().any(|event| event.kind == DockingKind::Undock);
-    (undocks || !tracks.start.clusters.is_empty())
+    let apart = !tracks.start.clusters.is_empty() || !tracks.start.misalignments.is_empty();
+    (undocks || apart)
         && validation::check(plan).is_ok()
-        && parted::clusters(&Rollout::of(plan, tracks, &Tolerances::default()))
-            .is_some_and(|clusters| clusters.len() > 1)
+        && parted::several(&Rollout::of(plan, tracks, &Tolerances::default())).is_some()
 }
 
-/// Returns (pose, further): the world pose of the base module's body (`X_WB`, m) at a time (s) of a plan that has several
-/// clusters at some time, and the poses of the clusters that there are then besides that of the base, ascending by reference,
-/// as the rollout of the judge has brought them there. `None` for one robot that stays one, for plans of other families and
-/// plans that are not valid, and where the rollout did not get there.
-pub fn standing(plan: &Plan, time: f64) -> Option<(Pose, Vec<ClusterPose>)> {
+/// Returns the state at a time (s) of a plan that has several clusters at some time: where they are then, as the rollout of the
+/// judge has brought them there, with the errors that bonds of a scene docked with. `None` for one robot that stays one, for plans of
+/// other families and plans that are not valid, and where the rollout did not get there.
+pub fn standing(plan: &Plan, time: f64) -> Option<State> {
     let tracks = plan.body.tracks()?;
     let paths = ClusterPaths::of(plan, time)?;
     let kinematics = Kinematics::new(&tracks.robot, &tracks.start.bonds, tracks.robot.base);
@@ -60,7 +60,14 @@ pub fn standing(plan: &Plan, time: f64) -> Option<(Pose, Vec<ClusterPose>)> {
     };
     let mut further: Vec<ClusterPose> = others.map(pose).collect();
     further.sort_by_key(|cluster| cluster.reference);
-    Some((base, further))
+    // A robot that comes apart and docks again is drawn with perfect bonds, and begins so.
+    let scene = !tracks.start.clusters.is_empty() || !tracks.start.misalignments.is_empty();
+    let holding = paths.clusters.iter().filter(|cluster| scene && cluster.exists(time));
+    let errors = holding.flat_map(|cluster| cluster.cluster.misalignments());
+    let mut misalignments: Vec<Misalignment> =
+        errors.map(|(bond, pose)| Misalignment { bond, pose }).collect();
+    misalignments.sort_by_key(|error| error.bond);
+    Some(State { base, clusters: further, misalignments, ..tracks.state(time) })
 }
 
 /// Returns the path of a robot's base over its rollout, until a time (s) or the end of its tracks.

@@ -6,7 +6,7 @@
 //! that judges a robot judges it, and as fast.
 
 use super::entry::Entry;
-use super::rollout_input::Rollout;
+use super::rollout_input::{Rollout, is_surrounded};
 use crate::geometry::Pose;
 use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks, WorldFrom};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
@@ -53,7 +53,7 @@ impl Cluster {
     /// Returns the rollout of the cluster. `whole`: that of the plan; `begin`: where it comes to be, `None` for one of the
     /// start.
     pub(super) fn rollout<'a>(&'a self, whole: &Rollout<'a>, begin: Option<&'a Entry>) -> Rollout<'a> {
-        let as_placed = !whole.tracks.start.clusters.is_empty() || !whole.tracks.obstacles.is_empty();
+        let as_placed = is_surrounded(whole.tracks);
         let (tracks, exemptions) = (&self.tracks, self.exemptions.as_slice());
         let floats = whole.is_full();
         let worlds = self.worlds.as_deref().unwrap_or(whole.worlds);
@@ -74,7 +74,7 @@ impl Cluster {
 }
 
 /// Returns the clusters of a plan, each after those of whose modules it consists; `None` for one robot that stays one in an
-/// empty world, and where modules are connected with nothing that stands for them at the start. `reference` chooses the
+/// empty world, with all bonds perfect, and where modules are connected with nothing that stands for them at the start. `reference` chooses the
 /// base of a cluster with none of the bases that are stated, by its index in the cluster.
 pub(super) fn of(
     tracks: &Tracks,
@@ -86,7 +86,7 @@ pub(super) fn of(
         timeline.pass(events);
     }
     let Timeline { found, ends, now, .. } = timeline;
-    if found.len() == 1 && tracks.obstacles.is_empty() {
+    if found.len() == 1 && tracks.obstacles.is_empty() && tracks.start.misalignments.is_empty() {
         return None;
     }
     let stated: Vec<usize> = stated_bases(tracks).collect();
@@ -148,7 +148,8 @@ impl<'a> Timeline<'a> {
         let found: Vec<Part> = sets.into_iter().map(part).collect();
         let now = (0..found.len()).collect();
         let ends = vec![tracks.duration; found.len()];
-        Some(Timeline { tracks, bonds, joining: BTreeSet::new(), found, ends, now })
+        let joining = tracks.start.misalignments.iter().map(|error| error.bond).collect();
+        Some(Timeline { tracks, bonds, joining, found, ends, now })
     }
 
     /// Takes the events of one instant: clusters whose modules change end, and so do those in which a bond is undone that
@@ -248,6 +249,7 @@ impl Part {
             bonds: bonds.iter().map(|&bond| self.bonds[bond]).collect(),
             base: tracks.start.base,
             clusters: vec![],
+            misalignments: vec![],
         };
         let between = |event: &&DockingEvent| {
             (event.time > self.from || self.parents.is_empty()) && (event.time < to || lasts)

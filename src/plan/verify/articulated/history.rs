@@ -98,7 +98,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
         return;
     }
     let rollout = Rollout::of(plan, tracks, tolerances);
-    let Some(mut clusters) = parted::clusters(&rollout).filter(|clusters| clusters.len() > 1) else {
+    let Some(mut clusters) = parted::several(&rollout) else {
         roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
             see(sample, PlacedBase { pose: sample.stance.base_pose(sample.model), whole: true });
             true

@@ -16,7 +16,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, Exemption, Failure, Ground, RobotVerdict, Status, WorldFrom};
-use crate::robot::Kinematics;
+use crate::robot::{Kinematics, Misalignment, Residual};
 use crate::units::{Dimension, counted, quantity};
 
 /// Returns the clusters of a plan, as [`clusters::of`] does: the base of a cluster that has none of those before, nor one
@@ -34,6 +34,13 @@ pub(super) fn clusters(rollout: &Rollout) -> Option<Vec<Cluster>> {
         }
     }
     Some(clusters)
+}
+
+/// Returns the clusters of a plan, as [`clusters`] does, if each must be followed by itself: several, or one with bonds that do
+/// not mate perfectly; `None` otherwise.
+pub(super) fn several(rollout: &Rollout) -> Option<Vec<Cluster>> {
+    let perfect = rollout.tracks.start.misalignments.is_empty();
+    clusters(rollout).filter(|clusters| clusters.len() > 1 || !perfect)
 }
 
 /// Returns the world as it is for what no fixture holds: without weight it floats.
@@ -65,7 +72,7 @@ fn central(cluster: &Cluster, tolerances: &Tolerances) -> usize {
 pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Ledger) {
     let exemptions: Vec<Vec<Exemption>> = clusters.iter().map(|cluster| cluster.exemptions.clone()).collect();
     let mut parts = Vec::with_capacity(clusters.len() + 1);
-    let mut missed: Vec<usize> = Vec::new();
+    let mut missed = misaligned_at_start(rollout, ledger);
     let paths = succession::follow(rollout, clusters, f64::INFINITY, &mut |begun| {
         let mut part = Ledger::new(&exemptions[begun.index], rollout.end);
         let path = judge_one(rollout, &begun, &mut missed, &mut part);
@@ -86,6 +93,24 @@ pub(super) fn judge(rollout: &Rollout, clusters: &mut [Cluster], ledger: &mut Le
         ledger.verdict.robots = robots(rollout, clusters, &parts, &travels);
     }
     ledger.merge(parts);
+}
+
+/// Records the bonds whose ports stand farther apart at the start than they dock, and returns them.
+fn misaligned_at_start(rollout: &Rollout, ledger: &mut Ledger) -> Vec<usize> {
+    let robot = &rollout.tracks.robot;
+    let mut missed = Vec::new();
+    for Misalignment { bond, pose } in &rollout.tracks.start.misalignments {
+        let distance = pose.translation.vector.norm();
+        let residual = Residual { bond: *bond, distance, angle: pose.rotation.angle() };
+        if !docking::within(robot, &residual, rollout.tolerances) {
+            let name = robot.bond_name(*bond);
+            let message = format!("{name} does not hold at the start: {}", docking::apart(&residual));
+            let found = docking::failure(CheckKind::Docking, robot, &residual, 0.0, message, vec![], rollout);
+            ledger.fail(Failure { blames_start: true, ..found });
+            missed.push(*bond);
+        }
+    }
+    missed
 }
 
 /// Judges one cluster, and returns the path of its base. `missed`: the bonds of the plan's robot whose ports missed so far,

@@ -38,7 +38,7 @@ pub struct Rollout<'a> {
 impl<'a> Rollout<'a> {
     /// Returns the rollout of a whole plan, whose body is `tracks`: all its joints move.
     pub fn of(plan: &'a Plan, tracks: &'a Tracks, tolerances: &'a Tolerances) -> Rollout<'a> {
-        let surrounded = !tracks.start.clusters.is_empty() || !tracks.obstacles.is_empty();
+        let surrounded = is_surrounded(tracks);
         Rollout {
             tracks,
             worlds: &plan.worlds,
@@ -73,4 +73,11 @@ impl<'a> Rollout<'a> {
     pub(super) fn is_full(&self) -> bool {
         is_full(self.worlds)
     }
+}
+
+/// Returns true if a plan is of several robots, of one among obstacles, or of one that several have become by docking: where
+/// they are placed then counts.
+pub(super) fn is_surrounded(tracks: &Tracks) -> bool {
+    let start = &tracks.start;
+    !start.clusters.is_empty() || !start.misalignments.is_empty() || !tracks.obstacles.is_empty()
 }

@@ -55,7 +55,8 @@ pub(super) fn follow(
     until: f64,
     each: &mut dyn FnMut(Begun) -> BasePath,
 ) -> Vec<BasePath> {
-    let mut past = Past::default();
+    let errors = rollout.tracks.start.misalignments.iter().map(|error| (error.bond, error.pose));
+    let mut past = Past { misalignments: errors.collect(), ..Past::default() };
     for index in 0..clusters.len() {
         let begun = past.begin(rollout, clusters).filter(|_| clusters[index].from <= until);
         let path = match &begun {

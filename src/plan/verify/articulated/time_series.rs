@@ -75,7 +75,7 @@ pub fn instants(plan: &Plan, times: &[f64], detail: Detail, reference: Option<us
     let tolerances = Tolerances::default();
     let rollout = Rollout::of(plan, tracks, &tolerances);
     let reference = reference.unwrap_or(tracks.robot.base);
-    let Some(mut clusters) = parted::clusters(&rollout).filter(|clusters| clusters.len() > 1) else {
+    let Some(mut clusters) = parted::several(&rollout) else {
         return of_rollout(&rollout, tracks.robot.base, times, detail);
     };
     let until = times.iter().copied().fold(0.0, f64::max);
