@@ -207,11 +207,14 @@ fn published_descriptions_come_in_and_leave_with_the_same_kinematics() {
             refused.push(ran.err);
             continue;
         }
-        let stem = file.file_stem().expect("a name").to_string_lossy();
-        let text = std::fs::read_to_string(sandbox.path(&format!("{stem}.mod"))).expect("it is written");
+        let written =
+            std::fs::read_dir(sandbox.path(".")).expect("a folder").map(|entry| entry.expect("an entry"));
+        let mut written = written.filter_map(|entry| entry.file_name().into_string().ok());
+        let module_file = written.find(|name| name.ends_with(".mod")).expect("it is written");
+        let text = std::fs::read_to_string(sandbox.path(&module_file)).expect("it can be read");
         let module = text.lines().find_map(|line| line.strip_prefix("module ")).expect("a module");
         let module = module.split(' ').next().expect("a name");
-        let program = format!("use \"{stem}.mod\".{{{module}}}\nsave({module}(), \"again.urdf\")\n");
+        let program = format!("use \"{module_file}\".{{{module}}}\nsave({module}(), \"again.urdf\")\n");
         std::fs::write(sandbox.path("main.mod"), program).expect("the sandbox can be written");
         let ran = sandbox.run(&["run", "main.mod"]);
         assert_eq!(ran.code, 0, "{name}: {}", ran.err);
