@@ -4,7 +4,7 @@ use super::arguments::Globals;
 use super::judge::{self, PlanFileFault};
 use super::program;
 use super::report::Report;
-use super::terminal::{cancelled, print_error};
+use super::terminal::print_error;
 use super::{CallError, Ending, output};
 use crate::exchange::{Export, FIRST_LINE, PlanFormat, bundle};
 use crate::interpret::WriteError;
@@ -21,30 +21,7 @@ pub(super) fn run(files: &[PathBuf], to: &str, globals: &Globals) -> Result<Endi
     let mut report = Report::default();
     report.written = Some(Vec::new());
     let written = |name: &str, plan: &Plan, report: &mut Report| exported(name, plan, to, report, globals);
-    let is_program =
-        |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mod"));
-    match files {
-        [file] if is_program(file) => {
-            let plans = program::plans(file, &mut report, globals)?;
-            let mut ok = report.errors == 0;
-            if ok && plans.is_empty() && !cancelled() {
-                return Err(CallError(format!("`{}` emits no plan", file.display())));
-            }
-            for (name, plan) in plans {
-                ok &= judge::noted(written(&name, &plan, &mut report), &mut report, globals);
-            }
-            report.finish(ok && !cancelled(), globals);
-            Ok(match (cancelled(), ok) {
-                (true, _) => Ending::Cancelled,
-                (false, true) => Ending::Fine,
-                (false, false) => Ending::Wrong,
-            })
-        }
-        _ if files.iter().any(is_program) => {
-            Err(CallError("`modl export` takes one program, or plan files".to_owned()))
-        }
-        _ => judge::each_plan(files, report, globals, written),
-    }
+    program::each_plan(files, ("export", "takes"), report, globals, written)
 }
 
 /// Writes a plan in a format; returns true.

@@ -3,8 +3,9 @@
 use super::arguments::Globals;
 use super::disk::{Project, STDIN_NAME};
 use super::folders::{self, Found};
+use super::judge::{self, PlanFileFault};
 use super::report::{self, JsonTest, Report};
-use super::terminal::{Terminal, listen_for_cancel, print, print_error};
+use super::terminal::{Terminal, cancelled, listen_for_cancel, print, print_error};
 use super::watched::Watched;
 use super::{CallError, Ending, examples, show};
 
@@ -135,11 +136,7 @@ fn run_all(
 ///
 /// # Errors
 /// A message if the file can't be read, or lies outside of the project's root.
-pub(super) fn plans(
-    file: &Path,
-    report: &mut Report,
-    globals: &Globals,
-) -> Result<Vec<(String, Plan)>, CallError> {
+fn plans(file: &Path, report: &mut Report, globals: &Globals) -> Result<Vec<(String, Plan)>, CallError> {
     let project = Project::open(file, globals.root.as_deref(), globals.stdlib.as_deref())?;
     listen_for_cancel();
     let mut terminal = Terminal::new(globals);
@@ -151,6 +148,48 @@ pub(super) fn plans(
         report.values = Some(std::mem::take(&mut terminal.values));
     }
     Ok(plans)
+}
+
+/// Does the same with each plan that a program emits, or with each of some plan files, as [`judge::each_plan`] does.
+/// `(command, takes)`: the command and what it does with files, for the message of a wrong call.
+///
+/// # Errors
+/// A message if a file can't be read or is too large, or a program emits no plan or stands among other files.
+pub(super) fn each_plan(
+    files: &[PathBuf],
+    (command, takes): (&str, &str),
+    mut report: Report,
+    globals: &Globals,
+    mut work: impl FnMut(&str, &Plan, &mut Report) -> Result<bool, PlanFileFault>,
+) -> Result<Ending, CallError> {
+    let is_program =
+        |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mod"));
+    match files {
+        [file] if is_program(file) => {
+            let plans = plans(file, &mut report, globals)?;
+            let mut ok = report.errors == 0;
+            if ok && plans.is_empty() && !cancelled() {
+                return Err(CallError(format!("`{}` emits no plan", file.display())));
+            }
+            for (name, plan) in plans {
+                let found = work(&name, &plan, &mut report);
+                ok &= judge::noted(found, &mut report, globals);
+                if cancelled() {
+                    break;
+                }
+            }
+            report.finish(ok && !cancelled(), globals);
+            Ok(match (cancelled(), ok) {
+                (true, _) => Ending::Cancelled,
+                (false, true) => Ending::Fine,
+                (false, false) => Ending::Wrong,
+            })
+        }
+        _ if files.iter().any(is_program) => {
+            Err(CallError(format!("`modl {command}` {takes} one program, or plan files")))
+        }
+        _ => judge::each_plan(files, report, globals, work),
+    }
 }
 
 /// Checks one program, does the task with it, and prints or records its diagnostics, tests and files. Returns the plans

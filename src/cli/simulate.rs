@@ -1,10 +1,10 @@
 //! `modl simulate`: plays plan files by rigid bodies, from nothing but the files, or the plans of a program.
 
 use super::arguments::Globals;
-use super::judge::{self, PlanFileFault};
+use super::judge::PlanFileFault;
 use super::program;
 use super::report::{JsonExtreme, JsonSimulation, Report};
-use super::terminal::{cancelled, print};
+use super::terminal::print;
 use super::{CallError, Ending};
 use crate::plan::Plan;
 use crate::simulate::{Extreme, Refusal, Settings, Simulation, simulate_halving};
@@ -41,35 +41,7 @@ pub(super) fn run(
         })?;
         Ok(told(name, plan, &outcome, halving, report, globals))
     };
-    let is_program =
-        |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mod"));
-    match files {
-        [file] if is_program(file) => {
-            let plans = program::plans(file, &mut report, globals)?;
-            let mut ok = report.errors == 0;
-            if ok && plans.is_empty() && !cancelled() {
-                return Err(CallError(format!("`{}` emits no plan", file.display())));
-            }
-            for (name, plan) in plans {
-                ok &= judge::noted(played(&name, &plan, &mut report), &mut report, globals);
-                if cancelled() {
-                    break;
-                }
-            }
-            report.finish(ok && !cancelled(), globals);
-            Ok(if cancelled() {
-                Ending::Cancelled
-            } else if ok {
-                Ending::Fine
-            } else {
-                Ending::Wrong
-            })
-        }
-        _ if files.iter().any(is_program) => {
-            Err(CallError("`modl simulate` plays one program, or plan files".to_owned()))
-        }
-        _ => judge::each_plan(files, report, globals, played),
-    }
+    program::each_plan(files, ("simulate", "plays"), report, globals, played)
 }
 
 /// Prints a simulation; returns true if nothing failed.
