@@ -28,11 +28,11 @@ mod terrain;
 mod words;
 
 use crate::behavior::unfaithful;
-use crate::geometry::{Placed, Pose};
+use crate::geometry::Placed;
 use crate::interrupt;
-use crate::plan::verify::articulated::{ClusterPaths, base_at};
+use crate::plan::verify::articulated::start_poses;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
-use crate::robot::{Assembly, ClusterPose};
+use crate::robot::Assembly;
 use commands::Commands;
 use coupling::Couplings;
 use ground_contact::GroundContacts;
@@ -192,19 +192,6 @@ fn run(
     }
     let outcome = recorder.end(&stepper, commands.end().unwrap_or(tracks.duration));
     Ok(Ok(Simulation { terrain, obstacles, ..outcome }))
-}
-
-/// Returns the world poses of the base and of the references of further clusters at the start, m, as the judge settles them.
-fn start_poses(plan: &Plan, tracks: &Tracks) -> (Pose, Vec<ClusterPose>) {
-    let base = base_at(plan, 0.0).unwrap_or(tracks.start.base);
-    let mut clusters = tracks.start.clusters.clone();
-    if let Some(paths) = ClusterPaths::of(plan, 0.0).filter(|_| !clusters.is_empty()) {
-        for cluster in &mut clusters {
-            let settled = paths.clusters.iter().find(|path| path.base() == cluster.reference);
-            cluster.pose = settled.map_or(cluster.pose, |path| path.poses()[0].1);
-        }
-    }
-    (base, clusters)
 }
 
 /// Returns true if two ports that are so far from a perfect mate (m, rad) dock; where the connector of a bond states no

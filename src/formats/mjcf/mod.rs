@@ -14,7 +14,7 @@ mod servo;
 mod tree;
 
 use crate::formats::xml::{Xml, number, numbers};
-use crate::plan::verify::articulated::{base_at, standing};
+use crate::plan::verify::articulated::start_poses;
 use crate::plan::{DockingKind, Ground, Plan, Tracks, World, validation};
 pub use fault::MjcfFault;
 use tree::Trees;
@@ -46,11 +46,7 @@ const DEPTH_MAX: usize = 496;
 pub fn write(plan: &Plan) -> Result<String, MjcfFault> {
     let tracks = plan.body.tracks().ok_or(MjcfFault::NoJoints)?;
     validation::check(plan).map_err(MjcfFault::Invalid)?;
-    let start = standing(plan, 0.0);
-    let (X_WB, clusters) = start.map_or_else(
-        || (base_at(plan, 0.0).unwrap_or(tracks.start.base), tracks.start.clusters.clone()),
-        |stands| (stands.base, stands.clusters),
-    );
+    let (X_WB, clusters) = start_poses(plan, tracks);
     let trees = Trees::new(tracks, &X_WB, &clusters);
     let depth = trees.depth();
     if depth > DEPTH_MAX {

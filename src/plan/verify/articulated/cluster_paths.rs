@@ -2,6 +2,7 @@
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
+use super::history::base_at;
 use super::parted;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::roll_out;
@@ -68,6 +69,20 @@ pub fn standing(plan: &Plan, time: f64) -> Option<State> {
         errors.map(|(bond, pose)| Misalignment { bond, pose }).collect();
     misalignments.sort_by_key(|error| error.bond);
     Some(State { base, clusters: further, misalignments, ..tracks.state(time) })
+}
+
+/// Returns the world poses of the base and of the references of further clusters at the start of a plan, m, as the judge
+/// settles them; as the plan states them where it does not. `tracks`: the plan's.
+pub fn start_poses(plan: &Plan, tracks: &Tracks) -> (Pose, Vec<ClusterPose>) {
+    let base = base_at(plan, 0.0).unwrap_or(tracks.start.base);
+    let mut clusters = tracks.start.clusters.clone();
+    if let Some(paths) = ClusterPaths::of(plan, 0.0).filter(|_| !clusters.is_empty()) {
+        for cluster in &mut clusters {
+            let settled = paths.clusters.iter().find(|path| path.base() == cluster.reference);
+            cluster.pose = settled.map_or(cluster.pose, |path| path.poses()[0].1);
+        }
+    }
+    (base, clusters)
 }
 
 /// Returns the path of a robot's base over its rollout, until a time (s) or the end of its tracks.

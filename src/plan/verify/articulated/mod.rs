@@ -75,7 +75,7 @@ mod time_series;
 
 pub use bodies::{Bodies, UnsoundLink};
 pub use clearance::{clearances, clearances_at, collision_point};
-pub use cluster_paths::{ClusterPath, ClusterPaths, comes_apart, standing};
+pub use cluster_paths::{ClusterPath, ClusterPaths, comes_apart, standing, start_poses};
 pub use collision::{Collision, Findings};
 pub use contact::{ContactPatch, ContactPoint};
 pub use dock_turns::dock_turns;
