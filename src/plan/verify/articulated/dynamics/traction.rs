@@ -160,6 +160,14 @@ pub(in super::super) struct GroundStep<'a> {
     pub R: &'a Mat3,
 }
 
+impl<'a> GroundStep<'a> {
+    /// Returns the robot at the end of the step; `yaw`: the heading there, rad.
+    fn posed(&self, yaw: f64) -> Posed<'a> {
+        let at = (self.time, PARAMETERS.window);
+        Posed::new(self.model, self.dynamics, self.rollout, at, (self.R, yaw))
+    }
+}
+
 impl Traction {
     /// Advances the travel by a step of the rollout from the planar pose `pose`. Returns (pose, slips): the pose after
     /// it, and for each loaded link (number of the link, its slip in m, its load as a fraction of the weight). The
@@ -195,13 +203,7 @@ impl Traction {
         if *base == Twist::default() {
             return;
         }
-        let posed = Posed::new(
-            step.model,
-            step.dynamics,
-            step.rollout,
-            (step.time, PARAMETERS.window),
-            (step.R, yaw),
-        );
+        let posed = step.posed(yaw);
         let to_ground = step.world.ground_pose().rotation.inverse();
         let level =
             turned(&Twist { linear: to_ground * base.linear, angular: to_ground * base.angular }, -yaw);
@@ -237,13 +239,7 @@ impl Traction {
     /// Determines the velocities at the end of a step from the equilibrium of forces there, and those under the
     /// variations; the former ones stay where no forces are found. `yaw`: the heading there, rad.
     fn determine(&mut self, step: &GroundStep, yaw: f64) {
-        let posed = Posed::new(
-            step.model,
-            step.dynamics,
-            step.rollout,
-            (step.time, PARAMETERS.window),
-            (step.R, yaw),
-        );
+        let posed = step.posed(yaw);
         let mut situation = Situation::at_rest(&posed, step.world);
         let (inertia, carried) = planar(&posed);
         let since = self.last.as_ref().map(|last| step.time - last.time);
