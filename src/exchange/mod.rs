@@ -10,6 +10,7 @@ mod cdr;
 mod driving;
 mod export;
 mod gltf;
+mod import_fault;
 pub mod mapping;
 mod module_text;
 mod motion;
@@ -30,9 +31,9 @@ mod urdf_shapes;
 
 pub use bundle::{FIRST_LINE, bundle};
 pub use export::{Export, ExportFile};
+pub use import_fault::ImportFault;
 pub use module_text::{ImportFile, Imported};
 pub use plan_formats::{PLAN_FORMATS, PlanFormat};
 pub use refusal::Refusal;
 pub use smores::{FaultIn, import};
 pub use trajectory::{Trajectory, TrajectoryPoint, trajectories};
-pub use urdf_reader::ImportFault;

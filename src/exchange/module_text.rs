@@ -1,7 +1,8 @@
 //! Robot descriptions as modules of the language: a text to read, to give ports to, and to build robots of.
 
+use super::import_fault::ImportFault;
 use super::urdf_masses::{LinkMass, masses};
-use super::urdf_reader::{ImportFault, Urdf, UrdfJoint, UrdfKind, UrdfShape, read};
+use super::urdf_reader::{Urdf, UrdfJoint, UrdfKind, UrdfShape, read};
 use crate::formats::masses::MASS_MIN;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3, hull};

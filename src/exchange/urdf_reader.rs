@@ -1,12 +1,12 @@
 //! Robot descriptions in URDF, read: links, joints, masses and shapes as they stand in the file.
 
+use super::import_fault::{ImportFault, document};
 use crate::formats::MESH_FORMATS;
 use crate::geometry::pose::{shifted, turned};
 use crate::geometry::{Pose, Vec3};
 use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, QUANTITY_MAX};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
-use std::fmt;
 
 /// A robot description.
 #[derive(Clone, Debug, Default)]
@@ -91,32 +91,6 @@ pub(super) struct UrdfJoint {
     pub(super) mimic: Option<(usize, f64, f64)>,
 }
 
-/// The reason why a description can't be read.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ImportFault {
-    /// The mistake.
-    pub message: String,
-    /// The line in the file, from 1; 0 where there is none.
-    pub line: usize,
-    /// The column, from 1.
-    pub column: usize,
-}
-
-impl ImportFault {
-    /// Returns a fault of a file as a whole.
-    pub(super) fn of_file(message: impl Into<String>) -> ImportFault {
-        ImportFault { message: message.into(), line: 0, column: 0 }
-    }
-}
-
-impl fmt::Display for ImportFault {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for ImportFault {}
-
 /// The reader of a description.
 struct Reader<'d, 'r> {
     document: &'d Document<'d>,
@@ -130,26 +104,18 @@ struct Reader<'d, 'r> {
 /// # Errors
 /// The first [`ImportFault`]: no XML, no robot, a link or joint that makes no sense, or one that modl does not have.
 pub(super) fn read(text: &str, open: &mut dyn FnMut(&str) -> Option<Vec<u8>>) -> Result<Urdf, ImportFault> {
-    let document = Document::parse(text).map_err(|e| {
-        let at = e.pos();
-        ImportFault { message: format!("it is no XML: {e}"), line: at.row as usize, column: at.col as usize }
-    })?;
+    let document = document(text)?;
     let mut reader = Reader { document: &document, open, urdf: Urdf::default() };
     reader.robot()?;
     Ok(reader.urdf)
 }
 
 impl<'d> Reader<'d, '_> {
-    fn fault(&self, node: Node, message: impl Into<String>) -> ImportFault {
-        let at = self.document.text_pos_at(node.range().start);
-        ImportFault { message: message.into(), line: at.row as usize, column: at.col as usize }
-    }
-
     fn robot(&mut self) -> Result<(), ImportFault> {
         let root = self.document.root_element();
         if !root.has_tag_name("robot") {
             let found = root.tag_name().name();
-            return Err(self.fault(root, format!("`<robot>` is wanted, and this is `<{found}>`")));
+            return Err(ImportFault::at_node(root, format!("`<robot>` is wanted, and this is `<{found}>`")));
         }
         self.urdf.name = root.attribute("name").unwrap_or("robot").to_owned();
         let mut links = BTreeMap::new();
@@ -157,21 +123,21 @@ impl<'d> Reader<'d, '_> {
             let name = self.name(node)?;
             let link = self.link(node, name.clone())?;
             if links.insert(name.clone(), self.urdf.links.len()).is_some() {
-                return Err(self.fault(node, format!("the link `{name}` is there twice")));
+                return Err(ImportFault::at_node(node, format!("the link `{name}` is there twice")));
             }
             self.urdf.links.push(link);
         }
         if links.is_empty() {
             let xacro = root.namespaces().any(|space| space.name() == Some("xacro"));
             let how = if xacro { ": it is made of macros, which `xacro` expands" } else { "" };
-            return Err(self.fault(root, format!("the robot has no links{how}")));
+            return Err(ImportFault::at_node(root, format!("the robot has no links{how}")));
         }
         let nodes: Vec<Node> = root.children().filter(|node| node.has_tag_name("joint")).collect();
         let mut joints = BTreeMap::new();
         for (index, node) in nodes.iter().enumerate() {
             let name = self.name(*node)?;
             if joints.insert(name.clone(), index).is_some() {
-                return Err(self.fault(*node, format!("the joint `{name}` is there twice")));
+                return Err(ImportFault::at_node(*node, format!("the joint `{name}` is there twice")));
             }
         }
         for node in nodes {
@@ -183,8 +149,9 @@ impl<'d> Reader<'d, '_> {
 
     fn name(&self, node: Node) -> Result<String, ImportFault> {
         let name = node.attribute("name").filter(|name| !name.is_empty());
-        name.map(str::to_owned)
-            .ok_or_else(|| self.fault(node, format!("a `<{}>` without a name", node.tag_name().name())))
+        name.map(str::to_owned).ok_or_else(|| {
+            ImportFault::at_node(node, format!("a `<{}>` without a name", node.tag_name().name()))
+        })
     }
 
     /// Returns the only child of a name.
@@ -204,7 +171,9 @@ impl<'d> Reader<'d, '_> {
         let count = text.split_whitespace().count();
         match <[f64; N]>::try_from(read) {
             Ok(all) if count == N && all.iter().all(|x| x.is_finite()) => Ok(all),
-            _ => Err(self.fault(node, format!("`{key}=\"{text}\"`: {N} finite numbers are wanted"))),
+            _ => {
+                Err(ImportFault::at_node(node, format!("`{key}=\"{text}\"`: {N} finite numbers are wanted")))
+            }
         }
     }
 
@@ -218,7 +187,7 @@ impl<'d> Reader<'d, '_> {
     fn positive(&self, node: Node, key: &str) -> Result<f64, ImportFault> {
         self.number(node, key)?
             .filter(|x| *x > 0.0)
-            .ok_or_else(|| self.fault(node, format!("a positive `{key}` is wanted")))
+            .ok_or_else(|| ImportFault::at_node(node, format!("a positive `{key}` is wanted")))
     }
 
     /// Returns the pose that the element `origin` of a node states.
@@ -239,7 +208,10 @@ impl<'d> Reader<'d, '_> {
                 link.mass = self.number(mass, "value")?;
             }
             if link.mass.is_some_and(|mass| mass < 0.0) {
-                return Err(self.fault(inertial, format!("the mass of `{}` is negative", link.name)));
+                return Err(ImportFault::at_node(
+                    inertial,
+                    format!("the mass of `{}` is negative", link.name),
+                ));
             }
             if let Some(inertia) = Self::child(inertial, "inertia") {
                 for (entry, key) in link.inertia.iter_mut().zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"]) {
@@ -264,10 +236,10 @@ impl<'d> Reader<'d, '_> {
     /// Returns the shape of a node `collision` or `visual`; `None`, with a note, for a mesh that can't be read.
     fn shape(&mut self, node: Node<'d, 'd>, link: &str) -> Result<Option<UrdfShape>, ImportFault> {
         let Some(geometry) = Self::child(node, "geometry") else {
-            return Err(self.fault(node, "a shape without `<geometry>`"));
+            return Err(ImportFault::at_node(node, "a shape without `<geometry>`"));
         };
         let Some(shape) = geometry.children().find(Node::is_element) else {
-            return Err(self.fault(geometry, "`<geometry>` without a shape"));
+            return Err(ImportFault::at_node(geometry, "`<geometry>` without a shape"));
         };
         let round =
             |reader: &Self| Ok((reader.positive(shape, "radius")?, reader.positive(shape, "length")?));
@@ -275,7 +247,7 @@ impl<'d> Reader<'d, '_> {
             "box" => {
                 let size = self.numbers(shape, "size", [0.0; 3])?;
                 if size.iter().any(|edge| *edge <= 0.0) {
-                    return Err(self.fault(shape, "the edges of a box are positive"));
+                    return Err(ImportFault::at_node(shape, "the edges of a box are positive"));
                 }
                 UrdfShape::Box(Vec3::from(size))
             }
@@ -289,14 +261,14 @@ impl<'d> Reader<'d, '_> {
             }
             "sphere" => UrdfShape::Sphere(self.positive(shape, "radius")?),
             "mesh" => return self.mesh(shape, link),
-            other => return Err(self.fault(shape, format!("modl has no shape `{other}`"))),
+            other => return Err(ImportFault::at_node(shape, format!("modl has no shape `{other}`"))),
         }))
     }
 
     fn mesh(&mut self, node: Node, link: &str) -> Result<Option<UrdfShape>, ImportFault> {
         let scale = self.numbers(node, "scale", [1.0; 3])?;
         let Some(name) = node.attribute("filename") else {
-            return Err(self.fault(node, "a mesh without `filename`"));
+            return Err(ImportFault::at_node(node, "a mesh without `filename`"));
         };
         let ending = name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_lowercase());
         let mut left_out = |why: String| {
@@ -332,16 +304,19 @@ impl<'d> Reader<'d, '_> {
             Some(other) => {
                 let message =
                     format!("the joint `{name}` is `{other}`, and modl has joints of one axis only");
-                return Err(self.fault(node, message));
+                return Err(ImportFault::at_node(node, message));
             }
-            None => return Err(self.fault(node, format!("the joint `{name}` has no `type`"))),
+            None => return Err(ImportFault::at_node(node, format!("the joint `{name}` has no `type`"))),
         };
         let end = |key: &str| {
             let link = Self::child(node, key).and_then(|end| end.attribute("link"));
-            let link =
-                link.ok_or_else(|| self.fault(node, format!("the joint `{name}` has no `<{key}>`")))?;
+            let link = link
+                .ok_or_else(|| ImportFault::at_node(node, format!("the joint `{name}` has no `<{key}>`")))?;
             links.get(link).copied().ok_or_else(|| {
-                self.fault(node, format!("the `<{key}>` of `{name}`, `{link}`, is no link of the robot"))
+                ImportFault::at_node(
+                    node,
+                    format!("the `<{key}>` of `{name}`, `{link}`, is no link of the robot"),
+                )
             })
         };
         let (parent, child) = (end("parent")?, end("child")?);
@@ -351,7 +326,7 @@ impl<'d> Reader<'d, '_> {
             axis = Vec3::from(self.numbers(stated, "xyz", [1.0, 0.0, 0.0])?);
         }
         let Some(axis) = axis.try_normalize(0.0) else {
-            return Err(self.fault(node, format!("the axis of `{name}` has no length")));
+            return Err(ImportFault::at_node(node, format!("the axis of `{name}` has no length")));
         };
         let limit = Self::child(node, "limit");
         let stated = |key: &str| match limit {
@@ -361,7 +336,10 @@ impl<'d> Reader<'d, '_> {
         let (low, high) = (stated("lower")?.unwrap_or(0.0), stated("upper")?.unwrap_or(0.0));
         let bounded = matches!(kind, UrdfKind::Revolute | UrdfKind::Prismatic);
         if bounded && low > high {
-            return Err(self.fault(node, format!("the limits of `{name}` are the wrong way round")));
+            return Err(ImportFault::at_node(
+                node,
+                format!("the limits of `{name}` are the wrong way round"),
+            ));
         }
         // Zeros, and numbers beyond all limits, stand for what is not known.
         let known = |x: &f64| *x > 0.0 && *x <= QUANTITY_MAX;
@@ -374,7 +352,7 @@ impl<'d> Reader<'d, '_> {
             Some(mimic) => {
                 let followed = mimic.attribute("joint").unwrap_or_default();
                 let index = joints.get(followed).copied().ok_or_else(|| {
-                    self.fault(mimic, format!("`{name}` follows `{followed}`, which is no joint"))
+                    ImportFault::at_node(mimic, format!("`{name}` follows `{followed}`, which is no joint"))
                 })?;
                 let factor = self.number(mimic, "multiplier")?.unwrap_or(1.0);
                 Some((index, factor, self.number(mimic, "offset")?.unwrap_or(0.0)))
@@ -395,7 +373,7 @@ impl<'d> Reader<'d, '_> {
         for joint in &urdf.joints {
             if std::mem::replace(&mut carried[joint.child], true) {
                 let link = &urdf.links[joint.child].name;
-                return Err(self.fault(root, format!("two joints carry the link `{link}`")));
+                return Err(ImportFault::at_node(root, format!("two joints carry the link `{link}`")));
             }
         }
         let roots: Vec<&str> = urdf
@@ -411,7 +389,7 @@ impl<'d> Reader<'d, '_> {
                 [_] => "some links carry each other in a circle".to_owned(),
                 _ => format!("nothing carries {}", roots.join(", ")),
             };
-            return Err(self.fault(root, format!("the links are not one tree: {found}")));
+            return Err(ImportFault::at_node(root, format!("the links are not one tree: {found}")));
         }
         Ok(())
     }

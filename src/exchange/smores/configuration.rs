@@ -4,7 +4,7 @@
 //! numbers, the last three roll, pitch and yaw, or seven, the last four a quaternion with its real part first. Joints stand in
 //! the order front, left, right, centre. The chassis is turned against that frame by the centre joint.
 
-use super::super::urdf_reader::ImportFault;
+use super::super::import_fault::ImportFault;
 use super::parts::{Face, Member, Place, Robot, tilt_fault};
 use super::{Document, MODULES_MAX, Node, xml};
 use crate::geometry::pose::{shifted, turned};
@@ -21,13 +21,16 @@ pub(super) fn read(document: &Document) -> Result<Robot, ImportFault> {
     let mut robot = Robot::new(PITCH);
     let modules = xml::children(xml::child(root, "modules")?, "module")?;
     if modules.len() > MODULES_MAX {
-        return Err(xml::fault(root, format!("{} modules are more than {MODULES_MAX}", modules.len())));
+        return Err(ImportFault::at_node(
+            root,
+            format!("{} modules are more than {MODULES_MAX}", modules.len()),
+        ));
     }
     let mut names = BTreeMap::new();
     for node in modules {
         let member = member(node)?;
         if names.insert(member.name.clone(), robot.members.len()).is_some() {
-            return Err(xml::fault(node, format!("the module `{}` is there twice", member.name)));
+            return Err(ImportFault::at_node(node, format!("the module `{}` is there twice", member.name)));
         }
         robot.members.push(member);
     }
@@ -67,9 +70,10 @@ pub(super) fn ends(
         let index = names
             .get(name)
             .copied()
-            .ok_or_else(|| xml::fault(node, format!("there is no module `{name}`")))?;
+            .ok_or_else(|| ImportFault::at_node(node, format!("there is no module `{name}`")))?;
         let text = xml::text(node, &format!("{face}{number}"))?;
-        let face = named(text).ok_or_else(|| xml::fault(node, format!("`{text}` is no face of a module")))?;
+        let face = named(text)
+            .ok_or_else(|| ImportFault::at_node(node, format!("`{text}` is no face of a module")))?;
         Ok((index, face))
     };
     Ok([end(1)?, end(2)?])
@@ -79,7 +83,7 @@ pub(super) fn ends(
 pub(super) fn turn(node: Node) -> Result<f64, ImportFault> {
     let distance = xml::number(node, "distance")?;
     if distance != 0.0 {
-        return Err(xml::fault(
+        return Err(ImportFault::at_node(
             node,
             format!("the faces are to stay {distance} m apart, and docked faces touch"),
         ));
@@ -87,7 +91,7 @@ pub(super) fn turn(node: Node) -> Result<f64, ImportFault> {
     let angle = xml::number(node, "angle")?;
     let quarters = angle / 90.0;
     if (quarters - libm::round(quarters)).abs() > 1e-6 || quarters.abs() > 1e6 {
-        return Err(xml::fault(node, format!("a turn by {angle}°: modules dock in quarter turns")));
+        return Err(ImportFault::at_node(node, format!("a turn by {angle}°: modules dock in quarter turns")));
     }
     Ok(quarters * FRAC_PI_2)
 }
@@ -95,7 +99,7 @@ pub(super) fn turn(node: Node) -> Result<f64, ImportFault> {
 fn member(node: Node) -> Result<Member, ImportFault> {
     let name = xml::text(node, "name")?.to_owned();
     if name.is_empty() {
-        return Err(xml::fault(node, "a module without a name"));
+        return Err(ImportFault::at_node(node, "a module without a name"));
     }
     if let Some(path) = node.children().find(|child| child.has_tag_name("path")) {
         let file = path.text().unwrap_or("").trim();
@@ -104,29 +108,32 @@ fn member(node: Node) -> Result<Member, ImportFault> {
             let message = format!(
                 "`{name}` is of the model `{model}`, and the library has the module of `SMORE.sdf` only"
             );
-            return Err(xml::fault(path, message));
+            return Err(ImportFault::at_node(path, message));
         }
     }
     let numbers = xml::numbers(node, "position", &[6, 7])?;
     let [front, left, right, centre] = *xml::numbers(node, "joints", &[4])? else {
-        return Err(xml::fault(node, "4 joint positions are wanted"));
+        return Err(ImportFault::at_node(node, "4 joint positions are wanted"));
     };
     if let Some(message) = tilt_fault(centre) {
-        return Err(xml::fault(node, message));
+        return Err(ImportFault::at_node(node, message));
     }
     let turn = match numbers[3..] {
         [roll, pitch, yaw] => turned(Vec3::z(), yaw) * turned(Vec3::y(), pitch) * turned(Vec3::x(), roll),
         [w, x, y, z] => {
             let turn = nalgebra::Quaternion::new(w, x, y, z);
             if (turn.norm() - 1.0).abs() > 1e-2 {
-                return Err(xml::fault(node, format!("the orientation of `{name}` is no unit quaternion")));
+                return Err(ImportFault::at_node(
+                    node,
+                    format!("the orientation of `{name}` is no unit quaternion"),
+                ));
             }
             Pose::from_parts(
                 nalgebra::Translation3::identity(),
                 nalgebra::UnitQuaternion::new_normalize(turn),
             )
         }
-        _ => return Err(xml::fault(node, "an orientation of 3 or 4 numbers is wanted")),
+        _ => return Err(ImportFault::at_node(node, "an orientation of 3 or 4 numbers is wanted")),
     };
     let X_WB = shifted(Vec3::new(numbers[0], numbers[1], numbers[2])) * turn;
     let X_BC = turned(Vec3::x(), centre) * turned(Vec3::z(), -FRAC_PI_2);

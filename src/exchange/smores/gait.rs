@@ -6,7 +6,7 @@
 //! label are over. A command with a time is over then, one without when its joints are there; a speed without a time lasts
 //! 10 s. `//` begins a comment.
 
-use super::super::urdf_reader::ImportFault;
+use super::super::import_fault::ImportFault;
 use super::COMMANDS_MAX;
 use super::order::{Arranged, Graph, Order, arrange};
 use super::parts::{Action, Face, Place, Robot, tilt_fault};

@@ -14,8 +14,8 @@ mod text;
 mod vsparc;
 mod xml;
 
+use super::import_fault::{ImportFault, document};
 use super::module_text::{ImportFile, Imported, import_urdf};
-use super::urdf_reader::ImportFault;
 use parts::{Motion, Robot};
 use roxmltree::{Document, Node};
 
@@ -44,13 +44,13 @@ pub fn import(
         let message = "a gait moves the modules of a configuration, which stands before it: `modl import robot.conf walk.gait`";
         return Err((0, ImportFault::of_file(message)));
     }
-    let document = xml::parse(first.text).map_err(|fault| (0, fault))?;
+    let document = document(first.text).map_err(|fault| (0, fault))?;
     let root = document.root_element();
     let robot = match root.tag_name().name() {
         "configuration" => configuration::read(&document),
         "Structure" => structure::read(&document, open),
         "RobotStateObject" | "RobotState" => vsparc::read(&document),
-        "Behavior" => Err(xml::fault(
+        "Behavior" => Err(ImportFault::at_node(
             root,
             "a behaviour of VSPARC moves the modules of a configuration, which stands before it: `modl import robot.xml \
              walk.xml`",
@@ -75,7 +75,7 @@ pub fn import(
 /// Returns the motion that a file states for a robot.
 fn motion(file: &ImportFile, robot: &mut Robot) -> Result<Motion, ImportFault> {
     let graph = if file.text.trim_start().starts_with('<') {
-        let document = xml::parse(file.text)?;
+        let document = document(file.text)?;
         vsparc::read_behavior(&document, robot)?
     } else {
         gait::read(file.text, robot)?

@@ -1,6 +1,6 @@
 //! A robot of SMORES modules as its files state it: modules with places and joint positions, and what is connected.
 
-use super::super::urdf_reader::ImportFault;
+use super::super::import_fault::ImportFault;
 use super::MODULES_MAX;
 use super::order::Graph;
 use crate::geometry::pose::{shifted, turned};

@@ -1,6 +1,6 @@
 //! `.struct` files: configurations that links join to a larger one.
 
-use super::super::urdf_reader::ImportFault;
+use super::super::import_fault::{ImportFault, document};
 use super::configuration::{self, PITCH, place, turn};
 use super::parts::{Face, Robot};
 use super::{Document, MODULES_MAX, Node, xml};
@@ -26,10 +26,10 @@ pub(super) fn read(document: &Document, open: Files) -> Result<Robot, ImportFaul
         let component: &Robot = &read[path];
         let first = robot.members.len();
         if first + component.members.len() > MODULES_MAX {
-            return Err(xml::fault(node, format!("the robot has more than {MODULES_MAX} modules")));
+            return Err(ImportFault::at_node(node, format!("the robot has more than {MODULES_MAX} modules")));
         }
         if ranges.insert(id, first..first + component.members.len()).is_some() {
-            return Err(xml::fault(node, format!("the component `{id}` is there twice")));
+            return Err(ImportFault::at_node(node, format!("the component `{id}` is there twice")));
         }
         for member in &component.members {
             let mut member = member.clone();
@@ -57,19 +57,19 @@ fn component(node: Node, path: &str, open: Files) -> Result<Robot, ImportFault> 
     let below = parts[parts.len().saturating_sub(2)..].join("/");
     let bytes = open(beside).or_else(|| open(&below));
     let Some(bytes) = bytes else {
-        return Err(xml::fault(
+        return Err(ImportFault::at_node(
             node,
             format!("there is no file `{beside}` or `{below}` beside the structure"),
         ));
     };
-    let text =
-        String::from_utf8(bytes).map_err(|_| xml::fault(node, format!("`{beside}` is not UTF-8 text")))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| ImportFault::at_node(node, format!("`{beside}` is not UTF-8 text")))?;
     let within = |inner: ImportFault| {
-        xml::fault(node, format!("in `{beside}`, line {}: {}", inner.line.max(1), inner.message))
+        ImportFault::at_node(node, format!("in `{beside}`, line {}: {}", inner.line.max(1), inner.message))
     };
-    let document = xml::parse(&text).map_err(within)?;
+    let document = document(&text).map_err(within)?;
     if !document.root_element().has_tag_name("configuration") {
-        return Err(xml::fault(node, format!("`{beside}` is no configuration")));
+        return Err(ImportFault::at_node(node, format!("`{beside}` is no configuration")));
     }
     configuration::read(&document).map_err(within)
 }
@@ -89,10 +89,12 @@ fn join(
             let id = xml::text(component, "component_id")?;
             let module = format!("{id}:{}", xml::text(*node, &format!("module{number}"))?);
             let found = names.get(&module).copied();
-            end.0 = found.ok_or_else(|| xml::fault(*node, format!("there is no module `{module}`")))?;
+            end.0 =
+                found.ok_or_else(|| ImportFault::at_node(*node, format!("there is no module `{module}`")))?;
             let text = xml::text(*node, &format!("node{number}"))?;
             let face = text.parse::<usize>().ok().and_then(|number| Face::ALL.get(number).copied());
-            end.1 = face.ok_or_else(|| xml::fault(*node, format!("`{text}` is no face of a module")))?;
+            end.1 =
+                face.ok_or_else(|| ImportFault::at_node(*node, format!("`{text}` is no face of a module")))?;
         }
         waiting.push((*node, ends, turn(*node)?));
     }
@@ -130,7 +132,7 @@ fn join(
         }
     }
     match waiting.first() {
-        Some((node, ..)) => Err(xml::fault(*node, "no link joins this component to the first one")),
+        Some((node, ..)) => Err(ImportFault::at_node(*node, "no link joins this component to the first one")),
         None => Ok(()),
     }
 }

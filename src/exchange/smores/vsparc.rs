@@ -5,7 +5,7 @@
 //! positive `Body` folds the front down and a positive `FrontWheel` turns it against the outward normal; both wheels turn as
 //! they do here. The parts' places in published files say so.
 
-use super::super::urdf_reader::ImportFault;
+use super::super::import_fault::ImportFault;
 use super::configuration::{ends, place, turn};
 use super::order::Graph;
 use super::parts::{Action, Face, Member, Robot, tilt_fault};
@@ -29,7 +29,10 @@ pub(super) fn read(document: &Document) -> Result<Robot, ImportFault> {
     let mut robot = Robot::new(PITCH);
     let modules = xml::children(xml::child(root, "ModuleStates")?, "ModuleState")?;
     if modules.len() > MODULES_MAX {
-        return Err(xml::fault(root, format!("{} modules are more than {MODULES_MAX}", modules.len())));
+        return Err(ImportFault::at_node(
+            root,
+            format!("{} modules are more than {MODULES_MAX}", modules.len()),
+        ));
     }
     let mut names = BTreeMap::new();
     for node in modules {
@@ -43,7 +46,7 @@ pub(super) fn read(document: &Document) -> Result<Robot, ImportFault> {
             state[joint] = command.value;
         }
         if names.insert(name.clone(), robot.members.len()).is_some() {
-            return Err(xml::fault(node, format!("the module `{name}` is there twice")));
+            return Err(ImportFault::at_node(node, format!("the module `{name}` is there twice")));
         }
         let X = pose(node)?;
         robot.note_tilt(&name, state[3]);
@@ -73,7 +76,7 @@ fn face(name: &str) -> Option<Face> {
 
 fn name<'a>(node: Node<'a, 'a>) -> Result<&'a str, ImportFault> {
     let name = node.attribute("name").filter(|name| !name.is_empty());
-    name.ok_or_else(|| xml::fault(node, "a module without a name"))
+    name.ok_or_else(|| ImportFault::at_node(node, "a module without a name"))
 }
 
 /// Returns the pose of a chassis, which is that of its back plate.
@@ -85,7 +88,7 @@ fn pose(node: Node) -> Result<Pose, ImportFault> {
     // y and z change places, which turns a rotation round.
     let q = nalgebra::Quaternion::new(w?, -x?, -z?, -y?);
     if (q.norm() - 1.0).abs() > 1e-2 {
-        return Err(xml::fault(turn, "the orientation is no unit quaternion"));
+        return Err(ImportFault::at_node(turn, "the orientation is no unit quaternion"));
     }
     let turn =
         Pose::from_parts(nalgebra::Translation3::identity(), nalgebra::UnitQuaternion::new_normalize(q));
@@ -108,10 +111,10 @@ fn commands(node: Node) -> Result<Vec<(usize, Command)>, ImportFault> {
     for command in xml::children(xml::child(node, "JointCommands")?, "JointCommand")? {
         let name = command.attribute("name").unwrap_or("");
         let Some(joint) = JOINTS.iter().position(|(known, _)| *known == name) else {
-            return Err(xml::fault(command, format!("`{name}` is no joint of a module")));
+            return Err(ImportFault::at_node(command, format!("`{name}` is no joint of a module")));
         };
         if all.iter().any(|(known, _)| *known == joint) {
-            return Err(xml::fault(command, format!("two commands for `{name}`")));
+            return Err(ImportFault::at_node(command, format!("two commands for `{name}`")));
         }
         let speed = match xml::text(command, "commandType")? {
             "Position" => false,
@@ -119,18 +122,18 @@ fn commands(node: Node) -> Result<Vec<(usize, Command)>, ImportFault> {
             "Torque" => {
                 let message =
                     "a torque: a joint of modl takes positions and speeds, and a plan proves their torques";
-                return Err(xml::fault(command, message));
+                return Err(ImportFault::at_node(command, message));
             }
-            other => return Err(xml::fault(command, format!("`{other}` is no kind of command"))),
+            other => return Err(ImportFault::at_node(command, format!("`{other}` is no kind of command"))),
         };
         let value = xml::number(command, "targetValue")?;
         let period = period(command)?;
         if value.abs() > 1e6 {
-            return Err(xml::fault(command, format!("{value} is out of any range")));
+            return Err(ImportFault::at_node(command, format!("{value} is out of any range")));
         }
         let value = (value * JOINTS[joint].1).to_radians();
         if let Some(message) = tilt_fault(value).filter(|_| joint == 3 && !speed) {
-            return Err(xml::fault(command, message));
+            return Err(ImportFault::at_node(command, message));
         }
         all.push((joint, Command { speed, value, period }));
     }
@@ -142,7 +145,7 @@ fn period(node: Node) -> Result<f64, ImportFault> {
     if (0.0..=86_400.0).contains(&period) {
         return Ok(period);
     }
-    Err(xml::fault(node, format!("a period of {period}: seconds of at most a day are wanted")))
+    Err(ImportFault::at_node(node, format!("a period of {period}: seconds of at most a day are wanted")))
 }
 
 /// Returns the actions of a behaviour, in their order.
@@ -150,7 +153,7 @@ pub(super) fn read_behavior(document: &Document, robot: &mut Robot) -> Result<Gr
     let root = document.root_element();
     if !root.has_tag_name("Behavior") {
         let found = root.tag_name().name();
-        return Err(xml::fault(root, format!("`<Behavior>` is wanted, and this is `<{found}>`")));
+        return Err(ImportFault::at_node(root, format!("`<Behavior>` is wanted, and this is `<{found}>`")));
     }
     let names: BTreeMap<String, usize> =
         robot.members.iter().enumerate().map(|(index, member)| (member.name.clone(), index)).collect();
@@ -164,7 +167,7 @@ pub(super) fn read_behavior(document: &Document, robot: &mut Robot) -> Result<Gr
         for node in xml::children(xml::child(row, "ModuleStates")?, "ModuleState")? {
             let name = name(node)?;
             let Some(&module) = names.get(name) else {
-                return Err(xml::fault(node, format!("the configuration has no module `{name}`")));
+                return Err(ImportFault::at_node(node, format!("the configuration has no module `{name}`")));
             };
             parameters.extend(node.descendants().filter_map(parameter));
             for (joint, command) in commands(node)? {
@@ -181,12 +184,12 @@ pub(super) fn read_behavior(document: &Document, robot: &mut Robot) -> Result<Gr
         }
         count += actions.len();
         if count > COMMANDS_MAX {
-            return Err(xml::fault(row, format!("more than {COMMANDS_MAX} commands")));
+            return Err(ImportFault::at_node(row, format!("more than {COMMANDS_MAX} commands")));
         }
         rows.push(Graph::Parallel(actions));
     }
     if rows.is_empty() {
-        return Err(xml::fault(root, "there are no states"));
+        return Err(ImportFault::at_node(root, "there are no states"));
     }
     parameters.sort();
     parameters.dedup();

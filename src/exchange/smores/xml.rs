@@ -1,29 +1,15 @@
 //! Elements of the SMORES tools' XML files, with the place of what is wrong.
 
-use super::{Document, ImportFault, Node};
-
-/// Returns the document of a text.
-pub(super) fn parse(text: &str) -> Result<Document<'_>, ImportFault> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    Document::parse(text).map_err(|e| {
-        let at = e.pos();
-        ImportFault { message: format!("it is no XML: {e}"), line: at.row as usize, column: at.col as usize }
-    })
-}
-
-/// Returns a fault at a node.
-pub(super) fn fault(node: Node, message: impl Into<String>) -> ImportFault {
-    let at = node.document().text_pos_at(node.range().start);
-    ImportFault { message: message.into(), line: at.row as usize, column: at.col as usize }
-}
+use super::{ImportFault, Node};
 
 /// Returns the only child of a name.
 pub(super) fn child<'a>(node: Node<'a, 'a>, name: &str) -> Result<Node<'a, 'a>, ImportFault> {
     let mut found = node.children().filter(|child| child.has_tag_name(name));
     let here = node.tag_name().name();
-    let first = found.next().ok_or_else(|| fault(node, format!("`<{here}>` without `<{name}>`")))?;
+    let first =
+        found.next().ok_or_else(|| ImportFault::at_node(node, format!("`<{here}>` without `<{name}>`")))?;
     match found.next() {
-        Some(second) => Err(fault(second, format!("`<{here}>` with two `<{name}>`"))),
+        Some(second) => Err(ImportFault::at_node(second, format!("`<{here}>` with two `<{name}>`"))),
         None => Ok(first),
     }
 }
@@ -35,7 +21,7 @@ pub(super) fn children<'a>(node: Node<'a, 'a>, name: &str) -> Result<Vec<Node<'a
             return Ok(child);
         }
         let found = child.tag_name().name();
-        Err(fault(child, format!("`<{name}>` is wanted here, and this is `<{found}>`")))
+        Err(ImportFault::at_node(child, format!("`<{name}>` is wanted here, and this is `<{found}>`")))
     });
     all.collect()
 }
@@ -47,7 +33,9 @@ pub(super) fn text<'a>(node: Node<'a, 'a>, name: &str) -> Result<&'a str, Import
 
 /// Returns the finite number in the child of a name.
 pub(super) fn number(node: Node, name: &str) -> Result<f64, ImportFault> {
-    let [number] = *numbers(node, name, &[1])? else { return Err(fault(node, "a number is wanted")) };
+    let [number] = *numbers(node, name, &[1])? else {
+        return Err(ImportFault::at_node(node, "a number is wanted"));
+    };
     Ok(number)
 }
 
@@ -66,5 +54,5 @@ pub(super) fn numbers(node: Node, name: &str, counts: &[usize]) -> Result<Vec<f6
     let wanted: Vec<String> = counts.iter().map(usize::to_string).collect();
     let numbers = if counts == [1] { "number is" } else { "numbers are" };
     let message = format!("`<{name}>` is `{}`: {} finite {numbers} wanted", text.trim(), wanted.join(" or "));
-    Err(fault(at, message))
+    Err(ImportFault::at_node(at, message))
 }
