@@ -5,6 +5,7 @@ use super::mjcf::{answers, number};
 use crate::behavior::behaviors_of_designs::BEHAVIORS;
 use crate::robots::dynamics::{GRAVITY, Machine, Moving, library_plan, robot_of};
 use crate::support::numbers::Numbers;
+use crate::support::properties::whole;
 use modl::formats::mjcf;
 use modl::plan::Plan;
 use modl::robot::Step;
@@ -82,7 +83,7 @@ impl Design {
 
 #[test]
 fn mujoco_needs_the_same_forces() {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { 3 }];
     let names: BTreeSet<&str> = some.iter().map(|(robot, ..)| *robot).collect();
     let mut numbers = Numbers(14);

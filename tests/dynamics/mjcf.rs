@@ -7,6 +7,7 @@ use crate::behavior::behaviors_of_designs::BEHAVIORS;
 use crate::judge::oracle;
 use crate::robots::urdf;
 use crate::support::desk::run_clean;
+use crate::support::properties::whole;
 use modl::formats::mjcf;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::verify::articulated::{base_at, standing};
@@ -209,7 +210,7 @@ pub fn random(seed: u64) -> Plan {
 
 /// Random robots, [`PROGRAMS`], and with `MODL_WHOLE=1` the behaviours of `std.smores`.
 static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let seeds = 0..if whole { MANY } else { FEW };
     let mut cases: Vec<Case> = seeds.map(|seed| Case::new(&format!("robot {seed}"), random(seed))).collect();
     cases.extend(PROGRAMS.iter().map(|program| Case::of(program)));
@@ -487,7 +488,7 @@ pub type LibraryBehavior = (&'static str, &'static str, f64);
 
 /// Returns the first behaviours of the library, with `MODL_WHOLE=1` all, their cases and the tasks of these.
 pub fn of_the_library(few: usize) -> (&'static [LibraryBehavior], Vec<Case>, Vec<Value>) {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let some = &BEHAVIORS[..if whole { BEHAVIORS.len() } else { few }];
     let cases: Vec<Case> = some
         .iter()

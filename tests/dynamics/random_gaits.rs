@@ -6,6 +6,7 @@
 use super::gait_programs::{Gait, gait};
 use super::mjcf::{SURE, number, played};
 use crate::support::desk;
+use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use modl::formats::mjcf;
 use modl::geometry::Vec3;
@@ -256,7 +257,7 @@ fn tell(cases: &[Case]) {
 
 #[test]
 fn random_gaits_that_pass_happen_and_few_that_happen_are_refused() {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let mut cases: Vec<Case> = match whole {
         true => (0..).filter_map(case).take(MANY).collect(),
         false => GATE.filter_map(case).collect(),

@@ -2,6 +2,7 @@
 
 use super::mjcf::{Case, happens, number, played};
 use crate::support::desk::run;
+use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use libm::hypot;
 use modl::interpret::Mode;
@@ -182,7 +183,7 @@ const TORQUE_ERROR: (f64, f64) = (0.15, 0.12);
 
 /// Returns the first structures, with `MODL_WHOLE=1` all, and their cases.
 pub fn of_structures(few: usize) -> (&'static [Structure], Vec<Case>) {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let some = &STRUCTURES[..if whole { STRUCTURES.len() } else { few }];
     let case = |structure: &Structure| {
         let plan = format!("let p = plan(b, world: {})\nemit(p, \"p.json\")", structure.world);
@@ -197,7 +198,7 @@ pub fn of_structures(few: usize) -> (&'static [Structure], Vec<Case>) {
 
 #[test]
 fn loops_docking_and_held_bases_are_as_in_a_simulation() {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let (some, cases) = of_structures(1);
     let gains = if whole { &GAINS[..] } else { &GAINS[1..2] };
     let tasks: Vec<_> = cases.iter().map(Case::task).collect();

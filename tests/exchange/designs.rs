@@ -2,6 +2,7 @@
 //! reason. A sample in the gate, all with `MODL_WHOLE=1`.
 
 use crate::support::desk::{Desk, run};
+use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use modl::exchange::PLAN_FORMATS;
 use modl::interpret::Mode;
@@ -26,10 +27,6 @@ const FOLDINGS: [&str; 2] = [
     "use std.mori.Mori\nuse std.shapes.octahedron\nlet x = fold(octahedron(edge: 80mm), module: Mori)",
     "use std.mori.Mori\nuse std.shapes.icosahedron\nlet x = fold(icosahedron(edge: 80mm), module: Mori)",
 ];
-
-fn whole() -> bool {
-    std::env::var_os("MODL_WHOLE").is_some()
-}
 
 /// The names of the configurations and scenes that a file of the library declares for its users.
 fn declared(file: &str) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! Robot descriptions become modules: written out again, they have the kinematics of the original by Pinocchio.
 
 use crate::desk::cli::{Sandbox, json};
+use crate::support::properties::whole;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -167,7 +168,7 @@ fn apart(python: &Path, first: &Path, second: &Path) -> Result<f64, String> {
 /// Robots that people have published, in the wheel `example-robot-data`.
 #[test]
 fn published_descriptions_come_in_and_leave_with_the_same_kinematics() {
-    if std::env::var_os("MODL_WHOLE").is_none() {
+    if !whole() {
         return;
     }
     let found = python().map(|python| {

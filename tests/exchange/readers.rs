@@ -6,6 +6,7 @@ use super::{exported, planned};
 use crate::behavior::behaviors_of_designs::BEHAVIORS;
 use crate::dynamics::mjcf::{PROGRAMS, random};
 use crate::support::numbers::Numbers;
+use crate::support::properties::whole;
 use modl::exchange::{ExportFile, PlanFormat};
 use modl::geometry::Pose;
 use modl::plan::verify::verify;
@@ -39,7 +40,7 @@ fn python() -> Option<PathBuf> {
 /// Plans of every kind of module: those of the tests of MuJoCo's models, random robots, a folding with hulls and hinges, a
 /// scene in which a crate is docked and put down, a snake of RoFI modules; with `MODL_WHOLE=1` the behaviours of `std.smores` and more random robots.
 fn plans() -> Vec<(String, Plan)> {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let own = [
         "use std.smores.Walk4\nlet p = plan(Walk4().walk())",
         "use std.mori.Mori\nuse std.shapes.octahedron\nlet p = fold(octahedron(edge: 80mm), module: Mori)",

@@ -113,7 +113,7 @@ fn conf(made: &[Made], angles: bool) -> String {
     text + " </connections>\n</configuration>\n"
 }
 
-/// What an import of files makes, which must go well.
+/// The text that an import of files makes, which must go well.
 pub fn imported(files: &[(&str, &str)]) -> Imported {
     let files: Vec<ImportFile> = files.iter().map(|(name, text)| ImportFile { name, text }).collect();
     import(&files, &mut |_| None)

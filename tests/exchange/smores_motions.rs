@@ -42,7 +42,7 @@ fn commands_keep_their_signs_times_and_units() {
     ));
 }
 
-/// What runs before what in a behaviour that the writer wrote, by the targets of moves in whole degrees.
+/// The pairs of moves of which one runs before the other in a behaviour that the writer wrote, by the targets of moves in whole degrees.
 fn before(text: &str) -> BTreeSet<(i64, i64)> {
     fn part(
         lines: &mut dyn Iterator<Item = &str>,

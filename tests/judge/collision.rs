@@ -402,7 +402,7 @@ fn sampled(tracks: &Tracks, samples: usize) -> Sampled {
         let t = tracks.duration * i as f64 / samples as f64;
         kinematics.link_poses(&tracks.state(t).joints, &Pose::identity(), &mut poses);
         for (&(a, b), last) in pairs.iter().zip(&mut last) {
-            // What is no less than the least, and no deeper than the same modules were before, says nothing new.
+            // A distance that is no less than the least, and no depth of the same modules beyond the known one, is no news.
             let modules = (kinematics.module_of(a), kinematics.module_of(b));
             let known = found.collisions.iter().position(|c| c.0 == modules);
             let news = known.map_or(-1e-4, |known| found.collisions[known].2).max(found.clearance);

@@ -46,7 +46,7 @@ fn fetch(at: Pose, rest: f64) -> Plan {
     tracks.start.bonds[0] = false;
     let event = tracks.events[0].clone();
     tracks.events = vec![DockingEvent { time: 2.0 + rest, kind: DockingKind::Dock, ..event }];
-    // Where the slide is out by 50 mm, the second port of a perfect mate is the first one turned round.
+    // The slide is out by 50 mm: there the second port of a perfect mate is the first one turned round.
     let (robot, out) = (&tracks.robot, [0.050]);
     let numbers = Kinematics::new(robot, &[false], 0);
     let mut poses = vec![Pose::identity(); numbers.link_count()];

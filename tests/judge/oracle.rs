@@ -5,6 +5,7 @@
 use crate::robots::urdf;
 use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
+use crate::support::properties::whole;
 use crate::support::robots::{self, Design};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
@@ -282,7 +283,7 @@ fn an_independent_library_finds_the_same_collisions_and_clearances() {
             "skipped: collisions against another library: no Python with coal (.ci/run installs it)".into()
         );
     };
-    let count = if std::env::var_os("MODL_WHOLE").is_some() { MANY } else { FEW };
+    let count = if whole() { MANY } else { FEW };
     let seeds: Vec<u64> = (0..u64::from(count)).collect();
     let (mut differences, mut failed, mut measured) = (vec![], 0, 0);
     for batch in seeds.chunks(BATCH) {

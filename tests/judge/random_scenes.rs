@@ -54,7 +54,7 @@ struct Block {
     robot: usize,
     half: Half,
     centre: Vec3,
-    /// How far it goes along x in 2 s, and in 2 s back again, m; `None` for one that stands fast.
+    /// The way along x in 2 s, and in 2 s back again, m; `None` for one that stands fast.
     reach: Option<f64>,
 }
 

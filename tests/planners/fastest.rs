@@ -4,6 +4,7 @@
 use crate::robots::urdf;
 use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
+use crate::support::properties::whole;
 use modl::plan::polynomial;
 use modl::plan::verify::verify;
 use modl::plan::{Change, CheckKind, DockingEvent, DockingKind, Plan, Tracks, file};
@@ -343,7 +344,7 @@ fn toppra_takes_as_long() {
         println!("no toppra: the comparison with it is skipped");
         return;
     };
-    let count = if std::env::var_os("MODL_WHOLE").is_some() { 40 } else { 8 };
+    let count = if whole() { 40 } else { 8 };
     let mut numbers = Numbers(3);
     let (mut paths, mut ours) = (Vec::new(), Vec::new());
     for _ in 0..count {

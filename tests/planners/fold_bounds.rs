@@ -4,6 +4,7 @@
 //! The latter take minutes: `MODL_WHOLE=1 cargo test --release --test all fold_bounds`.
 
 use crate::planners::fold::{TRUTH, index, mesh, near, number, numbers, shapes, target, weights};
+use crate::support::properties::whole;
 use modl::geometry::{Vec3, subdivide};
 use modl::planners::fold::branch_and_bound::{self, optimum};
 use modl::planners::fold::enumerate::{self, enumerate_energies};
@@ -12,10 +13,6 @@ use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::{Layout, Proof, Target, Weights, edge_exchange, spanning_trees, symmetry};
 use modl::planners::fold::{Observer, TOLERANCES};
 use proptest::prelude::*;
-
-fn whole() -> bool {
-    std::env::var_os("MODL_WHOLE").is_some()
-}
 
 /// An icosahedron with its faces cut into `parts`², blown up to a sphere or not.
 fn sphere(parts: usize, round: bool) -> (Vec<Vec3>, Vec<Vec<usize>>) {

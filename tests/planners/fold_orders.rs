@@ -2,6 +2,7 @@
 //! meshes, measured by arithmetic that is not the planner's.
 
 use crate::planners::fold::{MASS, TRUTH, mesh};
+use crate::support::properties::whole;
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
 use modl::planners::fold::inertia::Inertia;
@@ -169,7 +170,7 @@ fn circumstances() -> Vec<(f64, Count, Minimise)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: if std::env::var_os("MODL_WHOLE").is_some() { 200 } else { 6 }, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: if whole() { 200 } else { 6 }, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// No order of any layout is below the bound for all orders, none that folds the root first below that for
     /// these, none that folds the leaves first below that.
@@ -307,7 +308,7 @@ fn compare(
 /// what is called optimal is.
 #[test]
 fn stated_bounds_hold_for_all_that_could_have_been_the_answer() {
-    let cases = if std::env::var_os("MODL_WHOLE").is_some() { 40 } else { 2 };
+    let cases = if whole() { 40 } else { 2 };
     let small = small().prop_filter("few layouts", |target| target.faces.len() <= 5);
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let (mut answers, mut optimal) = (0, 0);

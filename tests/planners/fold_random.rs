@@ -1,6 +1,7 @@
 //! Proofs on random meshes: closed surfaces of 4 to 80 triangles, shaken, re-entrant, with boundary.
 
 use crate::planners::fold::{MASS, TRUTH, mesh, near};
+use crate::support::properties::whole;
 use modl::geometry::Vec3;
 use modl::planners::fold::enumerate::{self, enumerate_energies};
 use modl::planners::fold::pattern::Pattern;
@@ -12,7 +13,7 @@ use proptest::prelude::*;
 /// Layouts up to which every one is looked at: a million where the whole is asked for, which is for an
 /// optimised build.
 fn enumerated() -> u64 {
-    if std::env::var_os("MODL_WHOLE").is_some() { 1_000_000 } else { 60_000 }
+    if whole() { 1_000_000 } else { 60_000 }
 }
 
 /// Work of one search.

@@ -1,6 +1,7 @@
 //! `locomote`: one step against known optima, gradients against differences, the S of the paper in many
 //! directions, and that nothing comes too near between the samples.
 
+use crate::support::properties::whole;
 use crate::support::trusses::{actuator, looked_at, robot, stepping, truth};
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
@@ -31,7 +32,7 @@ fn travelled(path: &[[f64; 2]], settings: &Settings) -> Travel {
 fn the_s_is_travelled() {
     // The truth found 655 to 690 steps, 28 to 43 rolls.
     let mut cases = vec![(25.0, Objective::Springs), (200.0, Objective::Lengths { damping: 1.0 })];
-    if std::env::var_os("MODL_WHOLE").is_some() {
+    if whole() {
         let turned =
             [0.0, 10.0, 25.0, 45.0, 77.0, 90.0, 130.0, 157.0, 200.0, 222.0, 260.0, 300.0, 330.0, 345.0];
         let objectives =
@@ -43,7 +44,7 @@ fn the_s_is_travelled() {
         assert_eq!(travel.end, End::Arrived, "turned by {turned}, {aim:?}");
         assert_eq!(travel.reached, 6);
         assert!((640..=720).contains(&travel.steps), "{} steps", travel.steps);
-        if std::env::var_os("MODL_WHOLE").is_some() {
+        if whole() {
             keeps_its_limits(&travel);
         }
     }

@@ -5,6 +5,7 @@
 //! minutes: `MODL_WHOLE=1 cargo test --release --test all squeeze` tries them all, in the release profile sooner.
 
 use crate::support::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
+use crate::support::properties::whole;
 use modl::plan::lattice::{end_shapes, peak_forces};
 use modl::plan::{Body, Law, OperationError, Ratio, Stages, joined, reversed};
 use modl::planners::NoProgress;
@@ -30,10 +31,6 @@ fn number(value: &Value) -> f64 {
 
 fn near(found: f64, expected: f64) -> bool {
     (found - expected).abs() <= 1e-9 * expected.abs().max(1.0)
-}
-
-fn whole_range() -> bool {
-    std::env::var_os("MODL_WHOLE").is_some()
 }
 
 #[test]
@@ -177,7 +174,7 @@ pub fn to_halves(n: u64, time_squared: Ratio) -> Stages {
 }
 
 fn sizes() -> Vec<u64> {
-    if whole_range() {
+    if whole() {
         return (1..=2000).collect();
     }
     (1..=40)
@@ -334,7 +331,7 @@ fn random_set_in(dimensions: usize, seed: &mut u64, count: usize) -> Vec<[i64; 3
 
 #[test]
 fn random_sets_become_each_other() {
-    let (sets, most) = if whole_range() { (1000, 400) } else { (100, 100) };
+    let (sets, most) = if whole() { (1000, 400) } else { (100, 100) };
     let mut seed = 7;
     for i in 0..sets {
         let count = 1 + (i * 7919) % most;
@@ -349,7 +346,7 @@ fn random_sets_become_each_other() {
 fn sets_in_space_melt_and_grow() {
     let corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
     assert_eq!(check(&task(&row(4), &corner)).method, Method::Melt);
-    let (sets, most) = if whole_range() { (100, 120) } else { (20, 30) };
+    let (sets, most) = if whole() { (100, 120) } else { (20, 30) };
     let mut seed = 11;
     for i in 0..sets {
         let count = 5 + (i * 31) % most;
@@ -366,7 +363,7 @@ fn sets_in_space_melt_and_grow() {
 
 #[test]
 fn arms_turn_up_in_balance_and_faster_than_an_accordion_folds() {
-    for n in 4..=if whole_range() { 2000 } else { 70 } {
+    for n in 4..=if whole() { 2000 } else { 70 } {
         let way = arms(TERMS, n).expect("there is a way");
         // Levels swap in turns: an even number of them turns nothing.
         assert_eq!(way.is_balanced(), n % 4 < 2, "{n}");

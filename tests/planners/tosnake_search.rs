@@ -3,6 +3,7 @@
 
 use crate::planners::tosnake::tracks;
 use crate::support::desk::{Desk, run_clean};
+use crate::support::properties::whole;
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
@@ -216,7 +217,7 @@ pub const TEN: [&str; 18] = [
 /// it every twentieth.
 #[test]
 fn every_shape_becomes_every_other_of_its_size() {
-    let each = if std::env::var_os("MODL_WHOLE").is_some() { 1 } else { 20 };
+    let each = if whole() { 1 } else { 20 };
     let names = "Snake, Chair, HighChair, Spider, Crab, Ball, Board, Caterpillar, Chain, Circle, Column, \
                  DoubleWheel, Dumbbell, Eight, Fan, Human, Infant, Puppy, Rectangle, RoundRectangle, Stool";
     let pairs = [&EIGHT[..], &TEN[..]].into_iter().flat_map(|shapes| {

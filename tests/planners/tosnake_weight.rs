@@ -5,6 +5,7 @@ use crate::planners::tosnake::tracks;
 use crate::planners::tosnake_search::{EIGHT, TEN};
 use crate::support::desk::{run, run_clean};
 use crate::support::motions::STATICS;
+use crate::support::properties::whole;
 use crate::support::replay::Replay;
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
@@ -163,7 +164,7 @@ fn plans_keep_every_torque_within_its_limit() {
 /// The shapes of the paper, held by their first module: all 25 with `MODL_WHOLE=1`, otherwise every sixth. The open circle is too heavy: five modules bent upwards.
 #[test]
 fn shapes_of_the_paper_unwind_under_gravity() {
-    let each = if std::env::var_os("MODL_WHOLE").is_some() { 1 } else { 6 };
+    let each = if whole() { 1 } else { 6 };
     for shape in EIGHT.into_iter().chain(TEN).step_by(each) {
         let name = shape.split('(').next().unwrap_or(shape);
         let text = format!("use std.rofi.{name}\nemit(tosnake({shape}, gravity: on), \"p.plan.json\")\n");

@@ -4,6 +4,7 @@
 //! A part of them here; a thousand with `MODL_WHOLE=1`, from another seed with `MODL_SEED`.
 
 use crate::support::generated::Dice;
+use crate::support::properties::whole;
 use crate::support::recount;
 use modl::behavior::unfaithful;
 use modl::plan::facts::{self, declarations};
@@ -284,7 +285,7 @@ fn computed(test_began: Instant) -> f64 {
 
 #[test]
 fn altered_files_are_accepted_only_where_they_are_right() {
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let seed = std::env::var("MODL_SEED").ok().and_then(|seed| seed.parse().ok()).unwrap_or(1_u64);
     let count = if whole { 1000 } else { 175 };
     let families = families(whole);

@@ -1,4 +1,4 @@
-//! What a plan file says of a scene: where its robots begin, what stands around them, and in which world.
+//! Plan files of scenes: where its robots begin, what stands around them, and in which world.
 
 use crate::desk::cli::Sandbox;
 use serde_json::{Value, json};

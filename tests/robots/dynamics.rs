@@ -5,6 +5,7 @@ use super::urdf::{Urdf, python, run};
 use crate::behavior::behaviors_of_designs::BEHAVIORS;
 use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
+use crate::support::properties::whole;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{Plan, file};
@@ -371,7 +372,7 @@ fn an_independent_library_needs_the_same_forces() {
         return;
     };
     let mut numbers = Numbers(13);
-    let whole = std::env::var_os("MODL_WHOLE").is_some();
+    let whole = whole();
     let mut all =
         vec![robots::chain(3), robots::walk4(), robots::car(), robots::backhoe(4), robots::ring12()];
     if whole {

@@ -3,6 +3,7 @@
 use super::fixtures::{
     DOUBLE_PENDULUM, DROP, FRAME, GRAVITY, HELD, LEVEL, PENDULUM, at, close, plan, play, rate, step,
 };
+use crate::support::properties::whole;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::{Body, CauseId, DockingEvent, DockingKind, Plan, World};
@@ -446,7 +447,7 @@ fn a_robot_at_rest_stays_where_it_is() {
     };
     let minute = creep(&play(&plan(&program("60s"), LEVEL), &Settings::default()));
     assert!(minute < 1e-6, "{minute} m in a minute");
-    if std::env::var_os("MODL_WHOLE").is_some() {
+    if whole() {
         let half_day = creep(&play(&plan(&program("12h"), LEVEL), &step(5e-3)));
         assert!(half_day < 5e-4, "{half_day} m in half a day");
     }

@@ -3,6 +3,7 @@
 
 use crate::dynamics::mjcf::{Case, number, of_the_library, played};
 use crate::dynamics::structures::of_structures;
+use crate::support::properties::whole;
 use modl::geometry::{HeightField, Vec3};
 use modl::plan::Plan;
 use modl::simulate::{Extreme, ServoGains, Settings, Simulation, simulate};
@@ -174,7 +175,7 @@ fn behaviors_of_the_library_go_as_in_mujoco() {
 
 #[test]
 fn walkers_go_as_in_mujoco_on_other_ground() {
-    if std::env::var_os("MODL_WHOLE").is_none() {
+    if !whole() {
         return;
     }
     let (some, cases, _) = of_the_library(0);
@@ -230,7 +231,7 @@ const OTHERWISE: [(&str, &str); 9] = [
 /// Prints what MuJoCo says under other settings where the two do not agree, and holds how far it is of one mind.
 #[test]
 fn mujoco_differs_from_itself_where_robots_scrub() {
-    if std::env::var_os("MODL_WHOLE").is_none() {
+    if !whole() {
         return;
     }
     let (some, cases, _) = of_the_library(0);
