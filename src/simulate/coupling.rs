@@ -39,6 +39,7 @@ pub(super) struct LooseBond {
 /// The rows of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
+    /// The couple of bodies, or the follower, that the row acts on.
     pub kind: RowKind,
     /// The force per velocity at the end of the step, N·s/m or N·m·s/rad.
     pub resistance: f64,
@@ -74,8 +75,9 @@ pub(super) struct Couplings {
 /// The moment of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instant<'a> {
-    /// The time, s, and the time step, s.
+    /// The time, s.
     pub time: f64,
+    /// The time step, s.
     pub step: f64,
     /// The world poses of the bodies.
     pub poses: &'a [Pose],

@@ -43,8 +43,9 @@ struct Pair {
 pub(super) struct LinkContact {
     /// The index of its pair.
     pair: usize,
-    /// The bodies.
+    /// The first body, by its index.
     pub first: usize,
+    /// The second body, by its index.
     pub second: usize,
     /// The point, from that which spatial vectors are about, m.
     pub point: Vec3,

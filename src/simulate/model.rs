@@ -133,6 +133,7 @@ pub(super) struct Follower {
 pub(super) struct Coupled {
     /// The bodies that the joints move, each with the sign of its coordinate.
     pub bodies: Vec<(usize, f64)>,
+    /// The motors.
     pub motors: Vec<CoupledMotor>,
 }
 

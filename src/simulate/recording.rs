@@ -73,7 +73,9 @@ pub(super) struct Recording {
     link_of: Vec<usize>,
     /// The bodies of the bases, but for the first.
     roots: Vec<usize>,
+    /// The drives whose efforts are kept, in the order of [`Moment::efforts`].
     pub drives: Vec<Drive>,
+    /// The moments that are kept, in order of time.
     pub motion: Vec<Moment>,
 }
 

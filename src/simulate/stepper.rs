@@ -32,13 +32,16 @@ struct ServoState {
 /// A robot in motion.
 #[derive(Clone, Debug)]
 pub(super) struct Stepper<'a> {
+    /// The model of the robot.
     pub model: &'a Model,
     /// The time step, s.
     pub step: f64,
     /// The acceleration of free fall, m/s².
     gravity: Vec3,
     bodies: ArticulatedBodies,
+    /// The contacts with the ground; `None` where there is none.
     pub ground: Option<GroundContacts>,
+    /// The couplings of bodies: joints that follow others, bonds that are in no tree, contacts of links.
     pub couplings: Couplings,
     /// The world poses of the bodies at the start of the step taken last.
     poses: Vec<Pose>,
@@ -46,8 +49,9 @@ pub(super) struct Stepper<'a> {
     bases: Vec<Pose>,
     /// The velocities of the bases, by body.
     twists: Vec<Twist>,
-    /// The coordinates of the joints, by body, rad or m, and their rates.
+    /// The coordinates of the joints, by body, rad or m.
     pub coordinates: Vec<f64>,
+    /// The rates of the joints, by body, rad/s or m/s.
     pub rates: Vec<f64>,
     /// The twists and rates of half a step later, if they go on to change as in the step before: those of the middle of the
     /// step in which velocities are half a step behind.
