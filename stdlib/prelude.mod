@@ -448,6 +448,7 @@ extern fn emit(
   stability: footprint | centres = footprint,
   reserve: Number = 0,
   slip_max: Length?,
+  slip: Number = 0.05,
 )
 
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; a simulation; or a plot.
@@ -480,6 +481,7 @@ extern fn show(
   side: corner | front | back | left | right | top = corner,
   reserve: Number = 0,
   slip_max: Length?,
+  slip: Number = 0.05,
 )
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.
@@ -1392,7 +1394,7 @@ extern fn wait(time: Time, until: Condition?) -> Behavior
 /// Docks port `b` to port `a`, where the motion has brought them together.
 ///
 /// Ports that are taken, do not mate, or are farther apart than their connectors' `capture` are
-/// refused.
+/// refused. What is off stays as it is, unless a connector states `snap`.
 ///
 /// Example:
 /// ```modl
@@ -1951,6 +1953,8 @@ extern fn fastest(plan: Plan, reserve: Number = 0.15) -> Plan
 /// the `footprint` of the ground contacts, or the paper's, the `centres` of the lowest modules.
 /// `reserve` is the part of each limit of torque, force and bond load that must be left under `dynamics: full`, from 0 to 1.
 /// `slip_max` is the most that any loaded link may slip over the ground in all; without it, slip is only reported.
+/// `slip` is the part of their own speed by which wheels and feet may slip: for each docking between robots `notes` says how far
+/// apart the ports may then be, and by which angle.
 /// `world` judges under other surroundings than the plan's own.
 ///
 /// The first line of the report says under which dynamics the plan was judged: for robots with joints `full dynamics`, unless
@@ -1970,6 +1974,7 @@ extern fn verify(
   world: World?,
   reserve: Number = 0,
   slip_max: Length?,
+  slip: Number = 0.05,
 ) -> Report
 
 /// Plays a plan on the robot as rigid bodies: what it really does, also where motors are too weak, feet slip or it falls.

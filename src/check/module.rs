@@ -24,6 +24,7 @@ impl<'a> Checker<'a> {
             turns: None,
             holds: Vec::new(),
             capture: None,
+            snaps: false,
             hinge: None,
             frame: 0,
         };
@@ -49,6 +50,7 @@ impl<'a> Checker<'a> {
                         .map(|e| self.expect(&mut scope, e, &turn, Role::Place("the angle of `capture`")));
                     def.capture = Some((distance, angle));
                 }
+                ConnectorClause::Snap => def.snaps = true,
                 ConnectorClause::Hinge { keyword, args } => {
                     def.hinge = Some((*keyword, self.args_like_revolute(&mut scope, *keyword, args)));
                 }

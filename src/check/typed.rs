@@ -201,6 +201,8 @@ pub struct ConnectorDef {
     /// The tolerances of docking, as (distance, a length; angle between the ports, `None` if it is not written);
     /// `None` if the clause is missing.
     pub capture: Option<(Expr, Option<Expr>)>,
+    /// True if docking draws the ports together.
+    pub snaps: bool,
     /// The joint of the bond, as (span of the word `hinge`, its arguments in the order of the parameters of the
     /// prelude's `revolute`, `None` for one left out); `None` for a rigid connector.
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,

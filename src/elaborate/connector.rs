@@ -56,6 +56,7 @@ impl Interpreter<'_> {
             holds_force: None,
             holds_moment: None,
             capture: None,
+            snaps: declared.snaps,
             hinge: None,
         };
         self.holds(declared, &mut connector, &mut frame)?;

@@ -31,7 +31,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("print", parameters![values: &[Value]], print),
     Native::on_run(
         "emit",
-        parameters![what: &Value, file: &str, sample: Positive, unstable_for: f64, stability: Stability, reserve: f64, slip_max: Option<f64>],
+        parameters![what: &Value, file: &str, sample: Positive, unstable_for: f64, stability: Stability, reserve: f64, slip_max: Option<f64>, slip: f64],
         emit,
     ),
     Native::pure(
@@ -48,7 +48,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::on_run("reverse", parameters![plan: &Value], reverse),
     Native::on_run(
         "verify",
-        parameters![what: &Value, sample: Positive, unstable_for: f64, stability: Stability, world: Option<World>, reserve: f64, slip_max: Option<f64>],
+        parameters![what: &Value, sample: Positive, unstable_for: f64, stability: Stability, world: Option<World>, reserve: f64, slip_max: Option<f64>, slip: f64],
         verify,
     ),
     Native::on_run("Plan.at", parameters![self: &Value, time: f64], plan_at),
@@ -225,11 +225,12 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(planned_value(Some(sliced)))
 }
 
-/// Returns the settings of the judge that the arguments `sample`, `unstable_for`, `stability`, `reserve` and `slip_max`
-/// ask for.
+/// Returns the settings of the judge that the arguments `sample`, `unstable_for`, `stability`, `reserve`, `slip_max`
+/// and `slip` ask for.
 ///
 /// # Errors
-/// A fault where `unstable_for` or `slip_max` is negative, `sample` is not positive, or `reserve` is not from 0 to 1.
+/// A fault where `unstable_for` or `slip_max` is negative, `sample` is not positive, or `reserve` or `slip` is not
+/// from 0 to 1.
 pub(super) fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings> {
     let unstable_for: f64 = call.get("unstable_for")?;
     if unstable_for < 0.0 {
@@ -245,7 +246,11 @@ pub(super) fn settings(interpreter: &Interpreter, call: &Call) -> Eval<Settings>
     if slip_max.is_some_and(|slip| slip < 0.0) {
         return Err(call.refuse("slip_max", "a slip must not be negative"));
     }
-    Ok(Settings { sample, unstable_for, stability, reserve, slip_max, ..interpreter.judge_settings() })
+    let slip: f64 = call.get("slip")?;
+    if !(0.0..=1.0).contains(&slip) {
+        return Err(call.refuse("slip", "wheels slip by a part of their speed, from 0 to 1"));
+    }
+    Ok(Settings { sample, unstable_for, stability, reserve, slip_max, slip, ..interpreter.judge_settings() })
 }
 
 fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

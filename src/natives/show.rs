@@ -41,7 +41,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
         at: f64,
         side: Side,
         reserve: f64,
-        slip_max: Option<f64>
+        slip_max: Option<f64>,
+        slip: f64
     ],
     show,
 )];

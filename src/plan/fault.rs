@@ -87,6 +87,11 @@ pub enum PlanFault {
     },
     /// The greatest slip is negative.
     SlipMax,
+    /// A part of their speed by which contacts slip that is not from 0 to 1.
+    Slip {
+        /// The part.
+        slip: f64,
+    },
     /// Settings by which the judge may take no sample.
     NoSamples,
     /// A node of a program whose child does not stand before it in the table.
@@ -448,6 +453,7 @@ impl fmt::Display for PlanFault {
             PlanFault::UnstableFor => write!(f, "`unstable_for` is negative"),
             PlanFault::Reserve { reserve } => write!(f, "`reserve` is {reserve}, and not from 0 to 1"),
             PlanFault::SlipMax => write!(f, "`slip_max` is negative"),
+            PlanFault::Slip { slip } => write!(f, "`slip` is {slip}, and not from 0 to 1"),
             PlanFault::NoSamples => write!(f, "no samples are allowed"),
             PlanFault::ProgramChild { node, child } => write!(
                 f,

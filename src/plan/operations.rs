@@ -211,6 +211,7 @@ fn stricter(a: &Settings, b: &Settings) -> Settings {
         stability,
         reserve: a.reserve.max(b.reserve),
         slip_max: [a.slip_max, b.slip_max].into_iter().flatten().reduce(f64::min),
+        slip: a.slip.max(b.slip),
         samples_max: a.samples_max.max(b.samples_max),
     }
 }

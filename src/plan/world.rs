@@ -155,6 +155,10 @@ pub struct Settings {
     /// The greatest slip of a loaded link over the ground, summed over the plan, m; `None`: slip fails nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slip_max: Option<f64>,
+    /// The part of their own speed by which wheels and feet may slip under full dynamics, from 0 to 1: the spread of dockings
+    /// between robots is stated for it.
+    #[serde(default = "Settings::slip_default", skip_serializing_if = "Settings::is_slip_default")]
+    pub slip: f64,
     /// The greatest number of samples of one verification, refinements included; a verification that needs more
     /// fails.
     pub samples_max: usize,
@@ -166,6 +170,15 @@ impl Settings {
     pub fn reserve_default() -> f64 {
         0.0
     }
+
+    /// Returns the slip where none is stated: 5 %.
+    pub fn slip_default() -> f64 {
+        0.05
+    }
+
+    fn is_slip_default(slip: &f64) -> bool {
+        *slip == Settings::slip_default()
+    }
 }
 
 impl Default for Settings {
@@ -176,6 +189,7 @@ impl Default for Settings {
             stability: Stability::Footprint,
             reserve: Settings::reserve_default(),
             slip_max: None,
+            slip: Settings::slip_default(),
             samples_max: 2_000_000,
         }
     }

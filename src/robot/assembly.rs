@@ -242,6 +242,13 @@ impl Assembly {
         (least(a.holds_force, b.holds_force), least(a.holds_moment, b.holds_moment))
     }
 
+    /// Returns true if docking draws the ports of a bond, given by its index, together: if one of its connectors does so. Panics
+    /// if there is no such bond.
+    pub fn snaps(&self, bond: usize) -> bool {
+        let Bond { a, b, .. } = self.bonds[bond];
+        [a, b].iter().any(|port| self.connector(*port).snaps)
+    }
+
     /// Returns the path name of a joint, such as `leg[2].m[0].tilt`; a bond's hinge is named by its ports, `a.front --
     /// b.back`, also where the bond has none. Panics if there is no such module, joint or bond.
     pub fn joint_name(&self, owner: JointOwner) -> String {

@@ -36,6 +36,9 @@ pub struct Connector {
     pub holds_moment: Option<f64>,
     /// The greatest error that docking tolerates; `None`: not stated.
     pub capture: Option<Capture>,
+    /// True if docking draws the ports together into a perfect mate: of two robots that dock, the smaller moves by the error.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub snaps: bool,
     /// The joint of the bond; `None`: bonds of this connector do not turn.
     pub hinge: Option<Hinge>,
 }
@@ -97,6 +100,12 @@ impl ModuleType {
 impl Link {
     /// The coefficient of friction of a link against the ground where its shapes state none, without unit.
     pub const FRICTION_DEFAULT: f64 = 0.5;
+}
+
+/// Returns true for false, which files leave out.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 /// Returns true for 0, which files leave out.

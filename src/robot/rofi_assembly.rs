@@ -67,6 +67,7 @@ pub fn assembly(world: &World, pitch: f64) -> (Assembly, State) {
         holds_force: None,
         holds_moment: None,
         capture: Some(CAPTURE),
+        snaps: false,
         hinge: None,
     };
     let kind = module_type(pitch);

@@ -26,6 +26,8 @@ pub(super) struct LooseBond {
     ends: [(usize, Pose); 2],
     /// The pose of the second port in the frame of the first in a perfect mate, the hinge at 0.
     mate: Pose,
+    /// True if the ports are drawn together as they dock; the error is kept otherwise.
+    snaps: bool,
     /// The axis of its hinge in the frame of the first port, and the number of its joint.
     hinge: Option<(Vec3, usize)>,
     /// The stiffness and damping of the hinge's servo.
@@ -107,6 +109,7 @@ impl Couplings {
             holds: holds[bond],
             ends: [robot.bonds[bond].a, robot.bonds[bond].b].map(|port| model.port(robot, port)),
             mate: mate(robot, bond),
+            snaps: robot.snaps(bond),
             hinge: robot.hinge(bond).zip(hinges[bond]).map(|(hinge, (id, _))| (hinge.axis, id)),
             servo: hinges[bond].map_or((0.0, 0.0), |(_, servo)| servo),
             docked: None,
@@ -288,8 +291,14 @@ impl LooseBond {
         let X_WQ = at.poses[*second] * X_BQ;
         let off = self.error(at.poses, command);
         let (since, at_first) = *self.docked.get_or_insert((at.time, off));
-        // The first error is drawn in slowly.
-        let left = libm::exp(-(at.time - since) / PARAMETERS.docking_time);
+        // A connector that snaps draws the first error in.
+        let (left, drawn) = match self.snaps {
+            true => {
+                let left = libm::exp(-(at.time - since) / PARAMETERS.docking_time);
+                (left, left / PARAMETERS.docking_time)
+            }
+            false => (1.0, 0.0),
+        };
         let axis = self.hinge.map(|(axis, _)| X_WP.rotation * axis);
         let point = X_WQ.translation.vector - at.origin;
         let axes = basis(axis);
@@ -302,7 +311,7 @@ impl LooseBond {
             [PARAMETERS.bond_stiffness, PARAMETERS.bond_turn_stiffness].into_iter().enumerate()
         {
             let error = off[kind] - at_first[kind] * left;
-            let speed = -at_first[kind] * (left / PARAMETERS.docking_time);
+            let speed = -at_first[kind] * drawn;
             for (number, direction) in axes.iter().enumerate() {
                 let unit = match kind {
                     0 => SpatialVector::of_force(*direction, &point),

@@ -326,6 +326,8 @@ pub enum ConnectorClause {
         /// The greatest angle between the ports, if one is written.
         angle: Option<Expr>,
     },
+    /// Docking draws the ports together: `snap`.
+    Snap,
     /// The joint of the bond: `hinge(axis: Z, range: ...)`.
     Hinge {
         /// The span of the word `hinge`.

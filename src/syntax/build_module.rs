@@ -27,6 +27,7 @@ impl Builder<'_> {
                 let angle = nodes.next().map(|angle| self.expr(angle));
                 ConnectorClause::Capture { keyword, distance, angle }
             }
+            Rule::snap => ConnectorClause::Snap,
             _ => {
                 let keyword = crate::source::Span { end: span.start + "hinge".len() as u32, ..span };
                 ConnectorClause::Hinge { keyword, args: self.args(next(&mut nodes)) }

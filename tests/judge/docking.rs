@@ -6,10 +6,11 @@ use modl::geometry::{Placed, Pose, Shape, Vec3, pose::turned};
 use modl::plan::verify::articulated::{ClusterPaths, dock_turns};
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status, Tracks, Verdict, file, reversed,
-    sliced,
+    Body, CheckKind, DockingEvent, DockingKind, LastingTrees, Obstacle, Plan, Status, Tracks, Verdict, file,
+    reversed, sliced,
 };
-use modl::robot::{ClusterPose, Kinematics};
+use modl::robot::{ClusterPose, Kinematics, PortRef};
+use modl::simulate::{Settings, simulate};
 
 /// A block with a slide that carries a port, and a block with one: the ports meet when the slide is out by 50 mm, as drawn.
 const PUSHER: &str = "
@@ -196,7 +197,7 @@ fn a_plan_cut_while_robots_are_docked_keeps_the_error_of_their_docking() {
     let rest = sliced(&plan, 3.0, 5.0).expect("a part of the plan");
     let text = file::write(&rest).expect("a plan that is written");
     let rest = file::read(&text).expect("a plan that was written is read");
-    let start = &rest.body.tracks().expect("modules").start;
+    let Tracks { start, robot, .. } = rest.body.tracks().expect("modules");
     assert!(start.clusters.is_empty() && start.bonds == [true], "they are docked then");
     let same = |a: Pose, b: Pose| {
         let off = a.inverse() * b;
@@ -210,6 +211,19 @@ fn a_plan_cut_while_robots_are_docked_keeps_the_error_of_their_docking() {
     assert!(verify(&back).ok(), "{:#?}", verify(&back).failures);
     for time in [0.0, 1.3, 2.0] {
         same(block(&back, time), block(&plan, 5.0 - time));
+    }
+    // Simulated, it begins and ends with the error, too: what is drawn is the block where its link is.
+    let simulated =
+        simulate(&rest, &Settings { link_contacts: false, ..Settings::default() }).expect("it is played");
+    let lasting =
+        LastingTrees::new(rest.body.tracks().expect("modules"), &Pose::identity(), &[], &simulated.apart);
+    let mut poses = lasting.poses.clone();
+    for moment in [&simulated.motion[0], simulated.motion.last().expect("it moves")] {
+        lasting.trees[0].link_poses(&moment.joints, &moment.base, &mut poses);
+        let port = |module: usize| lasting.start.port_pose(robot, PortRef { module, port: 0 }, &poses);
+        let error = (port(0) * turned(Vec3::z(), std::f64::consts::PI)).inverse() * port(1);
+        let off = (error.translation.vector.norm(), error.rotation.angle());
+        assert!((off.0 - 0.0039).abs() < 1e-9 && (off.1 - 4.9f64.to_radians()).abs() < 1e-9, "{off:?}");
     }
     // A file that states more than is captured is refused, as a docking is.
     let mut far = rest.clone();

@@ -8,6 +8,8 @@ mod momentum;
 pub mod oracle;
 pub mod parting;
 mod random_scenes;
+mod slip_spread;
 pub mod slopes;
+mod snapping;
 pub mod truss_judge;
 pub mod verify;

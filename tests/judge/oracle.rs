@@ -133,6 +133,7 @@ fn connectors() -> Vec<Connector> {
         holds_force: None,
         holds_moment: None,
         capture,
+        snaps: false,
         hinge,
     };
     let hinge = Hinge { axis: Vec3::y(), limits: Limits::default() };

@@ -30,6 +30,7 @@ const TOKENS: &[&str] = &[
     "turns",
     "holds",
     "capture",
+    "snap",
     "hinge",
     "mass",
     "link",

@@ -147,6 +147,7 @@ pub fn smores_library() -> Arc<Library> {
         holds_force: Some(88.4),
         holds_moment: Some(1.9),
         capture: Some(Capture { distance: 4e-3, angle: 5.0 * PI / 180.0 }),
+        snaps: false,
         hinge: None,
     };
     Arc::new(Library { connectors: vec![face], modules: vec![smores()], ..Library::default() })

@@ -141,6 +141,7 @@ fn connector_clause(clause: &ConnectorClause) -> String {
             format!("(capture {}{})", expr(distance), optional(angle, "", expr))
         }
         ConnectorClause::Hinge { args, .. } => format!("(hinge{})", each(args, arg)),
+        ConnectorClause::Snap => "(snap)".into(),
         ConnectorClause::Error => "ERROR".into(),
     }
 }

@@ -25,8 +25,7 @@ pub struct LastingTrees {
 
 impl LastingTrees {
     /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m; `clusters`: the
-    /// poses of further clusters then. `apart`: the
-    /// bonds, by their indices, that are constraints although they hold all the time, or never.
+    /// poses of further clusters then. Bonds have the misalignments with which they hold at the start. `apart`: the bonds, by their indices, that are constraints although they hold all the time, or never.
     pub fn new(tracks: &Tracks, X_WB: &Pose, clusters: &[ClusterPose], apart: &[usize]) -> LastingTrees {
         let mut ever = tracks.start.bonds.clone();
         let mut lasting = ever.clone();
@@ -35,7 +34,8 @@ impl LastingTrees {
             ever[event.bond] |= event.kind == DockingKind::Dock;
         }
         apart.iter().for_each(|&bond| (lasting[bond], ever[bond]) = (false, true));
-        let robot = &tracks.robot;
+        let errors = tracks.start.misalignments.iter().map(|error| (error.bond, error.pose)).collect();
+        let robot = &Assembly { misalignments: errors, ..tracks.robot.clone() };
         let start = Kinematics::new(robot, &tracks.start.bonds, robot.base);
         let all = Kinematics::new(robot, &vec![true; robot.bonds.len()], robot.base);
         let mut poses = vec![Pose::identity(); start.link_count()];

@@ -90,6 +90,7 @@ fn options(plan: &Plan) -> Result<(), PlanFault> {
     need(settings.unstable_for >= 0.0, || PlanFault::UnstableFor)?;
     need((0.0..=1.0).contains(&settings.reserve), || PlanFault::Reserve { reserve: settings.reserve })?;
     need(settings.slip_max.is_none_or(|slip| slip >= 0.0), || PlanFault::SlipMax)?;
+    need((0.0..=1.0).contains(&settings.slip), || PlanFault::Slip { slip: settings.slip })?;
     need(settings.samples_max >= 1, || PlanFault::NoSamples)?;
     need_bounded(settings.sample, DURATION_MAX, "the time between samples")?;
     need_bounded(settings.unstable_for, DURATION_MAX, "`unstable_for`")?;

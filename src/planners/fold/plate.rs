@@ -71,6 +71,7 @@ impl Plate {
             holds_force: None,
             holds_moment: None,
             capture: None,
+            snaps: false,
             hinge: Some(Hinge { axis: Vec3::y(), limits: self.limits }),
         };
         let library = Library { connectors: vec![edge], modules, cells: Vec::new(), struts: Vec::new() };

@@ -1,7 +1,8 @@
 //! The path of a robot's base over a rollout, between its samples.
 
+use super::sample::Sample;
 use super::tolerances::Tolerances;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vec3};
 use crate::robot::dynamics::Twist;
 
 /// The path of a cluster's base over its rollout.
@@ -9,9 +10,48 @@ use crate::robot::dynamics::Twist;
 pub(super) struct BasePath {
     /// The world pose of the base module's body (`X_WB`, m) at each sample, as (time in s, pose), in order of time.
     pub poses: Vec<(f64, Pose)>,
+    /// The parts of its way on which it goes astray if contacts slip, in order of time; for those who judge.
+    pub astray: Vec<Astray>,
+}
+
+/// A part of the way of a robot over the ground, from one sample to the next, on which it goes astray if contacts slip.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Astray {
+    /// The centre of mass in the world at its end, m.
+    pub centre: Vec3,
+    /// The turn by which the heading is off after it, for each unit of slip, rad.
+    pub heading: f64,
+    /// The distance by which the centre of mass is, without what follows from the heading, m.
+    pub place: f64,
 }
 
 impl BasePath {
+    /// Returns the path of a base that is at one pose (`X_WB`, m), at a time (s).
+    pub(super) fn resting(time: f64, pose: Pose) -> BasePath {
+        BasePath { poses: vec![(time, pose)], astray: vec![] }
+    }
+
+    /// Takes a sample, in order of time.
+    pub(super) fn observe(&mut self, sample: &Sample) {
+        self.poses.push((sample.time, sample.stance.base_pose(sample.model)));
+        let span = sample.time - sample.before;
+        let (heading, place) = (sample.spread.heading * span, sample.spread.place * span);
+        if heading + place > 0.0 {
+            let centre = sample.stance.world_point(&Vec3::zeros());
+            self.astray.push(Astray { centre, heading, place });
+        }
+    }
+
+    /// Returns (distance in m, angle in rad) by which a point that the robot carries, at `port` (m, in the world) at the end of
+    /// the way, is off at most, for each unit of slip. An error of the heading swings all that is ahead.
+    pub(super) fn astray_at(&self, port: &Vec3) -> (f64, f64) {
+        let off = self.astray.iter().map(|part| {
+            let ahead = (port - part.centre).xy().norm();
+            (part.place + part.heading * ahead, part.heading)
+        });
+        off.fold((0.0, 0.0), |(distance, angle), (d, a)| (distance + d, angle + a))
+    }
+
     /// Returns the pose at a time (s), on a straight line and one turn between the samples around it. Panics without
     /// samples.
     pub(super) fn at(&self, time: f64, tolerances: &Tolerances) -> Pose {

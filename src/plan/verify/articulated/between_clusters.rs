@@ -13,6 +13,7 @@ use super::collision::Collision;
 use super::docking;
 use super::placed_clusters::PlacedClusters;
 use super::rollout_input::Rollout;
+use super::snapping::{Snap, links};
 use super::tolerances::Tolerances;
 use crate::geometry::{Pose, Vec3};
 use crate::interrupt;
@@ -20,7 +21,9 @@ use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, ExemptionKind, Status, Tracks};
 use crate::robot::{JointOwner, Kinematics, Link, ModuleInstance, ModuleType, Surface, mate};
 use crate::units::{Dimension, quantity};
+use nalgebra::{Point3 as Point, UnitQuaternion};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Judges whether links of two clusters meet that are there at the same time, or of a cluster and an obstacle, at all samples
@@ -50,7 +53,8 @@ pub(super) fn judge(
     times.retain(|time| !alone(*time));
     let pairs_of: Vec<(&Cluster, &BasePath)> = clusters.iter().zip(paths).collect();
     let mut placed = PlacedClusters::new(tracks, pairs_of, rollout.tolerances);
-    let mut links = PlacedLinks::new(tracks, &bodies, explained(tracks, clusters, &bodies));
+    let mut links =
+        PlacedLinks::new(tracks, &bodies, explained(tracks, clusters, &bodies), rollout.tolerances);
     let mut balls = ClusterBalls::new(tracks, clusters, paths, &bodies);
     let mut unproved = 0;
     for &time in &times {
@@ -75,6 +79,9 @@ pub(super) fn judge(
                 unproved += usize::from(nearest < moved);
             }
         }
+    }
+    for cluster in clusters.iter().filter(|cluster| times.contains(&cluster.from)) {
+        unproved += links.observe_snaps(cluster, (clusters, &mut placed), ledger);
     }
     let found = std::mem::take(&mut links.found);
     report(rollout, (tracks, clusters), found, ledger);
@@ -104,7 +111,7 @@ pub(super) fn distances_at(
     let bodies = Bodies::of_plan(tracks).ok()?;
     let pairs_of: Vec<(&Cluster, &BasePath)> = clusters.iter().zip(paths).collect();
     let mut placed = PlacedClusters::new(tracks, pairs_of, rollout.tolerances);
-    let mut links = PlacedLinks::new(tracks, &bodies, BTreeMap::new());
+    let mut links = PlacedLinks::new(tracks, &bodies, BTreeMap::new(), rollout.tolerances);
     let obstacles: Vec<usize> = (rollout.tracks.robot.modules.len()..tracks.robot.modules.len()).collect();
     let mut at = |time: f64| {
         interrupt::checkpoint();
@@ -235,6 +242,9 @@ struct PlacedLinks<'a> {
     numbers: Kinematics,
     /// The world poses of all links (`X_WL`), by their numbers, m.
     poses: Vec<Pose>,
+    /// The indices of the modules that stand for obstacles.
+    obstacles: Range<usize>,
+    tolerances: &'a Tolerances,
     /// The deepest collision of each pair of modules so far.
     found: BTreeMap<(usize, usize), Collision>,
 }
@@ -246,10 +256,71 @@ impl<'a> PlacedLinks<'a> {
         tracks: &'a Tracks,
         bodies: &'a Bodies,
         explained: BTreeMap<(usize, usize), f64>,
+        tolerances: &'a Tolerances,
     ) -> PlacedLinks<'a> {
+        let count = tracks.robot.modules.len();
+        let obstacles = count - tracks.obstacles.len()..count;
         let numbers = Kinematics::new(&tracks.robot, &tracks.start.bonds, 0);
         let poses = vec![Pose::identity(); numbers.link_count()];
-        PlacedLinks { tracks, bodies, explained, numbers, poses, found: BTreeMap::new() }
+        PlacedLinks {
+            tracks,
+            bodies,
+            explained,
+            numbers,
+            poses,
+            obstacles,
+            tolerances,
+            found: BTreeMap::new(),
+        }
+    }
+
+    /// Takes the distances of what moves as the parents of a cluster snap to each other, on its way, to all that stands around.
+    /// Returns the number of places on it between which nothing is proved.
+    fn observe_snaps(
+        &mut self,
+        cluster: &Cluster,
+        (clusters, placed): (&[Cluster], &mut PlacedClusters),
+        ledger: &mut Ledger,
+    ) -> usize {
+        let (robot, time) = (&self.tracks.robot, cluster.from);
+        let snaps: Vec<&Snap> = cluster.snaps.iter().filter(|snap| snap.stands.is_none()).collect();
+        if snaps.is_empty() {
+            return 0;
+        }
+        let existing = placed.place(time, &mut self.poses);
+        let others = existing.iter().flat_map(|index| clusters[*index].modules.iter().copied());
+        let around: Vec<usize> = others.chain(self.obstacles.clone()).collect();
+        let mut unproved = 0;
+        for snap in snaps.into_iter().rev() {
+            let centre = self.poses[self.numbers.link(snap.modules[0], 0)].translation.vector;
+            let distance = |module: &usize| {
+                (self.numbers.module_pose(*module, &self.poses).translation.vector - centre).norm()
+                    + self.bodies.reach[*module]
+            };
+            let reach = snap.modules.iter().map(distance).fold(0.0, f64::max);
+            let back = snap.motion.inverse();
+            let shift = (back * Point::from(centre)).coords - centre;
+            let way = shift.norm() + snap.motion.rotation.angle() * reach;
+            let steps = libm::ceil(way / self.tolerances.snap_step).max(1.0) as usize;
+            let after = self.poses.clone();
+            for step in 0..steps {
+                // Backwards from the pose after, about the body that moves.
+                let part = (step + 1) as f64 / steps as f64;
+                let turn = UnitQuaternion::from_scaled_axis(back.rotation.scaled_axis() * part);
+                let moved = centre + shift * part - turn * centre;
+                let motion = Pose::from_parts(moved.into(), turn);
+                for link in snap.modules.iter().flat_map(|module| links(robot, &self.numbers, *module)) {
+                    self.poses[link] = motion * after[link];
+                }
+                for &x in &snap.modules {
+                    for &y in around.iter().filter(|module| !snap.modules.contains(module)) {
+                        let nearest = self.observe((x, y), time, way / steps as f64, ledger);
+                        unproved += usize::from(nearest < way / steps as f64);
+                    }
+                }
+            }
+        }
+        unproved
     }
 
     /// Takes the distances of the links of two modules at a time (s): keeps the least in the verdict, and the deepest

@@ -7,6 +7,7 @@
 
 use super::entry::Entry;
 use super::rollout_input::{Rollout, is_surrounded};
+use super::snapping::Snap;
 use crate::geometry::Pose;
 use crate::plan::{CauseId, DockingEvent, DockingKind, Exemption, ExemptionKind, Track, Tracks, WorldFrom};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, PortRef, State};
@@ -21,6 +22,8 @@ pub(super) struct Cluster {
     pub parents: Vec<usize>,
     /// The events at `from` by which modules of different parents dock, in the order of the plan.
     pub joins: Vec<DockingEvent>,
+    /// The motions by which its parents snap to each other as it begins, in their order; none before it has been followed.
+    pub snaps: Vec<Snap>,
     /// The modules, by their indices in the plan's robot, ascending.
     pub modules: Vec<usize>,
     /// The bonds between them, by their indices in the plan's robot, ascending.
@@ -281,6 +284,7 @@ impl Part {
             from: self.from,
             parents: vec![],
             joins: self.joins.clone(),
+            snaps: vec![],
             lasts,
             worlds: None,
             name: String::new(),

@@ -32,7 +32,8 @@ pub fn dock_turns(plan: &Plan, bonds: &[usize]) -> Vec<(usize, u32)> {
     let until = times.iter().map(|(_, time)| *time).fold(0.0, f64::max);
     let mut turns = Vec::new();
     succession::follow(&rollout, &mut clusters, until, &mut |begun| {
-        for (bond, error) in &begun.beginning.joining.misalignments {
+        for docked in &begun.beginning.joining.dockings {
+            let (bond, error) = (&docked.bond, &docked.error);
             let X_PQ = mate(&tracks.robot, *bond) * error;
             turns.push((*bond, turn(tracks, *bond, &X_PQ)));
         }

@@ -1,27 +1,43 @@
 //! Docking between robots that stand by themselves: the ports must be within capture of each other, and at rest against
-//! each other. The bond keeps the error that they dock with; nothing jumps.
+//! each other. The bond keeps the error that they dock with, and nothing jumps, unless its connectors snap.
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
-use super::docking::{apart, failure, within};
+use super::docking::{apart, failure, tolerated, within};
 use super::placed_clusters::PlacedClusters;
 use super::rollout_input::Rollout;
+use super::snapping::{self, Snap};
 use super::tolerances::Tolerances;
 use crate::geometry::Pose;
 use crate::geometry::pose::turned;
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, DockingEvent, DockingKind, Failure, Tracks};
-use crate::robot::{Kinematics, Residual, mate};
-use crate::units::{Dimension, quantity};
+use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Tracks};
+use crate::robot::{Bond, Kinematics, Residual, mate};
+use crate::units::{Dimension, number, quantity};
 
 /// The docking of clusters with each other at one instant.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Joining {
-    /// The error of each bond, the pose of its second port in the frame that a perfect mate would give it, by the index of
-    /// the bond in the plan's robot, ascending.
-    pub misalignments: Vec<(usize, Pose)>,
-    /// The speed of the second port against the first just before, for each bond, m/s and rad/s.
-    pub speeds: Vec<(f64, f64)>,
+    /// The dockings, ascending by the indices of their bonds in the plan's robot.
+    pub dockings: Vec<Docked>,
+    /// The motions by which clusters snap to each other, in the order in which they do.
+    pub snaps: Vec<Snap>,
+}
+
+/// A bond by which clusters dock with each other.
+#[derive(Clone, Debug)]
+pub(super) struct Docked {
+    /// The index of the bond in the plan's robot.
+    pub bond: usize,
+    /// The error as the ports meet: the pose of the second in the frame that a perfect mate would give it, m.
+    pub error: Pose,
+    /// The error that the bond keeps, likewise; `None` where it has snapped to a perfect mate.
+    pub misalignment: Option<Pose>,
+    /// The speed of the second port against the first just before, m/s and rad/s.
+    speed: (f64, f64),
+    /// The distance (m) and the angle (rad) by which the error may be another if contacts slip as the settings state; `None`
+    /// where nothing goes astray.
+    spread: Option<(f64, f64)>,
 }
 
 impl Joining {
@@ -43,7 +59,7 @@ impl Joining {
                 .iter()
                 .map(|parent| {
                     let (parent, path) = known[*parent];
-                    BasePath { poses: vec![(time, just_before(rollout, parent, path, (time, before)))] }
+                    BasePath::resting(time, just_before(rollout, parent, path, (time, before)))
                 })
                 .collect();
             let parents = cluster.parents.iter().zip(&paths).map(|(parent, path)| (known[*parent].0, path));
@@ -51,77 +67,137 @@ impl Joining {
             (0..paths.len()).for_each(|parent| placed.place_one(parent, time, (&joints, &bonds), &mut poses));
             (poses, joints)
         };
-        let (now, earlier) = (place(0.0), place(tolerances.dock_step));
-        let mut docked: Vec<(usize, Pose, (f64, f64))> = cluster
-            .joins
-            .iter()
-            .map(|event| {
-                let error =
-                    |(poses, joints): &(Vec<Pose>, Vec<f64>)| error(tracks, &numbers, event, joints, poses);
-                let (at, before) = (error(&now), error(&earlier));
-                let moved = before.inverse() * at;
-                let speed = (at.translation.vector - before.translation.vector).norm() / tolerances.dock_step;
-                (event.bond, at, (speed, moved.rotation.angle() / tolerances.dock_step))
-            })
-            .collect();
-        docked.sort_by_key(|(bond, ..)| *bond);
-        let speeds = docked.iter().map(|(.., speed)| *speed).collect();
-        Joining { misalignments: docked.into_iter().map(|(bond, error, _)| (bond, error)).collect(), speeds }
+        let ((mut poses, joints), earlier) = (place(0.0), place(tolerances.dock_step));
+        let error = |event: &DockingEvent, joints: &[f64], poses: &[Pose]| {
+            error(tracks, &numbers, event.bond, joints, poses)
+        };
+        let mut dockings: Vec<Docked> = Vec::with_capacity(cluster.joins.len());
+        for event in &cluster.joins {
+            let (at, before) = (error(event, &joints, &poses), error(event, &earlier.1, &earlier.0));
+            let moved = before.inverse() * at;
+            let speed = (at.translation.vector - before.translation.vector).norm() / tolerances.dock_step;
+            let rate = moved.rotation.angle() / tolerances.dock_step;
+            let spread = spread(rollout, known, (&numbers, &poses), event.bond);
+            let (bond, speed) = (event.bond, (speed, rate));
+            dockings.push(Docked { bond, error: at, misalignment: None, speed, spread });
+        }
+        let parents: Vec<&Cluster> = cluster.parents.iter().map(|parent| known[*parent].0).collect();
+        let snaps = snapping::snap(rollout, (&numbers, &joints), (&parents, &cluster.joins), &mut poses);
+        for (docked, event) in dockings.iter_mut().zip(&cluster.joins) {
+            let snapped = snaps.iter().any(|snap| snap.bond == docked.bond && snap.stands.is_none());
+            docked.misalignment = (!snapped).then(|| error(event, &joints, &poses));
+        }
+        dockings.sort_by_key(|docked| docked.bond);
+        Joining { dockings, snaps }
     }
 
     /// Judges the dockings of a cluster, and notes their errors; returns the bonds whose ports missed, by their indices in
     /// the plan's robot.
     pub(super) fn judge(&self, rollout: &Rollout, cluster: &Cluster, ledger: &mut Ledger) -> Vec<usize> {
-        let robot = &rollout.tracks.robot;
         let mut missed = Vec::new();
-        for ((bond, error), (speed, rate)) in self.misalignments.iter().zip(&self.speeds) {
-            let name = robot.bond_name(*bond);
-            let distance = error.translation.vector.norm();
-            let residual = Residual { bond: *bond, distance, angle: error.rotation.angle() };
+        for docked in &self.dockings {
+            let bond = docked.bond;
             let causes: Vec<_> =
-                cluster.joins.iter().filter(|event| event.bond == *bond).map(|event| event.cause).collect();
-            let kind = CheckKind::Docking;
-            if !within(robot, &residual, rollout.tolerances) {
-                let message = format!("{name} does not dock: {}", apart(&residual));
-                ledger.fail(failure(kind, robot, &residual, cluster.from, message, causes, rollout));
-                missed.push(*bond);
-                continue;
+                cluster.joins.iter().filter(|event| event.bond == bond).map(|event| event.cause).collect();
+            if !docked.judge(rollout, cluster.from, causes, ledger) {
+                missed.push(bond);
             }
-            let limit = rollout.tolerances;
-            let shown = |speed: f64, rate: f64| {
-                let speed = quantity(speed, Dimension::SPEED);
-                format!("{speed} and {}", quantity(rate, Dimension::ANGULAR_SPEED))
-            };
-            if *speed > limit.dock_speed || *rate > limit.dock_rate {
-                let message = format!(
-                    "{name} docks too fast: the ports move at {} against each other, of {} at most",
-                    shown(*speed, *rate),
-                    shown(limit.dock_speed, limit.dock_rate)
-                );
-                let found = failure(kind, robot, &residual, cluster.from, message, causes, rollout);
-                ledger.fail(Failure { value: *speed, limit: limit.dock_speed, ..found });
-            }
-            let at = quantity(cluster.from, Dimension::TIME);
-            ledger.note(format!("{name} docks at {at}: {}", apart(&residual)));
+        }
+        for snap in &self.snaps {
+            snap.judge(rollout, cluster, ledger);
         }
         missed
     }
 }
 
-/// Returns the pose of the second port of a docking in the frame that a perfect mate with the first would give it.
+impl Docked {
+    /// Judges the docking at a time (s), for which `causes` are to blame, and notes its error; returns false where the ports
+    /// missed.
+    fn judge(&self, rollout: &Rollout, time: f64, causes: Vec<CauseId>, ledger: &mut Ledger) -> bool {
+        let (robot, limit) = (&rollout.tracks.robot, rollout.tolerances);
+        let name = robot.bond_name(self.bond);
+        let (distance, angle) = (self.error.translation.vector.norm(), self.error.rotation.angle());
+        let residual = Residual { bond: self.bond, distance, angle };
+        let kind = CheckKind::Docking;
+        if !within(robot, &residual, limit) {
+            let message = format!("{name} does not dock: {}", apart(&residual));
+            ledger.fail(failure(kind, robot, &residual, time, message, causes, rollout));
+            return false;
+        }
+        let shown = |speed: f64, rate: f64| {
+            let speed = quantity(speed, Dimension::SPEED);
+            format!("{speed} and {}", quantity(rate, Dimension::ANGULAR_SPEED))
+        };
+        let (speed, rate) = self.speed;
+        if speed > limit.dock_speed || rate > limit.dock_rate {
+            let message = format!(
+                "{name} docks too fast: the ports move at {} against each other, of {} at most",
+                shown(speed, rate),
+                shown(limit.dock_speed, limit.dock_rate)
+            );
+            let found = failure(kind, robot, &residual, time, message, causes, rollout);
+            ledger.fail(Failure { value: speed, limit: limit.dock_speed, ..found });
+        }
+        let at = quantity(time, Dimension::TIME);
+        let spread = self.spread.map_or_else(String::new, |spread| self.spread_in_words(spread, rollout));
+        ledger.note(format!("{name} docks at {at}: {}{spread}", apart(&residual)));
+        true
+    }
+
+    /// Returns in words by how much the error may be another, to go on after it.
+    fn spread_in_words(&self, (distance, angle): (f64, f64), rollout: &Rollout) -> String {
+        let capture = tolerated(&rollout.tracks.robot, self.bond, rollout.tolerances);
+        let beyond = self.error.translation.vector.norm() + distance > capture.distance
+            || self.error.rotation.angle() + angle > capture.angle;
+        let captured =
+            if beyond { "more than the connector captures" } else { "which the connector captures" };
+        let [distance, angle] = [(distance, Dimension::LENGTH), (angle, Dimension::ANGLE)]
+            .map(|(value, dimension)| quantity(value, dimension));
+        let slip = number(100.0 * rollout.settings.slip);
+        format!("; if wheels slip by {slip} % of their speed, up to {distance} and {angle} more, {captured}")
+    }
+}
+
+/// Returns the distance (m) and the angle (rad) by which the pose of a bond's second port against its first may be another if
+/// contacts slip as the settings state, on all ways on which the two are of different clusters; `None` where they do not go
+/// astray. `numbers` and `poses`: the kinematics that gives the links their numbers, and their world poses as they dock, m.
+fn spread(
+    rollout: &Rollout,
+    known: &[(&Cluster, &BasePath)],
+    (numbers, poses): (&Kinematics, &[Pose]),
+    bond: usize,
+) -> Option<(f64, f64)> {
+    let robot = &rollout.tracks.robot;
+    let Bond { a, b, .. } = robot.bonds[bond];
+    let mut off = (0.0, 0.0);
+    for port in [a, b] {
+        let at = numbers.port_pose(robot, port, poses).translation.vector;
+        let holds = |cluster: &Cluster, module: usize| cluster.modules.binary_search(&module).is_ok();
+        for (cluster, path) in known {
+            if holds(cluster, port.module) && !(holds(cluster, a.module) && holds(cluster, b.module)) {
+                let (distance, angle) = path.astray_at(&at);
+                off = (off.0 + distance, off.1 + angle);
+            }
+        }
+    }
+    let slip = rollout.settings.slip;
+    (off.0 * slip > 0.0).then_some((off.0 * slip, off.1 * slip))
+}
+
+/// Returns the pose of the second port of a bond in the frame that a perfect mate with the first would give it.
 /// `numbers`: the kinematics that gives the links their numbers; `joints`: the positions of all joints, rad or m; `poses`:
 /// the world poses of all links, m.
-fn error(
+pub(super) fn error(
     tracks: &Tracks,
     numbers: &Kinematics,
-    event: &DockingEvent,
+    bond: usize,
     joints: &[f64],
     poses: &[Pose],
 ) -> Pose {
     let robot = &tracks.robot;
-    let hinge = robot.hinge(event.bond).zip(numbers.hinge(event.bond));
+    let hinge = robot.hinge(bond).zip(numbers.hinge(bond));
     let open = hinge.map_or(Pose::identity(), |(hinge, joint)| turned(hinge.axis, joints[joint]));
-    (open * mate(robot, event.bond)).inverse() * pose_of_second(tracks, numbers, event.bond, poses)
+    (open * mate(robot, bond)).inverse() * pose_of_second(tracks, numbers, bond, poses)
 }
 
 /// Returns the pose of the second port of a bond, given by its index, in the frame of the first, `X_PQ` in m. `numbers` and

@@ -33,6 +33,7 @@ mod contact_lp;
 mod fixed_base;
 mod load_limits;
 mod slope;
+mod snapping;
 mod stability;
 mod statics;
 mod torque;

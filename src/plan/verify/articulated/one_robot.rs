@@ -67,7 +67,7 @@ fn check_samples(
             checkpoints.keep(checkpoint());
         }
         if let Some(path) = &mut path {
-            path.poses.push((sample.time, sample.stance.base_pose(sample.model)));
+            path.observe(sample);
         }
         loops.observe(sample);
         if let Some(loss) = standing.observe(sample, ledger) {

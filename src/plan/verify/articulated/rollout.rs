@@ -3,7 +3,7 @@
 //! Everything here is sequential, and depends on nothing but the plan: the attitude of a sample
 //! follows from the sample before.
 
-use super::dynamics::{GroundStep, Traction, TravelSummary};
+use super::dynamics::{GroundStep, SlipSpread, Traction, TravelSummary};
 use super::entry::Entry;
 use super::floating::Floating;
 use super::in_force::{excused, positions, world_at};
@@ -361,6 +361,7 @@ impl<'a> Stepper<'a> {
                 R: &self.stance.R,
             };
             (self.stance.planar_pose, step.slips) = traction.advance(&ground, &pose);
+            step.spread = traction.spread();
         }
         Some(step)
     }
@@ -486,6 +487,7 @@ impl<'a> Stepper<'a> {
             motion: step.motion,
             tip: step.tip.as_ref(),
             slips: &step.slips,
+            spread: step.spread,
             settling: step.settling,
             travel: self
                 .traction
@@ -517,5 +519,6 @@ struct Step {
     motion: f64,
     tip: Option<TipOver>,
     slips: Vec<(usize, f64, f64)>,
+    spread: SlipSpread,
     settling: Option<f64>,
 }

@@ -1,6 +1,6 @@
 //! A sample of a rollout, for those who watch it.
 
-use super::dynamics::TravelSummary;
+use super::dynamics::{SlipSpread, TravelSummary};
 use super::model::Model;
 use super::stance::Stance;
 use crate::plan::World;
@@ -35,6 +35,9 @@ pub struct Sample<'a> {
     /// the weight). Under statics half of the slip comes with the contact patches of the sample before, the other half
     /// with those of this one, so that a link may occur twice.
     pub slips: &'a [(usize, f64, f64)],
+    /// The rates at which the robot went astray since the sample before if contacts slip; zero under statics, and where nothing
+    /// moved.
+    pub spread: SlipSpread,
     /// The angle by which the robot turned to settle, rad, at the start, and when a ground begins; `None` at other
     /// samples.
     pub settling: Option<f64>,

@@ -101,15 +101,23 @@ impl Past {
         let holds =
             |bond: usize| next.bonds.binary_search(&bond).map_or(true, |own| next.tracks.start.bonds[own]);
         self.misalignments.retain(|(bond, _)| holds(*bond));
-        self.misalignments.extend(&joining.misalignments);
+        let kept = joining.dockings.iter().filter_map(|docked| Some((docked.bond, docked.misalignment?)));
+        self.misalignments.extend(kept);
         self.misalignments.sort_by_key(|(bond, _)| *bond);
         let mut entry = next.parents.first().map(|parent| entry(rollout, next, known[*parent]));
+        let base = next.base();
+        for snap in joining.snaps.iter().filter(|snap| snap.modules.contains(&base)) {
+            if let Some(entry) = &mut entry {
+                entry.base = snap.motion * entry.base;
+            }
+        }
         if let Some(entry) = entry.as_mut().filter(|_| rollout.is_full()) {
             let ends = next.parents.iter().map(|parent| (known[*parent], self.momenta[*parent]));
             (entry.momentum, entry.twist) = carried_over(rollout, next, ends);
         }
         self.momenta.push(entry.as_ref().map_or_else(Wrench::default, |entry| entry.momentum));
         next.misalign(&self.misalignments);
+        next.snaps.clone_from(&joining.snaps);
         Some(Beginning { entry, joining })
     }
 }

@@ -95,6 +95,9 @@ pub struct Tolerances {
     /// The step by which such speeds are found just before a docking, s. Default 0.1 ms: within it nothing changes its speed
     /// that can be seen.
     pub dock_step: f64,
+    /// The greatest way of a point between two places at which a cluster is looked at as it snaps to another, m. Default
+    /// 0.5 mm.
+    pub snap_step: f64,
     /// The time before a docking at which the speed of a robot is compared with that at docking, s. Default 50 ms, the
     /// length of the windows over which full dynamics take means of velocities.
     pub braking_time: f64,
@@ -155,6 +158,7 @@ impl Default for Tolerances {
             dock_rate: degree,
             inertia_ridge: 1e-12,
             dock_step: 1e-4,
+            snap_step: 5e-4,
             braking_time: 0.05,
             braked: 0.25,
             slip_load: 0.05,

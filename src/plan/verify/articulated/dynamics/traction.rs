@@ -7,6 +7,7 @@ use super::super::rollout_input::Rollout;
 use super::equilibrium::{self, Equilibrium, Warm};
 use super::posed::{Posed, Situation, turned};
 use super::slide;
+use super::slip_spread::SlipSpread;
 use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Mat3;
@@ -136,6 +137,8 @@ struct Last {
     varied_at: f64,
     /// The slip of each loaded link, as (number of the link, m/s, load as a part of the weight).
     slips: Vec<(usize, f64, f64)>,
+    /// The rates at which the robot goes astray if contacts slip.
+    spread: SlipSpread,
 }
 
 /// A step of the rollout on the ground, from one sample to the next.
@@ -221,6 +224,7 @@ impl Traction {
             varied_at: f64::NEG_INFINITY,
             twist,
             slips: vec![],
+            spread: SlipSpread::default(),
         });
     }
 
@@ -228,6 +232,11 @@ impl Traction {
     pub(in super::super) fn coasts(&self) -> bool {
         let rate = self.last.as_ref().map_or_else(Vector3::zeros, |last| last.rate);
         self.came_off && rate.norm() > PARAMETERS.coasting_speed
+    }
+
+    /// Returns the rates at which the robot goes astray if contacts slip, as found last.
+    pub(in super::super) fn spread(&self) -> SlipSpread {
+        self.last.as_ref().map_or_else(SlipSpread::default, |last| last.spread)
     }
 
     /// Returns the travel from the start of the rollout to the last step.
@@ -319,6 +328,7 @@ impl Traction {
             varied_at,
             twist,
             slips: twist::slips_by_link(&situation.candidates, &loads.normal, &friction, weight),
+            spread: SlipSpread::of(&situation.candidates, &loads.normal, &friction),
         });
     }
 }

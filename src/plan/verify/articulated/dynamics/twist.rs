@@ -169,7 +169,7 @@ fn moved(twist: &Vector6<f64>) -> Twist {
 
 /// Returns the speed by which the friction on a slip is divided, `sqrt(s² + v_s²)` with the `slip_speed` v_s, m/s.
 /// `squared`: the square s² of the slip, m²/s².
-fn regularized_speed(squared: f64) -> f64 {
+pub(super) fn regularized_speed(squared: f64) -> f64 {
     libm::sqrt(squared + PARAMETERS.slip_speed * PARAMETERS.slip_speed)
 }
 
