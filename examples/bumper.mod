@@ -63,7 +63,7 @@ config Parked {
   )
 }
 
-// The plan knows of no post: it drives on for 9 s. A program that lets go of a part can't be verified yet.
+// The plan knows of no touch: its undisturbed run drives on for 9 s, into the post, and is not verified.
 let x = Parked()
 let away = Sc(undock(x.bumper.front), x.drive(-4rad/s, 2s))
 let p = plan(Sc(away, x.feel(3rad/s), x.drive(-3rad/s, 1s), x.turn(2rad/s, 1s)))

@@ -1574,7 +1574,8 @@ extern fn separation(a: Port, b: Port) -> Signal<Length>
 /// ```
 extern fn tilt(on: Config) -> Signal<Angle>
 
-/// That a module, or a part, touches the ground or another module that is not docked to it.
+/// That a module, or a part, touches the ground or another module that is not docked to it; with `other`, that it touches that
+/// module or part, perhaps of another robot of a scene.
 ///
 /// It is measured, so that a plan does not know it before it runs: the undisturbed run goes on when the time is out, as if
 /// it held by then.
@@ -1586,7 +1587,7 @@ extern fn tilt(on: Config) -> Signal<Angle>
 /// let reach = move(c.m[2].tilt, to: -60deg, in: 3s, until: touching(c.m[2]), timeout: 4s)
 /// print(plan(reach).nominal)
 /// ```
-extern fn touching(on: Config) -> Condition
+extern fn touching(on: Config, other: Config?) -> Condition
 
 /// That something is docked at a port.
 ///

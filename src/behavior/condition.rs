@@ -18,8 +18,9 @@ pub trait Sensors {
     /// ([`Signal::Elapsed`]).
     fn value(&self, signal: Signal) -> f64;
 
-    /// Returns true if one of some modules, given by their indices, touches the ground or a module that is not among them.
-    fn touches(&self, modules: &[usize]) -> bool;
+    /// Returns true if one of some modules, given by their indices, touches one of `others`, or, where there is `None`, the ground
+    /// or a module that is not among them. Modules that are docked to each other do not touch.
+    fn touches(&self, modules: &[usize], others: Option<&[usize]>) -> bool;
 }
 
 /// The state of a run on which a condition is judged: the motion of the joints and the bonds.
@@ -77,9 +78,11 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
     let (a, b) = match condition {
         Condition::And(a, b) | Condition::Or(a, b) => (Some(&**a), Some(&**b)),
         Condition::Not(a) => (Some(&**a), None),
-        Condition::Compare { .. } | Condition::Docked(_) | Condition::Mated(..) | Condition::Touching(_) => {
-            (None, None)
-        }
+        Condition::Compare { .. }
+        | Condition::Docked(_)
+        | Condition::Mated(..)
+        | Condition::Touching(_)
+        | Condition::TouchingEachOther(..) => (None, None),
     };
     a.into_iter().chain(b)
 }
@@ -88,7 +91,10 @@ fn parts(condition: &Condition) -> impl Iterator<Item = &Condition> {
 pub(super) fn senses(condition: &Condition) -> bool {
     match condition {
         Condition::Compare { signal, .. } => *signal != Signal::Elapsed,
-        Condition::Docked(_) | Condition::Mated(..) | Condition::Touching(_) => true,
+        Condition::Docked(_)
+        | Condition::Mated(..)
+        | Condition::Touching(_)
+        | Condition::TouchingEachOther(..) => true,
         Condition::And(..) | Condition::Or(..) | Condition::Not(_) => parts(condition).any(senses),
     }
 }
@@ -108,7 +114,8 @@ pub(super) fn holds(condition: &Condition, view: &View, t: f64) -> Option<bool> 
         }
         Condition::Docked(port) => Some(bonds_of(view, *port).next().is_some()),
         Condition::Mated(a, b) => Some(bonds_of(view, *a).any(|other| other == *b)),
-        Condition::Touching(modules) => view.sensors.map(|sensors| sensors.touches(modules)),
+        Condition::Touching(modules) => view.sensors.map(|sensors| sensors.touches(modules, None)),
+        Condition::TouchingEachOther(a, b) => view.sensors.map(|sensors| sensors.touches(a, Some(b))),
         Condition::And(a, b) => match (holds(a, view, t), holds(b, view, t)) {
             (Some(false), _) | (_, Some(false)) => Some(false),
             (a, b) => a.and(b),

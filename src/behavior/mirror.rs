@@ -211,7 +211,7 @@ fn mirrored_condition(condition: &Condition, image: Image) -> Result<Condition, 
             Condition::Compare { signal, compare, value: value * sign }
         }
         Condition::Docked(_) | Condition::Mated(..) => return Err(MirrorError::Docking),
-        Condition::Touching(_) => return Err(MirrorError::Sensing),
+        Condition::Touching(_) | Condition::TouchingEachOther(..) => return Err(MirrorError::Sensing),
         Condition::And(a, b) => Condition::And(boxed(a)?, boxed(b)?),
         Condition::Or(a, b) => Condition::Or(boxed(a)?, boxed(b)?),
         Condition::Not(a) => Condition::Not(boxed(a)?),

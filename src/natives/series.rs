@@ -33,7 +33,7 @@ pub(super) const TABLE: &[Native] = &[
     Native::pure("clearance", parameters![], |_, _| Ok(signal(None, Measure::Clearance))),
     Native::pure("ground_force", parameters![on: &Rc<Instance>], ground_force),
     Native::pure("tilt", parameters![on: &Rc<Instance>], tilt_of),
-    Native::pure("touching", parameters![on: &Rc<Instance>], touching),
+    Native::pure("touching", parameters![on: &Rc<Instance>, other: Option<&Rc<Instance>>], touching),
     Native::pure("separation", parameters![a: &PortValue, b: &PortValue], separation),
     Native::on_run("Plan.times", parameters![self: &Value, step: Positive], plan_times),
     Native::on_run("Plan.series", parameters![self: &Value, of: &Value, step: Positive], plan_series),
@@ -71,10 +71,18 @@ fn tilt_of(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     Ok(signal(Some(on.robot.clone()), Measure::Sensed(Signal::Tilt(on.modules.index(0)))))
 }
 
-fn touching(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+fn touching(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let on = call.get::<&Rc<Instance>>("on")?;
-    let condition = Condition::Touching(modules_of(on).to_vec());
-    Ok(Value::Condition(Rc::new(ConditionValue { robot: Some(on.robot.clone()), condition })))
+    let other = call.get::<Option<&Rc<Instance>>>("other")?;
+    let modules = modules_of(on).to_vec();
+    let (robot, condition) = match other {
+        None => (Some(on.robot.clone()), Condition::Touching(modules)),
+        Some(other) => {
+            let robot = interpreter.common_subject(Some(&on.robot), Some(&other.robot), call.span)?;
+            (robot, Condition::TouchingEachOther(modules, modules_of(other).to_vec()))
+        }
+    };
+    Ok(Value::Condition(Rc::new(ConditionValue { robot, condition })))
 }
 
 fn separation(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {

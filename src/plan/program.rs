@@ -239,6 +239,9 @@ pub enum Condition {
     /// The condition that one of some modules, given by their indices, touches the ground or a module that is not among
     /// them; measured.
     Touching(Vec<usize>),
+    /// The condition that one of some modules touches one of others, both given by their indices, and is not docked to it;
+    /// measured.
+    TouchingEachOther(Vec<usize>, Vec<usize>),
     /// A conjunction: both conditions hold at once.
     And(Box<Condition>, Box<Condition>),
     /// A disjunction: one of the conditions holds, or both.

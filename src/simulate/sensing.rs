@@ -46,7 +46,7 @@ impl Sensors for Measured<'_, '_> {
         }
     }
 
-    fn touches(&self, modules: &[usize]) -> bool {
-        self.stepper.touches(modules)
+    fn touches(&self, modules: &[usize], others: Option<&[usize]>) -> bool {
+        self.stepper.touches(modules, others)
     }
 }

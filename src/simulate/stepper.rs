@@ -351,18 +351,23 @@ impl<'a> Stepper<'a> {
         (self.model.start[body], self.poses[body])
     }
 
-    /// Returns true if one of some modules, given by their indices, touched the ground or another module in the step taken
-    /// last. Modules that are docked to each other do not touch.
-    pub(super) fn touches(&self, modules: &[usize]) -> bool {
+    /// Returns true if one of some modules, given by their indices, touched one of `others`, or the ground or another module where
+    /// there is `None`, in the step taken last. Modules that are docked to each other do not touch.
+    pub(super) fn touches(&self, modules: &[usize], others: Option<&[usize]>) -> bool {
         let module = |body: usize| self.model.module_of[body];
         let among = |body: usize| modules.contains(&module(body));
+        let meant = |a: usize, b: usize| match others {
+            None => among(a) != among(b),
+            Some(others) => [(a, b), (b, a)].iter().any(|(a, b)| among(*a) && others.contains(&module(*b))),
+        };
         let docked = |a: usize, b: usize| {
             let (a, b) = (module(a), module(b));
             self.model.bonded.contains(&(a.min(b), a.max(b))) || self.couplings.docks(self.model, a, b)
         };
         let ground = self.ground.iter().flat_map(|ground| ground.touching());
         let links = self.couplings.links.iter().flat_map(LinkContacts::touching);
-        ground.into_iter().any(among) || links.into_iter().any(|(a, b)| among(a) != among(b) && !docked(a, b))
+        others.is_none() && ground.into_iter().any(among)
+            || links.into_iter().any(|(a, b)| meant(a, b) && !docked(a, b))
     }
 
     /// Returns the height of the centre of mass at the start of the step taken last, m.

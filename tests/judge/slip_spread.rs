@@ -77,7 +77,7 @@ fn no_slip_of_wheels_leads_farther_astray_than_is_stated() {
     for way in [Drive { left: 300.0, right: 300.0 }, Drive { left: 300.0, right: 200.0 }] {
         let end = numbers(&drive(&way, [1.0, 1.0], None)[0]);
         let [x, y, heading]: [f64; 3] = end.clone().try_into().expect("three numbers");
-        let (s, c) = heading.to_radians().sin_cos();
+        let (s, c) = libm::sincos(heading.to_radians());
         let place = format!("[{}mm, {}mm, 0mm] turned(Z, {heading}deg)", x + 30.0 * c, y + 30.0 * s);
         let notes = drive(&way, [1.0, 1.0], Some(&place));
         let note =
@@ -91,7 +91,7 @@ fn no_slip_of_wheels_leads_farther_astray_than_is_stated() {
         let mut farthest: (f64, f64) = (0.0, 0.0);
         for corner in corners {
             let off = numbers(&drive(&way, corner, None)[0]);
-            let away = (off[0] - x).hypot(off[1] - y);
+            let away = libm::hypot(off[0] - x, off[1] - y);
             farthest = (farthest.0.max(away), farthest.1.max((off[2] - heading).abs()));
         }
         // Nothing leads farther, and something nearly as far.

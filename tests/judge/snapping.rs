@@ -115,7 +115,7 @@ fn what_is_in_the_way_of_a_snap_is_hit() {
     // Turned by 80 degrees about its long axis the block reaches 34.8 mm above its middle, level 30 mm; half-way 42.3 mm.
     let mut turning = plan("capture 4mm 85deg, snap", "One", "0mm] turned(X, 80deg)");
     let half = 0.030;
-    let reach = |angle: f64| half * (angle.cos() + angle.sin());
+    let reach = |angle: f64| half * (libm::cos(angle) + libm::sin(angle));
     assert!(verify(&turning).ok(), "{:#?}", verify(&turning).failures);
     for (gap, hits) in [(reach(PI / 4.0) + 3e-4, false), (reach(PI / 4.0) - 1.5e-3, true)] {
         assert!(gap > reach(80f64.to_radians()) + 1e-3);

@@ -1,6 +1,7 @@
 //! Programs that are executed with sensors: an arm whose measurements have closed forms.
 
 use super::fixtures::{GRAVITY, HELD, LEVEL, close, plan, play, step};
+use crate::support::desk::run_clean;
 use modl::geometry::{Placed, Shape, Vec3, pose::shifted};
 use modl::plan::{Body, Ground, World};
 use modl::simulate::{Refusal, Settings, Simulation, simulate};
@@ -92,6 +93,32 @@ fn an_arm_stops_where_it_touches_an_obstacle() {
     // The lower near edge of the cube is 200 mm along and 10 mm below, the step 5 mm below the joint: 200 sin - 10 cos = -5.
     let expected = libm::atan(10.0 / 200.0) - libm::asin(5.0 / libm::hypot(200.0, 10.0));
     close(end(&play(&plan(&program, FIXED), &settings)), expected.to_degrees(), 0.1);
+}
+
+#[test]
+fn an_arm_stops_where_it_touches_another_robot_and_no_other() {
+    // As the step above, a plate of 100 x 100 x 20 mm stands before the arm; the second one stands apart.
+    let expected = libm::atan(10.0 / 200.0) - libm::asin(5.0 / libm::hypot(200.0, 10.0));
+    for (plate, stopped) in [("near", true), ("far", false)] {
+        let program = format!(
+            "{ARM}module Plate {{ link body = box(100mm, 100mm, 20mm, mass: 1kg) }}
+scene Around {{
+  part r: Reach(20deg) at [0mm, 0mm, 25mm]
+  part near: Plate at [200mm, 0mm, 10mm]
+  part far: Plate at [500mm, 0mm, 10mm]
+}}
+let x = Around()
+let until = touching(x.r.t, x.{plate})
+let lowers = move(x.r.a.lift, to: 0deg, in: 4s, profile: linear, until: until, timeout: 5s)
+print(simulate(plan(Sc(lowers, x.r.stop()), world: world(ground: fixed))).duration / 1s)
+"
+        );
+        let printed = run_clean(&program).printed;
+        let duration: f64 = printed[0].parse().expect("a number");
+        // What it is not to touch ends nothing: it goes on until its time is out.
+        let reached = 4.0 * (20.0 - expected.to_degrees()) / 20.0;
+        close(duration, if stopped { reached } else { 5.0 }, 5e-3);
+    }
 }
 
 #[test]

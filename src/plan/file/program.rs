@@ -255,6 +255,9 @@ fn add_of_condition(condition: &Condition, names: &RobotNames, found: &mut Vec<S
             Signal::Elapsed => {}
         },
         Condition::Touching(modules) => found.extend(modules.iter().map(|module| names.module(*module))),
+        Condition::TouchingEachOther(a, b) => {
+            found.extend(a.iter().chain(b).map(|module| names.module(*module)));
+        }
         Condition::Docked(port) => found.push(names.port(*port)),
         Condition::Mated(a, b) => found.extend([names.port(*a), names.port(*b)]),
         Condition::And(a, b) | Condition::Or(a, b) => {

@@ -231,8 +231,9 @@ impl Remap {
             }
             Condition::Docked(port) => Condition::Docked(self.port(*port)),
             Condition::Mated(a, b) => Condition::Mated(self.port(*a), self.port(*b)),
-            Condition::Touching(modules) => {
-                Condition::Touching(modules.iter().map(|module| self.found.modules[*module]).collect())
+            Condition::Touching(modules) => Condition::Touching(self.modules(modules)),
+            Condition::TouchingEachOther(a, b) => {
+                Condition::TouchingEachOther(self.modules(a), self.modules(b))
             }
             Condition::And(a, b) => Condition::And(boxed(a), boxed(b)),
             Condition::Or(a, b) => Condition::Or(boxed(a), boxed(b)),
@@ -246,6 +247,10 @@ impl Remap {
 
     fn offset(&self, joint: JointId) -> f64 {
         self.found.offsets[joint.0 as usize]
+    }
+
+    fn modules(&self, modules: &[usize]) -> Vec<usize> {
+        modules.iter().map(|module| self.found.modules[*module]).collect()
     }
 
     fn port(&self, port: PortRef) -> PortRef {

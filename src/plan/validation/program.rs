@@ -85,14 +85,17 @@ impl Names<'_> {
                 Signal::Tilt(module) => need_index(*module, self.robot.modules.len(), "module"),
                 Signal::Elapsed => Ok(()),
             },
-            Condition::Touching(modules) => {
-                modules.iter().try_for_each(|module| need_index(*module, self.robot.modules.len(), "module"))
-            }
+            Condition::Touching(modules) => self.modules(modules),
+            Condition::TouchingEachOther(a, b) => self.modules(a).and(self.modules(b)),
             Condition::Docked(port) => self.port(*port),
             Condition::Mated(a, b) => self.port(*a).and(self.port(*b)),
             Condition::And(a, b) | Condition::Or(a, b) => self.condition(a).and(self.condition(b)),
             Condition::Not(a) => self.condition(a),
         }
+    }
+
+    fn modules(&self, modules: &[usize]) -> Result<(), PlanFault> {
+        modules.iter().try_for_each(|module| need_index(*module, self.robot.modules.len(), "module"))
     }
 
     fn joint(&self, joint: JointId) -> Result<(), PlanFault> {

@@ -151,8 +151,13 @@ impl Docked {
             || self.error.rotation.angle() + angle > capture.angle;
         let captured =
             if beyond { "more than the connector captures" } else { "which the connector captures" };
-        let [distance, angle] = [(distance, Dimension::LENGTH), (angle, Dimension::ANGLE)]
-            .map(|(value, dimension)| quantity(value, dimension));
+        // A bound is rounded up.
+        let [distance, angle] = [(distance, Dimension::LENGTH, 0), (angle, Dimension::ANGLE, 1)].map(
+            |(value, dimension, step)| {
+                let step = rollout.tolerances.spread_step[step];
+                quantity(libm::ceil(value / step) * step, dimension)
+            },
+        );
         let slip = number(100.0 * rollout.settings.slip);
         format!("; if wheels slip by {slip} % of their speed, up to {distance} and {angle} more, {captured}")
     }

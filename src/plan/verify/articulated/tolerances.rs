@@ -98,6 +98,8 @@ pub struct Tolerances {
     /// The greatest way of a point between two places at which a cluster is looked at as it snaps to another, m. Default
     /// 0.5 mm.
     pub snap_step: f64,
+    /// The steps to which the spread of a docking is rounded up, m and rad. Default 0.1 mm and 0.1°.
+    pub spread_step: [f64; 2],
     /// The time before a docking at which the speed of a robot is compared with that at docking, s. Default 50 ms, the
     /// length of the windows over which full dynamics take means of velocities.
     pub braking_time: f64,
@@ -159,6 +161,7 @@ impl Default for Tolerances {
             inertia_ridge: 1e-12,
             dock_step: 1e-4,
             snap_step: 5e-4,
+            spread_step: [1e-4, degree / 10.0],
             braking_time: 0.05,
             braked: 0.25,
             slip_load: 0.05,
