@@ -4,7 +4,7 @@ use super::checker::{Checker, DefItem, Entity};
 use super::expr::{Role, expr_of};
 use super::scope::Scope;
 use super::typed::{
-    ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear, LinkDef,
+    CaptureDef, ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear, LinkDef,
     ModuleClause, ModuleDef, MotorDef, Placement, PortClause, PortGroup,
 };
 use super::types::Type;
@@ -41,14 +41,12 @@ impl<'a> Checker<'a> {
                     def.turns = Some(self.expect(&mut scope, e, &Type::Int, Role::Place("`turns`")));
                 }
                 ConnectorClause::Holds(e) => def.holds.extend(self.holds(&mut scope, e)),
-                ConnectorClause::Capture { distance, angle, .. } => {
+                ConnectorClause::Capture { distance, more, .. } => {
                     let length = Type::Quantity(Dimension::LENGTH);
-                    let turn = Type::Quantity(Dimension::ANGLE);
                     let distance = self.expect(&mut scope, distance, &length, Role::Place("`capture`"));
-                    let angle = angle
-                        .as_ref()
-                        .map(|e| self.expect(&mut scope, e, &turn, Role::Place("the angle of `capture`")));
-                    def.capture = Some((distance, angle));
+                    let mut capture = CaptureDef { distance, angle: None, speed: None, rate: None };
+                    more.iter().for_each(|e| self.capture_bound(&mut scope, e, &mut capture));
+                    def.capture = Some(capture);
                 }
                 ConnectorClause::Snap => def.snaps = true,
                 ConnectorClause::Hinge { keyword, args } => {
@@ -59,6 +57,25 @@ impl<'a> Checker<'a> {
         }
         def.frame = scope.frame();
         DefKind::Connector(def)
+    }
+
+    /// Checks a further value of `capture`, and keeps it by its dimension: an angle, a speed or an angular speed.
+    fn capture_bound(&mut self, scope: &mut Scope, e: &'a ast::Expr, capture: &mut CaptureDef) {
+        let got = self.expr(scope, e, None);
+        let span = got.span;
+        let (slot, what) = match &got.ty {
+            Type::Quantity(d) if *d == Dimension::SPEED => (&mut capture.speed, "speed"),
+            Type::Quantity(d) if *d == Dimension::ANGULAR_SPEED => (&mut capture.rate, "angular speed"),
+            Type::Error => return,
+            _ => (&mut capture.angle, "angle"),
+        };
+        let stated = slot.is_some();
+        let turn = Type::Quantity(Dimension::ANGLE);
+        *slot = Some(if what == "angle" { self.coerce(got, &turn, Role::Place("the angle of `capture`")) } else { got });
+        if stated {
+            let message = format!("the {what} of `capture` is stated twice");
+            self.report(Diagnostic::error(code::BAD_CONNECTOR, message).label(span, "stated before"));
+        }
     }
 
     /// Checks a value of `holds`: a force or a torque; `None` (and a diagnostic) for others.

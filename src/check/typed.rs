@@ -198,9 +198,8 @@ pub struct ConnectorDef {
     /// The greatest forces and torques that a bond of the connector holds; the type of an expression distinguishes a
     /// force from a torque.
     pub holds: Vec<Expr>,
-    /// The tolerances of docking, as (distance, a length; angle between the ports, `None` if it is not written);
-    /// `None` if the clause is missing.
-    pub capture: Option<(Expr, Option<Expr>)>,
+    /// The tolerances of docking; `None` if the clause is missing.
+    pub capture: Option<CaptureDef>,
     /// True if docking draws the ports together.
     pub snaps: bool,
     /// The joint of the bond, as (span of the word `hinge`, its arguments in the order of the parameters of the
@@ -208,6 +207,19 @@ pub struct ConnectorDef {
     pub hinge: Option<(Span, Vec<Option<Expr>>)>,
     /// The number of slots, for local variables, of the frame in which the clauses are evaluated.
     pub frame: usize,
+}
+
+/// The tolerances of docking, as expressions not yet evaluated; `None` for what is not written.
+#[derive(Clone, Debug)]
+pub struct CaptureDef {
+    /// The greatest distance between the ports, a length.
+    pub distance: Expr,
+    /// The greatest angle between them.
+    pub angle: Option<Expr>,
+    /// The greatest speed of the one against the other, of two robots.
+    pub speed: Option<Expr>,
+    /// The greatest angular speed, likewise.
+    pub rate: Option<Expr>,
 }
 
 /// A named member of a declaration with instances. The expressions of members and of parameters' defaults

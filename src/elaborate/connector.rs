@@ -60,13 +60,15 @@ impl Interpreter<'_> {
             hinge: None,
         };
         self.holds(declared, &mut connector, &mut frame)?;
-        if let Some((distance, angle)) = &declared.capture {
-            let distance = self.positive(distance, "the distance of capture", &mut frame)?;
-            let angle = match angle {
-                Some(angle) => self.positive(angle, "the angle of capture", &mut frame)?,
-                None => CAPTURE_ANGLE_DEFAULT,
+        if let Some(declared) = &declared.capture {
+            let distance = self.positive(&declared.distance, "the distance of capture", &mut frame)?;
+            let mut bound = |bound: &Option<Expr>, what: &str| {
+                bound.as_ref().map(|bound| self.positive(bound, what, &mut frame)).transpose()
             };
-            connector.capture = Some(Capture { distance, angle });
+            let angle = bound(&declared.angle, "the angle of capture")?.unwrap_or(CAPTURE_ANGLE_DEFAULT);
+            let speed = bound(&declared.speed, "the speed of capture")?;
+            let rate = bound(&declared.rate, "the angular speed of capture")?;
+            connector.capture = Some(Capture { distance, angle, speed, rate });
         }
         if let Some((span, args)) = &declared.hinge {
             connector.hinge = self.hinge(*span, args, &mut frame)?;

@@ -51,6 +51,19 @@ pub struct Capture {
     pub distance: f64,
     /// The greatest angle between the orientation of the second port and that in a perfect mate, rad.
     pub angle: f64,
+    /// The greatest speed of the ports of two robots against each other, m/s; `None`: they dock at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+    /// The greatest angular speed, rad/s, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<f64>,
+}
+
+impl Capture {
+    /// Returns the capture of ports within a distance (m) and an angle (rad) of a perfect mate, at rest against each other.
+    pub const fn at_rest(distance: f64, angle: f64) -> Capture {
+        Capture { distance, angle, speed: None, rate: None }
+    }
 }
 
 /// A revolute joint in a bond: `X_PQ = Rot(axis, q) · Rz(180°) · Rx(θ)`, with the position q in rad, the axis in the

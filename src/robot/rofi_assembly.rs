@@ -24,7 +24,7 @@ const JOINT_ACCELERATION_MAX: f64 = 8.0 * JOINT_SPEED_MAX;
 /// Greatest joint torque, N·m.
 const JOINT_TORQUE_MAX: f64 = 10.0;
 /// Docking tolerances: metres and radians.
-const CAPTURE: Capture = Capture { distance: 0.005, angle: 5.0 * PI / 180.0 };
+const CAPTURE: Capture = Capture::at_rest(0.005, 5.0 * PI / 180.0);
 
 /// Returns the type of the RoFI universal module with the distance `pitch` (m) between the centres of its two bodies,
 /// the shoes A and B.

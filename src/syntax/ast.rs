@@ -317,14 +317,15 @@ pub enum ConnectorClause {
     Turns(Expr),
     /// The greatest force or torque that a bond of the connector holds: `holds 88N`, `holds 1.9N*m`.
     Holds(Expr),
-    /// The error of position and angle that docking tolerates: `capture 4mm 5deg`.
+    /// The error of position and angle that docking tolerates, and the speeds: `capture 4mm 5deg 10mm/s 5deg/s`.
     Capture {
         /// The span of the word `capture`.
         keyword: Span,
         /// The greatest distance of the ports, a length.
         distance: Expr,
-        /// The greatest angle between the ports, if one is written.
-        angle: Option<Expr>,
+        /// What else is written: the greatest angle between the ports, their greatest speed and angular speed against each
+        /// other.
+        more: Vec<Expr>,
     },
     /// Docking draws the ports together: `snap`.
     Snap,

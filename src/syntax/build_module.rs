@@ -24,8 +24,8 @@ impl Builder<'_> {
             Rule::capture => {
                 let keyword = crate::source::Span { end: span.start + "capture".len() as u32, ..span };
                 let distance = self.expr(next(&mut nodes));
-                let angle = nodes.next().map(|angle| self.expr(angle));
-                ConnectorClause::Capture { keyword, distance, angle }
+                let more = nodes.map(|more| self.expr(more)).collect();
+                ConnectorClause::Capture { keyword, distance, more }
             }
             Rule::snap => ConnectorClause::Snap,
             _ => {

@@ -256,7 +256,7 @@ fn the_bond_that_closes_a_loop_holds_its_links_by_the_error_of_its_connector() {
     let with_error = |tracks: &Tracks, distance: f64| {
         let mut tracks = tracks.clone();
         let mut library = (*tracks.robot.library).clone();
-        library.connectors.iter_mut().for_each(|c| c.capture = Some(Capture { distance, angle: 0.0 }));
+        library.connectors.iter_mut().for_each(|c| c.capture = Some(Capture::at_rest(distance, 0.0)));
         tracks.robot.library = Arc::new(library);
         judged(&tracks)
     };

@@ -11,6 +11,7 @@ use modl::plan::{
 };
 use modl::robot::{ClusterPose, Kinematics, PortRef};
 use modl::simulate::{Settings, simulate};
+use std::sync::Arc;
 
 /// A block with a slide that carries a port, and a block with one: the ports meet when the slide is out by 50 mm, as drawn.
 const PUSHER: &str = "
@@ -119,6 +120,16 @@ fn ports_that_move_against_each_other_do_not_dock() {
     let speed = tracks(&mut plan).tracks[0].velocity(1.0);
     assert!(speed > 0.025 && (fast.value - speed).abs() < 1e-4, "{} of {speed}", fast.value);
     assert_eq!(fast.blame, [tracks(&mut plan).events[0].cause]);
+    // A connector that captures at that speed takes them, and one that captures a little less does not.
+    for (capture, docks) in [(speed * 1.01, true), (speed * 0.99, false)] {
+        let library = Arc::make_mut(&mut plan.library);
+        let stated = library.connectors[0].capture.as_mut().expect("it is stated");
+        stated.speed = Some(capture);
+        let library = plan.library.clone();
+        tracks(&mut plan).robot.library = library;
+        let failures = verify(&plan).failures;
+        assert_eq!(failures.iter().all(|f| !f.message.contains("too fast")), docks, "{failures:#?}");
+    }
 }
 
 #[test]

@@ -137,7 +137,7 @@ fn connectors() -> Vec<Connector> {
         hinge,
     };
     let hinge = Hinge { axis: Vec3::y(), limits: Limits::default() };
-    let capture = Capture { distance: 4e-3, angle: 0.05 };
+    let capture = Capture::at_rest(4e-3, 0.05);
     vec![
         connector("Rigid", RIGID, None, None),
         connector("Guided", GUIDED, Some(capture), None),

@@ -105,7 +105,7 @@ fn ports_dock_within_what_their_connectors_capture() {
     let program = CRANE.replace("STIFFNESS", &format!("{stiffness}N/m"));
     let mut plan = plan(&program, HELD);
     for (capture, docks, snaps) in [(4.2e-3, true, true), (4.2e-3, true, false), (3.8e-3, false, true)] {
-        set_capture(&mut plan, Capture { distance: capture, angle: 0.05 });
+        set_capture(&mut plan, Capture::at_rest(capture, 0.05));
         set_snaps(&mut plan, snaps);
         let simulation = play(&plan, &Settings::default());
         let [undocking, event] = simulation.bonds[..] else {
@@ -151,7 +151,7 @@ fn a_program_knows_at_once_that_ports_missed_each_other() {
     let mut plan = plan(&program, HELD);
     assert!(plan.nominal);
     for (capture, docks) in [(4.2e-3, true), (3.8e-3, false)] {
-        set_capture(&mut plan, Capture { distance: capture, angle: 0.05 });
+        set_capture(&mut plan, Capture::at_rest(capture, 0.05));
         let simulation = play(&plan, &Settings::default());
         assert_eq!(simulation.stop.is_none(), docks, "{:?}", simulation.stop);
     }

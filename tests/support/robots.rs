@@ -146,7 +146,7 @@ pub fn smores_library() -> Arc<Library> {
         turns: 4,
         holds_force: Some(88.4),
         holds_moment: Some(1.9),
-        capture: Some(Capture { distance: 4e-3, angle: 5.0 * PI / 180.0 }),
+        capture: Some(Capture::at_rest(4e-3, 5.0 * PI / 180.0)),
         snaps: false,
         hinge: None,
     };

@@ -137,8 +137,8 @@ fn connector_clause(clause: &ConnectorClause) -> String {
         ConnectorClause::Mates(to) => format!("(mates{})", each(to, |name| name.text.to_string())),
         ConnectorClause::Turns(turns) => format!("(turns {})", expr(turns)),
         ConnectorClause::Holds(load) => format!("(holds {})", expr(load)),
-        ConnectorClause::Capture { distance, angle, .. } => {
-            format!("(capture {}{})", expr(distance), optional(angle, "", expr))
+        ConnectorClause::Capture { distance, more, .. } => {
+            format!("(capture {}{})", expr(distance), each(more, expr))
         }
         ConnectorClause::Hinge { args, .. } => format!("(hinge{})", each(args, arg)),
         ConnectorClause::Snap => "(snap)".into(),

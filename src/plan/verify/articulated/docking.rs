@@ -175,7 +175,7 @@ pub(super) fn within(robot: &Assembly, residual: &Residual, tolerances: &Toleran
 /// it docks and holds: the capture that the connector of its port `a` states, or else the tolerances for loops.
 pub(super) fn tolerated(robot: &Assembly, bond: usize, tolerances: &Tolerances) -> Capture {
     let capture = robot.connector(robot.bonds[bond].a).capture;
-    capture.unwrap_or(Capture { distance: tolerances.closure_distance, angle: tolerances.closure_angle })
+    capture.unwrap_or(Capture::at_rest(tolerances.closure_distance, tolerances.closure_angle))
 }
 
 /// Returns the distance and the angle between two ports, in words.

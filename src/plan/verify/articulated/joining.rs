@@ -129,14 +129,16 @@ impl Docked {
             format!("{speed} and {}", quantity(rate, Dimension::ANGULAR_SPEED))
         };
         let (speed, rate) = self.speed;
-        if speed > limit.dock_speed || rate > limit.dock_rate {
+        let capture = tolerated(robot, self.bond, limit);
+        let most = (capture.speed.unwrap_or(limit.dock_speed), capture.rate.unwrap_or(limit.dock_rate));
+        if speed > most.0 || rate > most.1 {
             let message = format!(
                 "{name} docks too fast: the ports move at {} against each other, of {} at most",
                 shown(speed, rate),
-                shown(limit.dock_speed, limit.dock_rate)
+                shown(most.0, most.1)
             );
             let found = failure(kind, robot, &residual, time, message, causes, rollout);
-            ledger.fail(Failure { value: speed, limit: limit.dock_speed, ..found });
+            ledger.fail(Failure { value: speed, limit: most.0, ..found });
         }
         let at = quantity(time, Dimension::TIME);
         let spread = self.spread.map_or_else(String::new, |spread| self.spread_in_words(spread, rollout));
