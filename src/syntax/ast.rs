@@ -323,8 +323,8 @@ pub enum ConnectorClause {
         keyword: Span,
         /// The greatest distance of the ports, a length.
         distance: Expr,
-        /// What else is written: the greatest angle between the ports, their greatest speed and angular speed against each
-        /// other.
+        /// The bounds that are written after it: the greatest angle between the ports, and their greatest speed and angular
+        /// speed against each other.
         more: Vec<Expr>,
     },
     /// Docking draws the ports together: `snap`.

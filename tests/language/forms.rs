@@ -22,7 +22,7 @@ const FORMS: &[(&str, &[&str])] = &[
             "fn <n>(<param>) = <body>",
             "fn f<A, D: Dimension>(a: List<A>, <param>) -> <type> = <body>",
             "fn <n>(<param>, <param>) -> <type> = <body>",
-            "/// Says what it is.\nconnector C { mates <n>, D, turns 4, holds <e>, capture 2mm 3deg hinge(axis: X) }",
+            "/// Says what it is.\nconnector C { mates <n>, D, turns 4, holds <e>, capture 2mm 3deg <e>, snap, hinge(axis: X) }",
             "record R { a: <type> }",
             "/// A record.\nrecord R {\n  /// A field.\n  a: <type> = <e>\n  for: <type>, b: <type>,\n}",
             "module M { <module> }",
