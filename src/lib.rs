@@ -24,6 +24,7 @@ pub mod plan;
 pub mod planners;
 pub mod robot;
 pub mod simulate;
+pub mod study;
 pub mod view;
 
 pub mod interpret;

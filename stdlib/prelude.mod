@@ -1978,6 +1978,31 @@ extern fn verify(
   slip: Number = 0.05,
 ) -> Report
 
+/// Computes the rows of a study and lists them, in the order of its table.
+///
+/// Rows that end with an error are left out; a study all of whose rows do is refused. `modl study FILE --out DIR` computes
+/// the same rows on all processors, and keeps them in a table.
+///
+/// Example:
+/// ```modl
+/// record Area { area: Area }
+/// study rectangles(a in [1m, 2m], b in 1m..3m) by grid(b: 3) = Area(area: a * b)
+/// print(max([row.area for row in rows(rectangles)]))
+/// ```
+extern fn rows<R>(study: Study<R>) -> List<R>
+
+/// Computes a study by `cmaes` and gives its best row; of equal ones the first.
+///
+/// Rows that end with an error count as the worst.
+///
+/// Example:
+/// ```modl
+/// record Cost { x: Number, cost: Number }
+/// study valley(x in -4..4.0) by cmaes(minimise: cost, budget: 60) = Cost(x: x, cost: (x - 1) ^ 2)
+/// print(abs(best(valley).x - 1) < 0.01)
+/// ```
+extern fn best<R>(study: Study<R>) -> R
+
 /// Plays a plan on the robot as rigid bodies: what it really does, also where motors are too weak, feet slip or it falls.
 ///
 /// Servos hold their joints as the modules state (`stiffness`, `armature`, `max_torque`; see `revolute`), links touch the

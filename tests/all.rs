@@ -11,6 +11,7 @@ mod planners;
 mod plans;
 mod robots;
 mod simulate;
+mod studies;
 mod support;
 
 /// The allocator of the tool, so that the tests take the time that it takes.

@@ -127,6 +127,7 @@ impl<'a> Checker<'a> {
             | (Type::Vec3(p), Type::Vec3(g))
             | (Type::Range(p), Type::Range(g))
             | (Type::Signal(p), Type::Signal(g))
+            | (Type::Study(p), Type::Study(g))
             | (Type::Joint(p), Type::Joint(g))
             | (Type::Optional(p), Type::Optional(g)) => self.unify(p, g, bindings),
             (Type::Optional(p), _) => self.unify(p, got, bindings),
@@ -198,6 +199,7 @@ impl Bindings {
             Type::Range(t) => Type::Range(inner(t)),
             Type::Optional(t) => Type::Optional(inner(t)),
             Type::Signal(t) => Type::Signal(inner(t)),
+            Type::Study(t) => Type::Study(inner(t)),
             Type::Joint(t) => Type::Joint(inner(t)),
             Type::Fn(f) => Type::Fn(Arc::new(FnType {
                 params: f.params.iter().map(|p| self.apply(p)).collect(),

@@ -54,6 +54,8 @@ pub(super) enum DefItem<'a> {
     Lattice(&'a ast::Lattice),
     /// A truss: `truss`.
     Truss(&'a ast::Truss),
+    /// A study of designs: `study`.
+    Study(&'a ast::Study),
     /// A vacant definition, reserved for a later declaration.
     Vacant,
 }
@@ -404,6 +406,7 @@ impl<'a> Checker<'a> {
             K::Config(x) => (x.name, DefItem::Config(x)),
             K::Lattice(x) => (x.name, DefItem::Lattice(x)),
             K::Truss(x) => (x.name, DefItem::Truss(x)),
+            K::Study(x) => (x.name, DefItem::Study(x)),
             K::Use(_) | K::Test(_) | K::Statement(_) | K::Error => return None,
         };
         let id = self.add_def(file, name, item, def);

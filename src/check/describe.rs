@@ -109,6 +109,7 @@ fn type_name(ty: &Type, def_name: &dyn Fn(DefId) -> Symbol, params: &[Symbol]) -
         Type::Port => "Port".into(),
         Type::Behavior => "Behavior".into(),
         Type::Signal(t) => args("Signal", t),
+        Type::Study(t) => args("Study", t),
         Type::Condition => "Condition".into(),
         Type::Shape => "Shape".into(),
         Type::JointKind => "JointKind".into(),

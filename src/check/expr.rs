@@ -348,6 +348,7 @@ pub(super) fn has_params(ty: &Type) -> bool {
         | Type::Range(t)
         | Type::Optional(t)
         | Type::Signal(t)
+        | Type::Study(t)
         | Type::Joint(t) => has_params(t),
         Type::Fn(f) => f.params.iter().any(has_params) || has_params(&f.result),
         Type::Choice(c) => c.types.iter().any(has_params),

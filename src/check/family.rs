@@ -157,6 +157,7 @@ impl DefKind {
             | DefKind::Native(_)
             | DefKind::Record(_)
             | DefKind::Connector(_)
+            | DefKind::Study(_)
             | DefKind::Error => return None,
         };
         let word = if self.is_scene() { "scene" } else { family.word() };

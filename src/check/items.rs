@@ -232,6 +232,7 @@ impl<'a> Checker<'a> {
             DefItem::Config(x) => self.check_config(id, x),
             DefItem::Lattice(x) => self.check_lattice(id, x),
             DefItem::Truss(x) => self.check_truss(id, x),
+            DefItem::Study(x) => self.check_study(id, x),
             DefItem::Vacant => DefKind::Error,
         }
     }

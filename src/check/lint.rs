@@ -12,6 +12,7 @@ impl Checker<'_> {
         let (name, span) = (info.name, info.span);
         match info.item {
             DefItem::Let(_) => self.lint_snake(name, span, "variables"),
+            DefItem::Study(_) => self.lint_snake(name, span, "studies"),
             DefItem::Fn(_) | DefItem::Native(_) | DefItem::Method(..) => {}
             _ if is_camel(name.as_str()) => {}
             _ => self.style(span, name, "types and configurations", &camel(name.as_str())),

@@ -31,12 +31,14 @@ mod records;
 mod reserve;
 mod scene;
 mod scope;
+mod study;
 pub(crate) mod summary;
 mod type_expr;
 mod type_params;
 pub mod typed;
 mod typed_expr;
 mod typed_module;
+mod typed_study;
 mod types;
 
 use crate::source::{Diagnostic, FileId, Files, Sources, Span, Symbol};

@@ -171,6 +171,7 @@ impl<'a> Checker<'a> {
                 let params = signature.params.iter().map(|p| p.ty.clone()).collect();
                 expr_of(span, Type::Fn(Arc::new(FnType { params, result })), ExprKind::FnValue(id))
             }
+            DefItem::Study(_) => self.study_value(id, span),
             DefItem::Record(_) => self.default_instance(id, span),
             _ if self.family(id).is_some() => self.default_instance(id, span),
             _ => {

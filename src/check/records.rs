@@ -188,6 +188,7 @@ impl<'a> Checker<'a> {
             | Type::Behavior
             | Type::Condition
             | Type::Signal(_)
+            | Type::Study(_)
             | Type::Nothing => {
                 return Some((String::new(), ty.clone()));
             }

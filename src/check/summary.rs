@@ -1,6 +1,6 @@
 //! Declarations as they are written, without their bodies, for documentation, hover and completion.
 
-use super::typed::{Def, DefId, DefKind, Member, MemberKind, Param, Program};
+use super::typed::{Def, DefId, DefKind, Member, MemberKind, Param, Program, StudyAxis};
 use super::{Checked, Type};
 use crate::source::Symbol;
 use std::sync::Arc;
@@ -79,6 +79,15 @@ pub(crate) fn signature(checked: &Checked, id: DefId) -> String {
                 format!("record {} {{ {fields} }}", def.name)
             }
         }
+        DefKind::Study(study) => {
+            let axis =
+                |axis: &StudyAxis| format!("{} in {}", axis.name, checked.sources.text(axis.domain.span));
+            let axes = study.axes.iter().map(axis).collect::<Vec<_>>().join(", ");
+            let each: String = study.each.iter().map(|one| format!(" each {}", axis(one))).collect();
+            let row = study.row.map_or_else(String::new, |row| format!(" = {}", program.def(row).name));
+            let span = study.sampler_span;
+            format!("study {}({axes}) by {}{each}{row}", def.name, checked.sources.text(span))
+        }
         DefKind::Error => def.name.to_string(),
         _ => format!("{} {}{written}", word(&def.kind), def.name),
     }
@@ -92,6 +101,7 @@ pub(crate) fn word(kind: &DefKind) -> &'static str {
         DefKind::Record(record) if record.build.is_some() => "record",
         DefKind::Record(_) => "type",
         DefKind::Connector(_) => "connector",
+        DefKind::Study(_) => "study",
         kind => kind.instantiable().map_or("", |instantiable| instantiable.word),
     }
 }

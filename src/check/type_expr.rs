@@ -40,7 +40,7 @@ fn plain(name: &str) -> Option<Type> {
 }
 
 /// The built-in type names with an argument.
-const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity"];
+const WITH_ARGUMENT: &[&str] = &["List", "Vec3", "Range", "Joint", "Signal", "Quantity", "Study"];
 
 impl<'a> Checker<'a> {
     /// Returns the type that a type expression stands for in `scope`; [`Type::Error`], after a report, if it is
@@ -249,6 +249,7 @@ impl<'a> Checker<'a> {
                 | Type::Param(_)
                 | Type::Opaque(..),
             ) => Type::Signal(Arc::new(inner)),
+            ("Study", Type::Record(_) | Type::Param(_) | Type::Opaque(..)) => Type::Study(Arc::new(inner)),
             ("Quantity", Type::Quantity(_)) => inner,
             _ => {
                 let message = format!("`{}` takes no {}", name.text, self.name(&inner));
@@ -280,7 +281,7 @@ impl<'a> Checker<'a> {
             (_, Type::Choice(b)) => b.types.iter().any(|t| self.fits(got, t)),
             (Type::List(a), Type::List(b)) | (Type::Vec3(a), Type::Vec3(b)) => self.fits(a, b),
             (Type::Range(a), Type::Range(b)) | (Type::Signal(a), Type::Signal(b)) => self.fits(a, b),
-            (Type::Joint(a), Type::Joint(b)) => self.fits(a, b),
+            (Type::Joint(a), Type::Joint(b)) | (Type::Study(a), Type::Study(b)) => self.fits(a, b),
             (Type::Fn(a), Type::Fn(b)) => {
                 a.params.len() == b.params.len()
                     && a.params.iter().zip(&b.params).all(|(x, y)| self.fits(y, x))

@@ -87,6 +87,7 @@ fn mentions(ty: &Type, index: usize) -> bool {
         | Type::Range(t)
         | Type::Optional(t)
         | Type::Signal(t)
+        | Type::Study(t)
         | Type::Joint(t) => mentions(t, index),
         Type::Fn(f) => f.params.iter().chain([&f.result]).any(|t| mentions(t, index)),
         Type::Choice(c) => c.types.iter().any(|t| mentions(t, index)),

@@ -15,6 +15,7 @@ pub use super::typed_module::{
     JointBetween, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement,
     PortClause, PortGroup,
 };
+pub use super::typed_study::{SamplerDef, StudyAxis, StudyDef};
 
 /// The identity of a declaration: an index into [`Program::defs`], from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -94,6 +95,8 @@ pub enum DefKind {
     Lattice(LatticeDef),
     /// A truss of nodes and struts: `truss`.
     Truss(TrussDef),
+    /// A study of designs: `study`.
+    Study(StudyDef),
     /// A declaration that could not be understood, or a vacant one.
     Error,
 }

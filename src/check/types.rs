@@ -46,6 +46,8 @@ pub enum Type {
     Behavior,
     /// The type of values that change during a behaviour: `Signal<T>`.
     Signal(Arc<Type>),
+    /// The type of studies, with rows of the given type: `Study<Row>`.
+    Study(Arc<Type>),
     /// The type of truth values that change during a behaviour: `Condition`.
     Condition,
     /// The type of shapes of links: `Shape`.

@@ -287,7 +287,8 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let command = format!("modl {verb} {name}{seed}");
     let limits = limits(globals);
     let (seed, values, threads) = (globals.seed, globals.json, threads(globals));
-    Options { filter, seed, pages, collects, command, picture: None, limits, values, threads }
+    let verified_pages = None;
+    Options { filter, seed, pages, verified_pages, collects, command, picture: None, limits, values, threads }
 }
 
 /// Returns the number of threads for planners: that of the command line, or one per processor.

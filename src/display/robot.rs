@@ -187,6 +187,11 @@ impl Interpreter<'_> {
                 let fields: Vec<String> = record.fields.iter().map(field).collect();
                 return Ok(format!("record {name} {{ {} }}", fields.join(", ")));
             }
+            DefKind::Study(study) => {
+                let axes = study.axes.iter().chain(&study.each).map(|axis| axis.name.to_string());
+                let row = study.row.map_or_else(String::new, |row| format!(" of {}", program.def(row).name));
+                return Ok(format!("study {name}{row}: axes {}", listed(&axes.collect::<Vec<_>>())));
+            }
             DefKind::Connector(_) => "connector",
             kind => kind.instantiable().map_or("declared", |body| body.word),
         };

@@ -56,6 +56,7 @@ impl Interpreter<'_> {
             Value::Terrain(field) => format!("a terrain of {} by {} heights", field.columns, field.rows()),
             Value::Cloud(points) => format!("a cloud of {} points", points.len()),
             Value::Record(record) => self.show_record(record),
+            Value::Study(def) => format!("the study {}", self.name(*def)),
         }
     }
 

@@ -22,6 +22,9 @@ impl Interpreter<'_> {
                 let value = self.global(def, declared.span);
                 self.recover(value)?;
             }
+            DefKind::Study(_) => {
+                self.attempt(|this| this.study(def))?;
+            }
             DefKind::Connector(_) => {
                 self.connector(def)?;
             }

@@ -7,11 +7,13 @@
 mod standard;
 
 use crate::check::Checked;
+use crate::check::typed::DefId;
 use crate::interpret::routines::Routines;
 use crate::interpret::session::Evaluator;
+use crate::interpret::study::StudyWorker;
 use crate::interpret::{self, Host, Mode, Options, Outcome};
 use crate::interrupt::CancelState;
-use crate::source::Files;
+use crate::source::{Diagnostic, Files};
 use crate::{display, elaborate, natives};
 
 pub use standard::{Standard, standard};
@@ -42,6 +44,23 @@ pub fn run(
     options: &Options,
 ) -> Outcome {
     interpret::run(&ROUTINES, checked, mode, files, host, options)
+}
+
+/// Calls `work` with an evaluator of a study's rows, on a thread of its own, and returns its result; `None` if the user
+/// cancels before. `checked`: the program; `files` and `host` serve its requests; `options`: the choices of the user;
+/// `study`: the declaration.
+///
+/// # Errors
+/// The diagnostics for which the study has no rows, or that of a system that gives no memory for the thread.
+pub fn with_study<T: Send>(
+    checked: &Checked,
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+    study: DefId,
+    work: impl FnOnce(&mut StudyWorker) -> T + Send,
+) -> Result<Option<T>, Vec<Diagnostic>> {
+    interpret::study::with_study((&ROUTINES, checked), files, host, options, study, work)
 }
 
 /// Starts the evaluator thread of a session, which keeps the values of earlier entries. `cancel_state`: the state by

@@ -5,6 +5,7 @@ use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::scene_design::obstacle_value;
 use super::stop::{Eval, Stop, fault};
+use super::study::study_value;
 use super::value::{Callable, Lazy, Value};
 use crate::check::Type;
 use crate::check::family::Instantiable;
@@ -398,7 +399,7 @@ impl Interpreter<'_> {
             Lazy::Waiting => {}
         }
         let program = self.shared.program;
-        let DefKind::Let(binding) = &program.def(def).kind else { return Ok(Value::Unknown) };
+        let DefKind::Let(binding) = &program.def(def).kind else { return Ok(study_value(program, def)) };
         self.memory.globals[index] = Lazy::Running;
         let name = self.name(def);
         let result = self.with_call(span, name, |this| {

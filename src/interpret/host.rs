@@ -68,6 +68,9 @@ pub struct Options {
     /// True if a page is drawn of every plan that is emitted, and of the declared robots if the run wrote no `.html`.
     /// Default false.
     pub pages: bool,
+    /// The name of the pages that are drawn of each plan that is verified, without the ending; `None`, the default: none
+    /// are.
+    pub verified_pages: Option<String>,
     /// True if the plans that are emitted are collected in [`Outcome::plans`], good or not: nothing judges them, and no file
     /// is written. Default false.
     pub collects: bool,

@@ -31,6 +31,8 @@ pub mod module_map;
 pub mod robot;
 pub mod scene;
 mod scene_design;
+pub mod study;
+pub mod study_columns;
 
 pub mod cells;
 

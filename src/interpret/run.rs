@@ -42,7 +42,7 @@ pub fn run(
 }
 
 /// Returns the error of a system that gives no memory for the evaluator.
-fn no_memory(why: &str) -> Diagnostic {
+pub(super) fn no_memory(why: &str) -> Diagnostic {
     let message = format!("the system gives no memory to evaluate the program: {why}");
     Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")
 }

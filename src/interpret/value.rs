@@ -77,6 +77,8 @@ pub enum Value {
     Terrain(Rc<HeightField>),
     /// A record: a value with named fields.
     Record(Rc<Record>),
+    /// A study, by its declaration.
+    Study(DefId),
 }
 
 /// A value that is computed when it is first needed.

@@ -48,6 +48,7 @@ mod shape;
 mod show;
 mod simulate;
 pub mod squeeze;
+mod study;
 pub mod tosnake;
 pub mod truss;
 mod truss_limits;
@@ -93,6 +94,7 @@ const SUBJECTS: &[Subject] = &[
     Subject { natives: simulate::TABLE, records: simulate::records },
     natives(save::TABLE),
     Subject { natives: series::TABLE, records: series::records },
+    natives(study::TABLE),
     Subject { natives: plot::TABLE, records: plot::records },
     natives(rofi::TABLE),
     Subject { natives: fold::TABLE, records: folding::records },

@@ -259,6 +259,11 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let world: Option<World> = call.get("world")?;
     let verdict = interpreter.judge(&planned, settings, world);
     interpreter.note_exemptions(&planned, &verdict);
+    if let Some(name) = &interpreter.shared.options.verified_pages {
+        let number = interpreter.reported.written.len();
+        let page = if number == 0 { format!("{name}.html") } else { format!("{name}-{}.html", number + 1) };
+        interpreter.draw(&planned, settings, Form::Page, &page, call.span)?;
+    }
     let headline = plan::headline_under(&planned.plan, &planned.worlds_in(world), &verdict);
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }

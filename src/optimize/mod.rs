@@ -1,4 +1,4 @@
-//! Optimisation: linear programs, growing quadratic programs, Cholesky's decomposition, and the generator of
+//! Optimisation: linear programs, growing quadratic programs, Cholesky's decomposition, an evolution strategy, and the generator of
 //! pseudo-random numbers that searches draw from. The only user of clarabel; knows no robots.
 
 pub mod cholesky;
@@ -7,11 +7,13 @@ mod sparse_cholesky;
 
 pub mod random;
 
+mod cma_es;
 mod interior_point;
 mod linear;
 
 mod active_set;
 mod quadratic;
 
+pub use cma_es::CmaEs;
 pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};
 pub use quadratic::QuadraticProgram;

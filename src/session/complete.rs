@@ -202,6 +202,7 @@ fn declared(text: &str) -> Vec<Named> {
             K::Let(x) => (x.name, "value"),
             K::Fn(x) => (x.name, "function"),
             K::Record(x) => (x.name, "record"),
+            K::Study(x) => (x.name, "study"),
             K::Connector(x) => (x.name, "connector"),
             K::Module(x) => (x.name, "module"),
             K::Facts(x) => (x.name, x.family.word()),

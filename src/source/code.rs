@@ -52,6 +52,7 @@ codes! {
     AMBIGUOUS_MEMBER = "E0208", "a name that is both a joint and a port";
     NOT_A_TYPE = "E0209", "a name that is no type";
     CANNOT_INFER = "E0210", "a type that must be written";
+    BAD_STUDY = "E0211", "a study that is not sound";
     // E03xx: modules, configurations, lattices, trusses.
     PORT_TAKEN = "E0301", "a port that is taken already";
     NO_MATE = "E0302", "connectors that do not mate";
@@ -94,6 +95,7 @@ codes! {
     EXPECTATION = "E0507", "an expectation that does not hold";
     LOST_VALUE = "E0508", "a value that was lost: a defect of modl";
     NO_MEMORY = "E0509", "too little memory to evaluate";
+    NO_ROW = "E0510", "a row of a study that was not computed";
     // E06xx: verification.
     COLLISION = "E0601", "two modules meet";
     FALL = "E0602", "the robot falls";

@@ -42,6 +42,7 @@ pub fn declares(name: &str) -> Option<&'static str> {
         "fn",
         "let",
         "record",
+        "study",
         "extern fn",
     ];
     let begins = |line: &str| {

@@ -91,6 +91,8 @@ pub enum ItemKind {
     Lattice(Lattice),
     /// A truss of nodes and struts: `truss`.
     Truss(Truss),
+    /// A study of designs: `study`.
+    Study(Study),
     /// A test with its statements: `test`.
     Test(Test),
     /// A statement at the top of the file.
@@ -114,6 +116,7 @@ impl ItemKind {
             ItemKind::Config(x) => x.name,
             ItemKind::Lattice(x) => x.name,
             ItemKind::Truss(x) => x.name,
+            ItemKind::Study(x) => x.name,
             ItemKind::Use(_) | ItemKind::Test(_) | ItemKind::Statement(_) | ItemKind::Error => return None,
         })
     }
@@ -796,6 +799,32 @@ pub enum TrussClauseKind {
 }
 
 // Statements and expressions.
+
+/// A study: `study name(axis in values, ...) by sampler(...) each axis in values = body`.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The name that the declaration gives the study.
+    pub name: Name,
+    /// The axes between the parentheses, in order: what the sampler chooses.
+    pub axes: Vec<StudyAxis>,
+    /// The name of the sampler after `by`.
+    pub sampler: Name,
+    /// The arguments of the sampler.
+    pub settings: Vec<Arg>,
+    /// The axes after `each`, in order: every point is evaluated for each of their values.
+    pub each: Vec<StudyAxis>,
+    /// The expression or block after `=`, which gives the row of a point.
+    pub body: Expr,
+}
+
+/// An axis of a study: `amplitude in 8deg..40deg`.
+#[derive(Clone, Debug)]
+pub struct StudyAxis {
+    /// The name of the axis, a variable of the body.
+    pub name: Name,
+    /// The list or range of the values of the axis.
+    pub domain: Expr,
+}
 
 /// A test: `test "name" { statements }`.
 #[derive(Clone, Debug)]

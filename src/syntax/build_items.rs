@@ -29,6 +29,7 @@ impl Builder<'_> {
             Rule::strut => ItemKind::Facts(self.facts(FactsFamily::Strut, node)),
             Rule::lattice => ItemKind::Lattice(self.lattice(node)),
             Rule::truss => ItemKind::Truss(self.truss(node)),
+            Rule::study => ItemKind::Study(self.study(node)),
             Rule::test => ItemKind::Test(self.test(node)),
             Rule::extern_fn => ItemKind::ExternFn(self.extern_fn(node)),
             Rule::extern_type => ItemKind::ExternType(self.extern_type(node)),
@@ -83,6 +84,27 @@ impl Builder<'_> {
             record.fields.push(Param { name, ty, default, variadic: false });
         }
         record
+    }
+
+    fn study(&mut self, node: Node) -> Study {
+        let mut nodes = node.into_inner();
+        let name = self.declared(next(&mut nodes));
+        let mut axes = Vec::new();
+        while let Some(axis) = next_if(&mut nodes, Rule::study_axis) {
+            axes.push(self.study_axis(axis));
+        }
+        let sampler = self.word(next(&mut nodes));
+        let settings = self.args(next(&mut nodes));
+        let mut each = Vec::new();
+        while let Some(axis) = next_if(&mut nodes, Rule::study_each) {
+            each.push(self.study_axis(next(&mut axis.into_inner())));
+        }
+        Study { name, axes, sampler, settings, each, body: self.body(next(&mut nodes)) }
+    }
+
+    fn study_axis(&mut self, node: Node) -> StudyAxis {
+        let mut nodes = node.into_inner();
+        StudyAxis { name: self.declared(next(&mut nodes)), domain: self.expr(next(&mut nodes)) }
     }
 
     fn test(&mut self, node: Node) -> Test {

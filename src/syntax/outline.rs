@@ -144,6 +144,7 @@ impl Found {
             }
             // The parentheses of a motor are not attached to the sum before them.
             Rule::args if parent == Rule::motor => {}
+            Rule::study => self.study_axes(&node, start),
             Rule::args | Rule::params | Rule::index | Rule::part_count => {
                 self.roles.insert(start, Role::Tight);
             }
@@ -175,6 +176,13 @@ impl Found {
         }
         for child in node.into_inner() {
             self.visit(child, base, rule);
+        }
+    }
+
+    /// Records the parenthesis before the axes of a study, which is attached to its name.
+    fn study_axes(&mut self, node: &Node, start: usize) {
+        if let Some(at) = node.as_str().find('(') {
+            self.roles.insert(start + at, Role::Tight);
         }
     }
 

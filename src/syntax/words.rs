@@ -22,6 +22,7 @@ pub const ITEMS: &[&str] = &[
     "scene",
     "lattice",
     "truss",
+    "study",
     "test",
 ];
 
@@ -48,6 +49,7 @@ pub const DECLARING: &[&str] = &[
     "record",
     "scene",
     "strut",
+    "study",
     "truss",
 ];
 
@@ -83,7 +85,7 @@ pub const TRUSS: &[&str] = &["node", "strut", "let", "require", "if", "for"];
 /// The words with which a clause goes on, even at the beginning of a new line.
 pub(super) const GOING_ON: &[&str] = &[
     "and", "or", "else", "in", "at", "turned", "collides", "facing", "up", "on", "of", "as", "is", "turn",
-    "allows", "closed",
+    "allows", "closed", "by", "each",
 ];
 
 /// Returns true if a word is reserved everywhere.
@@ -104,6 +106,7 @@ const FORMS: &[(&str, &str)] = &[
     ("scene", "scene Name(gap: Length = 600mm) { ... }"),
     ("lattice", "lattice Name of Cell = row(4)"),
     ("truss", "truss Name of Strut { ... }"),
+    ("study", "study name(a in 1mm..9mm) by sobol(64) = Row(...)"),
     ("test", "test \"what holds\" { expect condition }"),
     ("link", "link name = box(1mm, 1mm, 1mm) at [0mm, 0mm, 0mm]"),
     ("joint", "joint name : parent -> child = revolute(axis: Y) at [0mm, 0mm, 0mm]"),

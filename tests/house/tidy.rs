@@ -38,7 +38,8 @@ const ROOMS: &[Room] = &[
     room("simulate", &["behavior", "optimize"], &[]),
     room("planners", &["behavior", "optimize"], &[]),
     room("view", &["simulate"], &["interrupt", "optimize"]),
-    room("interpret", &["check", "planners"], &["optimize"]),
+    room("study", &["optimize"], &["interrupt"]),
+    room("interpret", &["check", "planners", "study"], &["optimize"]),
     room("formats", &["plan"], &["interrupt", "units", "optimize"]),
     room("exchange", &["formats", "view"], &["behavior", "simulate"]),
     room("elaborate", &["interpret"], &["syntax", "plan", "behavior", "planners"]),
@@ -267,13 +268,13 @@ fn folders_are_one_level_deep_and_have_names_that_say_something() {
         let parts: Vec<&str> = file.split('/').collect();
         // Each planner and each family of plans has a room of its own; the judge has one for each family, and one for the
         // dynamics of articulated robots. Plots show values, and not plans as all other pictures do. A model of MuJoCo is
-        // more than one subject, and so are the files of the SMORES tools.
+        // more than one subject, and so are the files of the SMORES tools, and the command that computes studies.
         let deep = match file.as_str() {
             file if file.starts_with("src/plan/verify/articulated/dynamics/") => 6,
             file if file.starts_with("src/plan/verify/") => 5,
             file if file.starts_with("src/plan/") || file.starts_with("src/planners/") => 4,
             file if file.starts_with("src/view/plot/") || file.starts_with("src/formats/mjcf/") => 4,
-            file if file.starts_with("src/exchange/smores/") => 4,
+            file if file.starts_with("src/exchange/smores/") || file.starts_with("src/cli/study/") => 4,
             _ => 3,
         };
         if parts.len() > deep {

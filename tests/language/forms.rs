@@ -35,6 +35,8 @@ const FORMS: &[(&str, &[&str])] = &[
             "lattice L(<param>) of K = <body>",
             "truss T of S = octet(edge: 4m, divisions: 4, interior: false)",
             "truss T(<param>) of a.S {\n  <truss>  <truss>\n<truss>\n}",
+            "study s(<n> in <e>, n in 1..3) by grid(<n>: <e>) = <body>",
+            "study s() by sobol(<e>)\n  each k in <e> each seed in 0..4 = <body>",
             "test \"it holds\" {\n<statement>\n  <statement>\n}",
             "extern fn f<T, D: Dimension>(a: T..., b: Quantity<D^2>) -> List<T>",
             "extern type R is P {\n  /// A field.\n  a: Length\n  fn at(t: Time) -> State,\n}",

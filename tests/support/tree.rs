@@ -39,6 +39,7 @@ fn item(item: &Item) -> String {
             };
             format!("(truss {}{} of {}{body})", t.name.text, params(&t.params), names(&t.of))
         }
+        ItemKind::Study(s) => study(s),
         ItemKind::Test(t) => format!("(test {:?}{})", t.name, each(&t.body, statement)),
         ItemKind::Statement(s) => statement(s),
         ItemKind::Error => "ERROR".into(),
@@ -219,6 +220,14 @@ fn looped<T>(binder: &Name, iterable: &Expr, body: &[T], show: fn(&T) -> String)
 
 fn require(r: &Require) -> String {
     format!("(require {}{})", expr(&r.condition), optional(&r.message, "", expr))
+}
+
+fn study(s: &Study) -> String {
+    let axis = |axis: &StudyAxis| format!(" ({} {})", axis.name.text, expr(&axis.domain));
+    let (axes, each): (String, String) =
+        (s.axes.iter().map(axis).collect(), s.each.iter().map(axis).collect());
+    let settings: String = s.settings.iter().map(|a| format!(" {}", arg(a))).collect();
+    format!("(study {}{axes} by {}{settings} each{each} {})", s.name.text, s.sampler.text, expr(&s.body))
 }
 
 fn config(c: &Config) -> String {

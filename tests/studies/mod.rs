@@ -1,0 +1,3 @@
+//! Studies: samplers beside other implementations, searches on functions whose best is known, and the command.
+
+mod sampling;
