@@ -1,5 +1,6 @@
 //! The command line: commands, options, and their help texts.
 
+use super::choices::TablePlot;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -115,6 +116,15 @@ pub(super) enum Command {
         #[arg(long, value_name = "FACTOR")]
         friction: Option<f64>,
     },
+    /// Compute a study's table, on all processors or a part of it
+    #[command(
+        after_help = "Examples:\n  modl study snake.mod gait -o sweep\n  modl study snake.mod gait -o sweep --status\n  \
+        modl study snake.mod gait -o sweep --shard 17/64\n  modl study snake.mod gait -o sweep --row 123 --show\n  \
+        modl study snake.mod gait -o sweep --emit slurm > gait.sh\n\nRows are kept in a folder below the output folder as they \
+        are computed, and are not computed again; a study\nthat was interrupted or killed goes on with the same command. When \
+        all rows are there, the table is written\nto NAME.csv, with its origin beside it in NAME.json. docs/studies.md tells more."
+    )]
+    Study(StudyArguments),
     /// Write plans in the formats of other programs: ROS, MuJoCo, Blender, Foxglove
     #[command(
         after_help = "Examples:\n  modl export out/walk.plan.json --to urdf\n  modl export out/walk.plan.json --to bundle -o \
@@ -263,6 +273,51 @@ pub(super) enum Command {
         #[arg(long, hide = true)]
         json: bool,
     },
+}
+
+/// The options of `modl study`.
+#[derive(Clone, Debug, Args)]
+pub(super) struct StudyArguments {
+    /// The program
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The study; may be left out if the program has one
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+    /// Compute only one part of the rows, such as 17/64
+    #[arg(long, value_name = "I/N", value_parser = super::choices::part)]
+    pub shard: Option<(u64, u64)>,
+    /// Say what is computed, and compute nothing
+    #[arg(long, conflicts_with_all = ["shard", "merge", "row"])]
+    pub status: bool,
+    /// Write the table of what is computed, and compute nothing
+    #[arg(long, conflicts_with_all = ["shard", "row"])]
+    pub merge: bool,
+    /// Compute one row alone, and print it
+    #[arg(long, value_name = "N", conflicts_with = "shard")]
+    pub row: Option<u64>,
+    /// Draw a page of each plan that the row verifies
+    #[arg(long, requires = "row")]
+    pub show: bool,
+    /// Compute rows again that were set aside
+    #[arg(long)]
+    pub retry: bool,
+    /// Draw the table: front:speed,-energy (less energy is better), parallel, or histogram:speed
+    #[arg(long, value_name = "PLOT", value_parser = TablePlot::read, conflicts_with_all = ["shard", "status", "row", "emit"])]
+    pub plot: Vec<TablePlot>,
+    /// Print a script that computes the study on a cluster
+    #[arg(long, value_name = "SYSTEM", conflicts_with_all = ["shard", "status", "merge", "row"])]
+    pub emit: Option<System>,
+    /// The number of shards of the script
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "emit", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub shards: u64,
+}
+
+/// The systems for which scripts are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum System {
+    /// An array job of Slurm
+    Slurm,
 }
 
 #[derive(Clone, Debug, Args)]

@@ -26,6 +26,7 @@ mod repl;
 mod report;
 mod show;
 mod simulate;
+mod study;
 mod terminal;
 mod verdict;
 mod watch;
@@ -184,6 +185,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         Command::Verify { files } => judge::run(files, globals),
         Command::Simulate { files, step, friction } => simulate::run(files, *step, *friction, globals),
+        Command::Study(arguments) => study::run(arguments, globals),
         Command::Export { files, to } => export::run(files, to, globals),
         Command::Import { files } => import::run(files, globals),
         Command::Plan { file, series, rate, map } => {

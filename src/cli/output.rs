@@ -98,9 +98,10 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     let parent = target.parent().unwrap_or(Path::new("."));
-    let file = tempfile::Builder::new().prefix(PREFIX).tempfile_in(parent)?;
+    let mut file = tempfile::Builder::new().prefix(PREFIX).tempfile_in(parent)?;
     file.as_file().set_permissions(found.permissions())?;
-    filled(file, &target, bytes)
+    file.write_all(bytes)?;
+    persisted(file, &target)
 }
 
 /// Writes files into the folder `name` below `folder`, which appears with all of them or not at all: they are written into
@@ -203,20 +204,29 @@ fn refuse_link_out(root: &Path, target: &Path) -> Result<(), WriteError> {
 /// # Errors
 /// The failure of the system; the file is then as it was, or whole.
 fn persist(parent: &Path, target: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = begun(parent)?;
+    file.write_all(bytes)?;
+    persisted(file, target)
+}
+
+/// Begins a file under a temporary name in a folder, to be written piece by piece and then [`persisted`].
+///
+/// # Errors
+/// The failure of the system.
+pub(super) fn begun(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    filled(builder.tempfile_in(parent)?, target, bytes)
+    builder.tempfile_in(folder)
 }
 
-/// Writes the bytes and renames the file. Bytes and name are on the disk when it returns: after a failure of
-/// the machine the file is whole, or as it was.
+/// Renames a file that was [`begun`]. Bytes and name are on the disk when it returns: after a failure of the machine the
+/// file is whole, or as it was.
 ///
 /// # Errors
 /// The failure of the system.
-fn filled(mut file: NamedTempFile, target: &Path, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
+pub(super) fn persisted(file: NamedTempFile, target: &Path) -> io::Result<()> {
     file.as_file().sync_all()?;
     file.persist(target).map_err(|e| e.error)?;
     sync_folder(target.parent().unwrap_or(Path::new(".")))

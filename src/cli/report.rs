@@ -1,6 +1,7 @@
 //! The report of a command, as text or as one JSON object (`docs/json.md`).
 
 use super::arguments::{Color, Globals};
+use super::study::answer::JsonStudy;
 use super::terminal::{JsonValue, print_error, print_json, print_styled};
 use super::what::JsonRobot;
 use crate::plan::Verdict;
@@ -50,6 +51,9 @@ pub(super) struct Report {
     /// The simulations of plan files; `None` for commands that play none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub simulations: Option<Vec<JsonSimulation>>,
+    /// The study that was worked on; `None` for other commands, and where it is wrong.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub study: Option<JsonStudy>,
     /// The robot that was asked about, with what embeds in it; `None` for other commands, and where it is wrong.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<JsonRobot>,

@@ -86,7 +86,7 @@ fn plot_values(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             let number = call.get::<Option<&str>>("y_label")?.unwrap_or("number").to_string();
             (PlotAxis { label: counted, dimension }, PlotAxis { label: number, dimension: Dimension::NUMBER })
         }
-        PlotKind::Curve | PlotKind::Scatter => {
+        PlotKind::Curve | PlotKind::Scatter | PlotKind::Front => {
             (PlotAxis { label: x_label, dimension: x_dimension }, PlotAxis { label: y_label, dimension })
         }
     };

@@ -39,6 +39,9 @@ const ANSWERS: &[Row] = &[
     row("show", &["p.plan.json"], &["report", "written"]),
     row("export", &["p.plan.json", "--to", "csv"], &["report", "written"]),
     row("plan", &["p.plan.json"], &["report", "printed"]),
+    row("study", &["s.mod"], &["report", "written", "study"]),
+    row("study", &["s.mod", "--status"], &["report", "study"]),
+    row("study", &["s.mod", "--row", "1"], &["report", "printed", "written", "study"]),
     row("what", &["a.mod", "Driver1"], &["report", "robot"]),
     row("doc", &["--only"], &["report", "written", "broken_links"]),
     row("fmt", &["--check", "a.mod"], &["report", "written"]),
@@ -51,6 +54,7 @@ const ANSWERS: &[Row] = &[
     wrong("simulate", &["nothing.plan.json"]),
     wrong("export", &["nothing.plan.json", "--to", "csv"]),
     wrong("plan", &["nothing.plan.json"]),
+    wrong("study", &["a.mod"]),
     wrong("import", &["nothing.urdf"]),
     wrong("new", &["a.mod"]),
     wrong("explain", &["E9999"]),
@@ -71,6 +75,7 @@ const PLANNED: &str = "use std.smores.Smores\nconfig R {\n  part m: Smores\n  be
 fn project() -> Sandbox {
     let sandbox = Sandbox::new(&[
         ("a.mod", PROGRAM.as_bytes()),
+        ("s.mod", b"record Row { y: Int }\nstudy s(x in 0..3) by grid() = Row(y: x)\n"),
         ("q.mod", PLANNED.as_bytes()),
         ("plans/b.mod", PLANNED.as_bytes()),
     ]);

@@ -7,16 +7,16 @@ use super::scale::Scale;
 use super::{Plot, PlotKind, PlotSeries};
 
 /// Width and height of a plot, pixels.
-const SIZE: [f64; 2] = [960.0, 600.0];
+pub(super) const SIZE: [f64; 2] = [960.0, 600.0];
 /// The size of labels, pixels.
-const LETTER: f64 = 15.0;
+pub(super) const LETTER: f64 = 15.0;
 /// The size of the title, pixels.
-const TITLE: f64 = 18.0;
+pub(super) const TITLE: f64 = 18.0;
 /// The space between things, pixels.
-const SPACE: f64 = 12.0;
+pub(super) const SPACE: f64 = 12.0;
 
 /// The colour of axes and text.
-const INK: Colour = [0x1d, 0x25, 0x30];
+pub(super) const INK: Colour = [0x1d, 0x25, 0x30];
 /// The colour of minor text.
 const SOFT: Colour = [0x5c, 0x65, 0x70];
 /// The colour of grid lines.
@@ -107,11 +107,11 @@ fn dash(number: usize) -> Option<[f64; 2]> {
     DASHES[number / COLOURS.len() % DASHES.len()]
 }
 
-fn text(at: [f64; 2], anchor: Anchor, words: &str) -> Mark {
+pub(super) fn text(at: [f64; 2], anchor: Anchor, words: &str) -> Mark {
     Mark::Text { at, size: LETTER, colour: INK, anchor, upwards: false, text: words.to_string() }
 }
 
-fn line(points: Vec<[f64; 2]>, width: f64, colour: Colour) -> Mark {
+pub(super) fn line(points: Vec<[f64; 2]>, width: f64, colour: Colour) -> Mark {
     Mark::Line { points, width, colour, dash: None }
 }
 
@@ -164,7 +164,7 @@ fn draw_series(
 ) {
     let place = |[px, py]: [f64; 2]| frame.at(x.position(px), y.position(py));
     let radius = if series.points.len() > 500 { 1.8 } else { 3.6 };
-    if plot.kind == PlotKind::Scatter {
+    if plot.kind == PlotKind::Scatter || plot.kind == PlotKind::Front && number == 0 {
         let mut places: Vec<[f64; 2]> = series.points.iter().flatten().map(|point| place(*point)).collect();
         let total: usize = plot.series.iter().map(|series| series.points.len()).sum();
         if total > POINTS_MAX {
@@ -175,6 +175,10 @@ fn draw_series(
         }
         sheet.marks.extend(places.into_iter().map(|at| point(at, radius, number)));
         return;
+    }
+    if plot.kind == PlotKind::Front {
+        let places = series.points.iter().flatten().map(|at| place(*at));
+        sheet.marks.extend(places.map(|at| point(at, 3.6, number)));
     }
     let budget = POINTS_MAX / plot.series.len().max(1);
     for piece in series.points.split(|point| point.is_none()) {
@@ -290,7 +294,7 @@ fn draw_legend(sheet: &mut Sheet, plot: &Plot, frame: &Frame, names: &[String]) 
             PlotKind::Curve => {
                 Mark::Line { points: sample, width: 2.5, colour: colour(number), dash: dash(number) }
             }
-            PlotKind::Scatter => point([left + SPACE, middle], 4.5, number),
+            PlotKind::Scatter | PlotKind::Front => point([left + SPACE, middle], 4.5, number),
             PlotKind::Histogram => {
                 point([left + SPACE, middle], 5.5, number - number % 4 + 1).coloured(colour(number))
             }

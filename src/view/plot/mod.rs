@@ -8,6 +8,7 @@ mod bins;
 mod font;
 mod layout;
 mod marks;
+mod parallel;
 mod png;
 mod scale;
 mod svg;
@@ -15,6 +16,7 @@ mod text;
 
 use crate::units::Dimension;
 
+pub use parallel::{ParallelPlot, parallel_svg};
 pub use png::png;
 pub use svg::svg;
 pub use text::text;
@@ -28,6 +30,8 @@ pub enum PlotKind {
     Scatter,
     /// A histogram: bars with the number of values in each bin.
     Histogram,
+    /// A scatter plot of the first series, through which the others are drawn as lines with marks: the best of its points.
+    Front,
 }
 
 /// An axis of a plot: its label and the dimension of its values.
@@ -89,7 +93,9 @@ impl Plot {
             PlotKind::Histogram => format!("a histogram of {x}"),
             PlotKind::Curve if count == 1 => format!("a curve of {y} over {x}"),
             PlotKind::Curve => format!("{count} curves of {y} over {x}"),
-            PlotKind::Scatter => format!("{} points of {y} over {x}", self.points().count()),
+            PlotKind::Scatter | PlotKind::Front => {
+                format!("{} points of {y} over {x}", self.points().count())
+            }
         }
     }
 }

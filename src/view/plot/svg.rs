@@ -2,7 +2,7 @@
 
 use super::Plot;
 use super::layout::lay_out;
-use super::marks::{Anchor, Colour, Mark};
+use super::marks::{Anchor, Colour, Mark, Sheet};
 use crate::view::drawing::short;
 use crate::view::markup::escaped;
 use std::fmt::Write as _;
@@ -12,14 +12,18 @@ const FONTS: &str = "Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-se
 
 /// Returns a plot as the text of an SVG file, with lengths in pixels; missing values leave gaps.
 pub fn svg(plot: &Plot) -> String {
-    let sheet = lay_out(plot);
-    let [w, h] = sheet.size.map(short);
     let title = if plot.title.is_empty() { plot.describe() } else { plot.title.clone() };
+    written(&lay_out(plot), &title)
+}
+
+/// Returns a drawing as the text of an SVG file with a title.
+pub(super) fn written(sheet: &Sheet, title: &str) -> String {
+    let [w, h] = sheet.size.map(short);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
          font-family=\"{FONTS}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>{}</title>\n\
          <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n",
-        escaped(&title)
+        escaped(title)
     );
     for mark in &sheet.marks {
         write_mark(&mut out, mark);

@@ -64,7 +64,7 @@ pub fn text(plot: &Plot) -> String {
 fn headline(plot: &Plot, x: &str, y: &str) -> String {
     let shown = match plot.kind {
         PlotKind::Histogram => format!("number of values over {x}"),
-        PlotKind::Curve | PlotKind::Scatter => format!("{y} over {x}"),
+        PlotKind::Curve | PlotKind::Scatter | PlotKind::Front => format!("{y} over {x}"),
     };
     if plot.title.is_empty() { shown } else { format!("{}: {shown}", plot.title) }
 }
