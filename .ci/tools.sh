@@ -61,3 +61,10 @@ install_gltf() {
       || echo "no gltf-validator: the test of scenes will be skipped"
   fi
 }
+
+# The Python package in an environment of its own, with all that its tests ask for (python/, tests/studies/beside_cma.py).
+install_python_package() {
+  local venv="$PWD/target/package"
+  [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+  "$venv/bin/python" -m pip install --quiet --disable-pip-version-check "$PWD/python[test,ray]" cma nbclient ipykernel
+}
