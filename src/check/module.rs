@@ -4,8 +4,8 @@ use super::checker::{Checker, DefItem, Entity};
 use super::expr::{Role, expr_of};
 use super::scope::Scope;
 use super::typed::{
-    CaptureDef, ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear, LinkDef,
-    ModuleClause, ModuleDef, MotorDef, Placement, PortClause, PortGroup,
+    CaptureDef, ConnectorDef, DefId, DefKind, Expr, ExprKind, JointBetween, JointDef, JointDefKind, Linear,
+    LinkDef, ModuleClause, ModuleDef, MotorDef, Placement, PortClause, PortGroup,
 };
 use super::types::Type;
 use crate::source::suggest::suggest;
@@ -71,7 +71,11 @@ impl<'a> Checker<'a> {
         };
         let stated = slot.is_some();
         let turn = Type::Quantity(Dimension::ANGLE);
-        *slot = Some(if what == "angle" { self.coerce(got, &turn, Role::Place("the angle of `capture`")) } else { got });
+        *slot = Some(if what == "angle" {
+            self.coerce(got, &turn, Role::Place("the angle of `capture`"))
+        } else {
+            got
+        });
         if stated {
             let message = format!("the {what} of `capture` is stated twice");
             self.report(Diagnostic::error(code::BAD_CONNECTOR, message).label(span, "stated before"));

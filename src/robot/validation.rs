@@ -148,7 +148,9 @@ pub fn check_connector(all: &[Connector], index: usize) -> Checked {
     if let Some(capture) = capture {
         need_positive(capture.distance, EXTENT_MAX, "the distance of capture")?;
         need_positive(capture.angle, PI + TOL_UNIT, "the angle of capture")?;
-        for (speed, what) in [(capture.speed, "the speed of capture"), (capture.rate, "the angular speed of capture")] {
+        for (speed, what) in
+            [(capture.speed, "the speed of capture"), (capture.rate, "the angular speed of capture")]
+        {
             speed.map_or(Ok(()), |speed| need_positive(speed, QUANTITY_MAX, what))?;
         }
     }

@@ -20,7 +20,7 @@ use super::disk::Project;
 use super::output;
 use super::program;
 use super::report::{self, Report};
-use super::terminal::{Terminal, cancelled, listen_for_cancel, print, print_error};
+use super::terminal::{Terminal, listen_for_cancel, print, print_error};
 use super::{CallError, Ending};
 use crate::check::typed::{DefId, DefKind};
 use crate::check::{self, Checked};
@@ -194,7 +194,7 @@ impl Studied<'_> {
             merged_well = self.merge(&listing, &mut json, report, globals);
         }
         if !globals.json {
-            self.print_state(&json, arguments);
+            self.print_state(&json, arguments, ended == Ending::Fine);
         }
         if json.table.is_some() {
             merged_well &= self.draw(&listing, arguments, report, globals);
@@ -331,8 +331,13 @@ impl Studied<'_> {
         }
     }
 
-    /// Prints what is computed.
-    fn print_state(&self, json: &JsonStudy, arguments: &StudyArguments) {
+    /// Returns true if a call computes all rows.
+    fn is_whole(arguments: &StudyArguments) -> bool {
+        arguments.shard.is_none() && !arguments.status && !arguments.merge
+    }
+
+    /// Prints what is computed. `fine`: true if the driver ended well.
+    fn print_state(&self, json: &JsonStudy, arguments: &StudyArguments, fine: bool) {
         let mut text = format!("{}: {} of {} computed", json.name, json.computed, counted_rows(json.rows));
         if let Some(failed) = json.failed.as_ref().filter(|failed| !failed.is_empty()) {
             let each: Vec<String> = failed.iter().map(|(code, n)| format!("{n} with {code}")).collect();
@@ -344,8 +349,7 @@ impl Studied<'_> {
         print(&format!("{text}\n"));
         if let Some(table) = &json.table {
             print_error(&format!("wrote {table}\n"));
-        } else if json.computed < json.rows && !cancelled() && arguments.shard.is_none() && !arguments.status
-        {
+        } else if fine && json.computed < json.rows && Studied::is_whole(arguments) {
             print_error("the others are being computed by another driver on this folder\n");
         }
         for (name, why) in json.strangers.iter().take(STRANGERS_SHOWN) {
