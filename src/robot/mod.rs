@@ -2,7 +2,7 @@
 //!
 //! In reading order: declarations ([`Library`]) and the rules of sound ones ([`validation`]), robots and their
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
-//! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`]), inverse dynamics ([`dynamics`]) and forward dynamics
+//! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`], and of one [`chain`]), inverse dynamics ([`dynamics`]) and forward dynamics
 //! ([`articulated_bodies`], on [`spatial`] vectors), the isomorphism of two robots ([`matching()`]), embeddings of one in
 //! another ([`embeddings`]), rigidity of trusses ([`truss`]), and files of
 //! RoFI modules ([`rofi`]).
@@ -15,6 +15,7 @@ mod library;
 pub mod mass;
 pub mod validation;
 
+pub mod chain;
 mod kinematics;
 mod step;
 mod tree;
