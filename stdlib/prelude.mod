@@ -1428,6 +1428,142 @@ extern fn undock(port: Port) -> Behavior
 /// ```
 extern fn abort(message: Text) -> Behavior
 
+// Motions by goals.
+
+/// A pose: a position, the direction in which the x axis points, and one towards which the z axis does.
+///
+/// Without `up`, z points upwards, or ahead (+X) where x points up or down: as for the ports of a module, whose x axis
+/// points outwards. A port that docks from above at `p` is at `pose_at(p, facing: -Z)`.
+///
+/// Example:
+/// ```modl
+/// let above = pose_at([300mm, 0mm, 150mm], facing: -Z)
+/// print(above.position, direction(above, Z))
+/// ```
+extern fn pose_at(position: Vec3<Length>, facing: Vec3<Number> = X, up: Vec3<Number>?) -> Pose
+
+/// Brings a port to a place: the joints between the robot's base and the port move together, from rest to rest.
+///
+/// Give `to`, a pose of the port, or its `position` alone, or a `position` and with `along` the direction in which its x
+/// axis points outwards. Places are in the world, as `State.pose` gives them; with `seen_from`, a module, they are in the
+/// frame of its body, which then stays where it is, and only the joints from there to the port move. `in` is how long it
+/// takes; without it, as long as the limits of joints and motors need.
+///
+/// The posture is found when the behaviour is planned, from the state in which it then begins: damped least squares within
+/// the joints' ranges, from there and from random postures, `starts` in all, the same for the same `seed`. Of several
+/// postures one is taken in which nothing meets, and of these the nearest. What freedom is left keeps bodies 5 mm
+/// apart, and the centre of mass of a robot on the ground above where it was. A place that is not reached to 1e-6 mm and
+/// 1e-6 degrees is refused, with the nearest that was. What joints do on the way is not looked at: see `avoid`.
+///
+/// What moves beside it is taken to stand where it is when the motion begins; that holds for `line`, `arc` and `avoid`, too.
+/// None of them may stand after `else`, in a cycle, or in a repetition with a condition, where a plan does not know the
+/// state in which they begin.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Puma4
+/// let p = Puma4()
+/// let b = reach(p.tool, position: [150mm, 0mm, 250mm])
+/// print(plan(b, world: world(ground: held)).end.pose(p.tool).position)
+/// ```
+extern fn reach(
+  port: Port,
+  to: Pose?,
+  position: Vec3<Length>?,
+  along: Vec3<Number>?,
+  seen_from: Module?,
+  in: Time?,
+  profile: smooth | trapezoid | linear = smooth,
+  starts: Int = 20,
+  seed: auto | Int = auto,
+) -> Behavior
+
+/// Moves a port straight in space, from where it is: `to` a pose, or `by` a vector, with its orientation kept.
+///
+/// Joints follow piecewise cubics on which the port deviates from the line by no more than `within`, and by
+/// `turned_within` from the turn about one axis that brings it to its orientation; both are measured at 64 places or
+/// more. With a `free` orientation only the position is looked at, for feet and arms of fewer than six joints. `for` is how
+/// long it takes; without it, as long as the limits of joints and motors need. Where a place on the line
+/// is out of reach, or a joint would have to leap, it is refused with the part of the line that is within reach. `seen_from`
+/// is as for `reach`. What bodies meet on the way is found by the judge.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Reacher {
+///   part m[7]: Smores
+///   for i in 0..6 { connect m[i].top -- m[i + 1].bottom turn if i % 2 == 0 { 90deg } else { 0deg } }
+///   for i in 1..6 { set m[i].tilt = 25deg }
+///   base m[0]
+/// }
+/// let r = Reacher()
+/// let p = plan(line(r.m[6].top, by: [0mm, 0mm, 20mm], for: 2s), world: world(ground: held))
+/// print(p.end.pose(r.m[6].top).position - p.start.pose(r.m[6].top).position)
+/// ```
+extern fn line(
+  port: Port,
+  to: Pose?,
+  by: Vec3<Length>?,
+  seen_from: Module?,
+  for: Time?,
+  within: Length = 0.1mm,
+  turned_within: Angle = 0.1deg,
+  orientation: kept | free = kept,
+) -> Behavior
+
+/// Moves a port along the arc of a circle from where it is, through `via`, to a pose. All else is as for `line`.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Smores
+/// config Reacher {
+///   part m[7]: Smores
+///   for i in 0..6 { connect m[i].top -- m[i + 1].bottom turn if i % 2 == 0 { 90deg } else { 0deg } }
+///   for i in 1..6 { set m[i].tilt = 25deg }
+///   base m[0]
+/// }
+/// let r = Reacher()
+/// let hand = r.m[6].top
+/// let at = pose(hand)
+/// let there = pose_at(at.position + [0mm, 30mm, 0mm], facing: direction(at, X), up: direction(at, Z))
+/// let p = plan(arc(hand, to: there, via: at.position + [0mm, 15mm, 15mm]), world: world(ground: held))
+/// print(norm(p.end.pose(hand).position - there.position) < 1um)
+/// ```
+extern fn arc(
+  port: Port,
+  to: Pose,
+  via: Vec3<Length>,
+  seen_from: Module?,
+  for: Time?,
+  within: Length = 0.1mm,
+  turned_within: Angle = 0.1deg,
+  orientation: kept | free = kept,
+) -> Behavior
+
+/// Brings joints to where a behaviour would bring them, on a way on which nothing meets: the robot itself, other robots of
+/// its scene, its obstacles, and the ground.
+///
+/// Only the posture at the end of `behavior` counts, and only the joints move that it commands: `avoid(reach(hand, to:
+/// there))`, `avoid(arm.stow())`, `avoid(Pc(move(a, to: 30deg), move(b, to: 0deg)))`. Joints go straight from posture to
+/// posture and rest at each; bodies keep `clearance`, or half of what they have at the beginning or the end if that is less. The
+/// way is found by RRT-Connect with shortcuts, the same for the same `seed`; `budget` is the greatest number of postures
+/// that are examined. Refused are ways that begin or end where bodies meet, with their names, and those that are not found,
+/// with what is in the way.
+///
+/// Example:
+/// ```modl
+/// use std.smores.Arm
+/// let a = Arm(n: 5)
+/// let p = plan(avoid(Pc(move(a.m[1].tilt, to: 60deg), move(a.m[2].tilt, to: 30deg))), world: world(ground: held))
+/// print(p.end.angle(a.m[1].tilt))
+/// ```
+extern fn avoid(
+  behavior: Behavior,
+  clearance: Length = 2mm,
+  budget: Int = 200_000,
+  seed: auto | Int = auto,
+) -> Behavior
+
 // Signals and conditions.
 
 /// The position of a joint that turns, as the robot senses it.

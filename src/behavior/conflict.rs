@@ -104,6 +104,12 @@ impl Search {
         {
             table = Rc::new(BTreeMap::from([(joint, Commanded { one: action, other: None })]));
         }
+        // A goal commands what its own behaviour does, in its place.
+        if let Node::Goal(goal) = node {
+            let stand_ins =
+                goal.stand_ins.iter().filter_map(|action| Some((commanded(&action.command)?, action)));
+            return Rc::new(stand_ins.map(|(joint, one)| (joint, Commanded { one, other: None })).collect());
+        }
         // The same child again adds nothing, but for once where it runs beside itself.
         let mut times = BTreeMap::new();
         for (child, entries) in below {

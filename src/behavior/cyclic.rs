@@ -240,6 +240,13 @@ fn not_cyclic(body: &Arc<Node>) -> Option<&'static str> {
     if graph.nodes.iter().any(|node| matches!(***node, Node::Repeat { until: Some(_), .. })) {
         return Some("a condition");
     }
+    let goal = graph.nodes.iter().find_map(|node| match &***node {
+        Node::Goal(goal) => Some(goal.name()),
+        _ => None,
+    });
+    if goal.is_some() {
+        return goal;
+    }
     graph.actions().find_map(|Action { command, until, timeout, .. }| match command {
         _ if until.is_some() => Some("a condition"),
         _ if timeout.is_some() => Some("a timeout"),

@@ -7,7 +7,7 @@
 
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::visit::rewritten;
+use crate::plan::visit::{Graph, rewritten};
 use crate::plan::{Action, Command, Condition, Node, Signal, Target};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Kinematics};
 use std::sync::Arc;
@@ -30,6 +30,8 @@ pub enum MirrorError {
     Joint(String),
     /// A command or condition about docking, which has no mirror image.
     Docking,
+    /// A motion that is stated by its goal, given by the name of the built-in that makes it.
+    Goal(&'static str),
     /// A condition on the distance of ports or on modules, of which no image is known.
     Sensing,
 }
@@ -39,6 +41,9 @@ impl std::fmt::Display for MirrorError {
         match self {
             MirrorError::Joint(name) => write!(f, "no joint is the mirror image of `{name}`"),
             MirrorError::Docking => write!(f, "docking has no mirror image"),
+            MirrorError::Goal(name) => {
+                write!(f, "`{name}` has no mirror image: what joints do is not known here")
+            }
             MirrorError::Sensing => {
                 write!(f, "conditions on modules and ports have no mirror image, only those on joints have")
             }
@@ -59,6 +64,9 @@ pub fn mirrored(
     program: &Arc<Node>,
     plane: Plane,
 ) -> Result<Arc<Node>, MirrorError> {
+    if let Some(name) = goal_in(program) {
+        return Err(MirrorError::Goal(name));
+    }
     let images = images(robot, holds, plane);
     let names: Vec<String> = robot.joints().map(|owner| robot.joint_name(owner)).collect();
     let image = |joint: JointId| {
@@ -66,6 +74,14 @@ pub fn mirrored(
         images[index].ok_or_else(|| MirrorError::Joint(names[index].clone()))
     };
     rewritten(program, |action| mirrored_action(action, &image), |until| mirrored_condition(until, &image))
+}
+
+/// Returns the name of the built-in of a goal in a program; `None` if there is none.
+fn goal_in(program: &Arc<Node>) -> Option<&'static str> {
+    Graph::of(program).nodes.iter().find_map(|node| match &***node {
+        Node::Goal(goal) => Some(goal.name()),
+        _ => None,
+    })
 }
 
 /// Returns the mirror image of every joint in a plane of the base's frame, by the number in its `JointId`, as (image,

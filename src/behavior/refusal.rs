@@ -1,7 +1,7 @@
 //! Refusals of scheduling: the reason why a behaviour is not a plan, and the action to blame.
 
 use super::joints::Uncommandable;
-use crate::plan::CauseId;
+use crate::plan::{CauseId, Goal};
 use crate::units::{Dimension, quantity};
 
 /// The refusal of a behaviour that cannot be carried out, or whose schedule exceeds a limit.
@@ -108,6 +108,11 @@ pub enum Reason {
         /// The part in words, such as `docking`.
         what: &'static str,
     },
+    /// A motion that is stated by its goal has not become actions.
+    Unresolved {
+        /// The name of the built-in that makes such a goal.
+        name: &'static str,
+    },
     /// A piece of the motion is shorter than a tick of time.
     TooShort,
     /// A limit of the schedule is exceeded.
@@ -123,6 +128,11 @@ impl Refusal {
     /// Returns a refusal with this reason that blames the action of this cause.
     pub fn at(cause: CauseId, reason: Reason) -> Refusal {
         Refusal { cause: Some(cause), reason }
+    }
+
+    /// Returns the refusal of a motion that is stated by its goal and has not become actions.
+    pub fn unresolved(goal: &Goal) -> Refusal {
+        Refusal::at(goal.cause, Reason::Unresolved { name: goal.name() })
     }
 
     /// Returns a refusal with this reason that blames no single action.
@@ -167,6 +177,9 @@ impl std::fmt::Display for Reason {
             Reason::Apart { a, b } => write!(f, "nothing connects the parts of `{a}` and `{b}`"),
             Reason::NotPlanned { a, b } => write!(f, "the plan does not dock `{a}` and `{b}`"),
             Reason::NotCyclic { what } => write!(f, "{what} cannot be part of a cycle"),
+            Reason::Unresolved { name } => {
+                write!(f, "`{name}` is a goal, of which no motion has been planned yet")
+            }
             Reason::TooShort => write!(f, "a piece of the motion is shorter than a tick of time"),
             Reason::Limit { what, limit } => write!(f, "more than {limit} {what}"),
         }

@@ -310,6 +310,7 @@ impl<'a> Run<'a> {
                 let frame = self.open(parent, FrameKind::Exempt { index });
                 self.tasks.push(Task::Begin(body, Some(frame)));
             }
+            Node::Goal(goal) => return Err(Refusal::unresolved(goal)),
             Node::Phase { .. } | Node::Approach { .. } | Node::Stretch { .. } => {
                 let end = self.begin_cycle(node)?;
                 self.activate(

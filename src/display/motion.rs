@@ -219,9 +219,10 @@ impl Drawer<'_> {
             Node::Approach { shift, .. } => format!("approach {shift} of the cycle"),
             Node::Stretch { duration, .. } => format!("in {}", quantity(*duration, Dimension::TIME)),
             Node::Exempt { kind, .. } => format!("allows {}", kind.name()),
+            Node::Goal(goal) => goal.name().to_owned(),
         };
         let below = match node {
-            Node::Action(_) | Node::Approach { .. } => Vec::new(),
+            Node::Action(_) | Node::Approach { .. } | Node::Goal(_) => Vec::new(),
             Node::Series(nodes) => {
                 let mut at = from;
                 let next = |node: &std::sync::Arc<Node>| {
@@ -269,7 +270,7 @@ impl Drawer<'_> {
             }
             Node::Stretch { duration, .. } => Some(from + duration),
             Node::Exempt { body, .. } => self.end(body, from),
-            Node::Phase { .. } | Node::Approach { .. } => None,
+            Node::Phase { .. } | Node::Approach { .. } | Node::Goal(_) => None,
         }
     }
 

@@ -23,6 +23,7 @@ mod truss;
 
 pub(crate) use config::outside;
 pub(crate) use connect::free_ports;
+pub(crate) use module::{default_up, port_rotation};
 
 use crate::check::typed::DefId;
 use crate::interpret::design::{Design, DesignKind};

@@ -480,7 +480,7 @@ fn fixed_joint(joint: &JointDef, parent: usize, child: usize, pose: Pose) -> Joi
 
 /// Returns the orientation of a port: x along `facing`, z along the part of `up` that is perpendicular to it.
 /// `None` where they lie on one line.
-fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>> {
+pub(crate) fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>> {
     let y = up.cross(&facing);
     if y.norm() < TOLERANCES.parallel {
         return None;
@@ -492,7 +492,7 @@ fn port_rotation(facing: Vec3, up: Vec3) -> Option<nalgebra::UnitQuaternion<f64>
 
 /// Returns the direction from which turns are counted by default: upwards, or forwards for a port that faces up
 /// or down.
-fn default_up(facing: Vec3) -> Vec3 {
+pub(crate) fn default_up(facing: Vec3) -> Vec3 {
     if facing.cross(&Vec3::z()).norm() < TOLERANCES.parallel { Vec3::x() } else { Vec3::z() }
 }
 

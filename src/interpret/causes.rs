@@ -113,6 +113,13 @@ impl PlanCauses {
                 let body = self.renumber_shared(body, done);
                 Node::Exempt { body, kind: kind.clone(), cause: self.number(*cause) }
             }
+            Node::Goal(goal) => {
+                let body = goal.body().map(|body| self.renumber_shared(body, done));
+                let mut goal = goal.with_body(|old| body.clone().unwrap_or_else(|| old.clone()));
+                goal.cause = self.number(goal.cause);
+                goal.stand_ins.iter_mut().for_each(|action| action.cause = goal.cause);
+                Node::Goal(Box::new(goal))
+            }
         };
         let new = Arc::new(new);
         done.insert(Arc::as_ptr(node), new.clone());

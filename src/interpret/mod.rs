@@ -39,6 +39,7 @@ pub mod cells;
 mod behavior;
 pub mod causes;
 pub mod fields;
+mod goals;
 mod joining;
 pub mod plan_value;
 pub mod planning;

@@ -6,11 +6,12 @@ use super::robot::Robot;
 use super::value::Value;
 use crate::geometry::Pose;
 use crate::plan::verify::articulated::{self, ClusterPaths, Detail, Instant};
-use crate::plan::{CauseId, Plan, Settings, Verdict, World, WorldFrom};
+use crate::plan::{CauseId, Node, Plan, Settings, Verdict, World, WorldFrom};
 use std::any::Any;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// A plan with what the language knows about it: its robot, causes and verdict.
 pub struct PlanValue {
@@ -24,6 +25,9 @@ pub struct PlanValue {
     pub causes: Vec<CauseId>,
     /// The number of actions that the plan carries out; 0 for a lattice or a truss.
     pub actions: u64,
+    /// The program of the behaviour as it is stated, which has goals where the plan's has actions; `None` for plans that
+    /// were not made of a behaviour.
+    stated: Option<Arc<Node>>,
     /// The planner's report; `None` for plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
     /// The robot as a value, once it was asked for: one and the same at each time.
@@ -114,6 +118,7 @@ impl PlanValue {
             plan,
             causes,
             actions,
+            stated: None,
             report: None,
             instance: OnceCell::new(),
             judged: RefCell::default(),
@@ -127,6 +132,16 @@ impl PlanValue {
     /// Returns the plan's robot as a value, the same instance at each call.
     pub fn instance(&self) -> Rc<Instance> {
         self.instance.get_or_init(|| Instance::whole(self.robot.clone())).clone()
+    }
+
+    /// Returns the plan with the program of the behaviour that it was made of, as it is stated.
+    pub fn stated(self, program: Arc<Node>) -> PlanValue {
+        PlanValue { stated: Some(program), ..self }
+    }
+
+    /// Returns the program of the behaviour that the plan was made of, as it is stated; `None` if it was made otherwise.
+    pub fn stated_program(&self) -> Option<&Arc<Node>> {
+        self.stated.as_ref()
     }
 
     /// Returns the plan with the report of the planner that made it.

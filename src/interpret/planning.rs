@@ -3,6 +3,7 @@
 use super::argument::{Auto, WordOr};
 use super::causes::PlanCauses;
 use super::design::Design;
+use super::goals::Stated;
 use super::interpreter::Interpreter;
 use super::plan_value::{Judged, PlanValue};
 use super::record::{Record, StateValue, first_world};
@@ -92,11 +93,16 @@ impl Interpreter<'_> {
         if !self.check_behavior(behavior, span)? {
             return Ok(None);
         }
+        let resolved = self.resolved(
+            &Stated { design: &design, robot: &robot, start: &start, world, causes: &causes },
+            &program,
+            span,
+        )?;
         let set = self.start_causes(&design, &robot, &mut causes);
         let problem = Problem {
             robot: robot.assembly.as_ref().clone(),
             start,
-            program,
+            program: resolved,
             start_causes: set.joints,
             bond_causes: set.bonds,
             settings: behavior::Settings::default(),
@@ -109,7 +115,7 @@ impl Interpreter<'_> {
         if !self.report_issues(&planned.1, &causes.ids) {
             return Ok(None);
         }
-        let planned = Rc::new(planned.0);
+        let planned = Rc::new(planned.0.stated(program));
         self.keep_plan(planned.clone());
         Ok(Some(planned))
     }
@@ -194,7 +200,7 @@ impl Interpreter<'_> {
                 && planned.causes.starts_with(causes)
                 && first_world(plan) == *world
                 && tracks.start == *start
-                && plan.program.as_ref().is_some_and(|p| equal(&p.root, program))
+                && planned.stated_program().is_some_and(|stated| equal(stated, program))
         };
         self.memory.plans.iter().find(same).cloned()
     }

@@ -284,6 +284,7 @@ fn refusal_code(reason: &Reason) -> Code {
         | Reason::BadNumber { .. }
         | Reason::NeverHolds
         | Reason::NotCyclic { .. }
+        | Reason::Unresolved { .. }
         | Reason::TooShort => code::BAD_ACTION,
     }
 }

@@ -31,6 +31,7 @@ mod fold_refusal;
 mod fold_supply;
 mod fold_surface;
 pub mod folding;
+mod goals;
 mod list;
 mod math;
 mod mesh_file;
@@ -87,6 +88,7 @@ const SUBJECTS: &[Subject] = &[
     natives(embed::TABLE),
     natives(waypoints::TABLE),
     natives(action::TABLE),
+    natives(goals::TABLE),
     natives(plan::TABLE),
     natives(one_robot::TABLE),
     natives(fastest::TABLE),

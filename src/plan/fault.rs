@@ -106,6 +106,11 @@ pub enum PlanFault {
         /// The index that is given for the root, from 0.
         node: usize,
     },
+    /// A motion in the program that is stated by its goal and has not become actions.
+    Goal {
+        /// The name of the built-in that makes such a goal.
+        name: &'static str,
+    },
     /// A fault inside the track of a joint.
     InTrack {
         /// The joint, by the number in its `JointId`.
@@ -460,6 +465,9 @@ impl fmt::Display for PlanFault {
                 "node {node} of the program has node {child} as a child, which does not stand before it"
             ),
             PlanFault::ProgramRoot { node } => write!(f, "the program has no node {node} to begin with"),
+            PlanFault::Goal { name } => {
+                write!(f, "`{name}` stands in the program as a goal, without its motion")
+            }
             PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),
             PlanFault::InStage { stage, fault } => write!(f, "in stage `{stage}`: {fault}"),
             PlanFault::After { time, fault } => write!(f, "at {time} s {fault}"),

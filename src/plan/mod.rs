@@ -10,6 +10,7 @@ pub mod polynomial;
 pub mod time;
 
 mod cause;
+mod goal;
 mod program;
 mod provenance;
 mod slope;
@@ -42,6 +43,7 @@ pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
 pub use exceptions::{headline, headline_under};
 pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
+pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
 pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};

@@ -2,6 +2,7 @@
 //! position-servo robot executes it. In a plan file it is a table of nodes, so that what is shared stays shared.
 
 use super::cause::CauseId;
+use super::goal::Goal;
 use super::world::ExemptionKind;
 use crate::robot::{JointId, PortRef};
 use schemars::JsonSchema;
@@ -73,6 +74,8 @@ pub enum Node {
         /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
+    /// A motion that is stated by its goal; it stands in behaviours only, and planning puts actions in its place.
+    Goal(Box<Goal>),
 }
 
 /// One command to one controller with its end: (J, X, ξ, T) for controller, setpoint, condition and timeout. Without

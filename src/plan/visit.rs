@@ -73,6 +73,7 @@ pub fn extent(root: &Arc<Node>) -> Extent {
         let of = |child: &Arc<Node>| extents[graph.position(child)];
         let extent = match &***node {
             Node::Action(_) => Extent { actions: 1, steps: 1 },
+            Node::Goal(goal) => Extent { actions: goal.stand_ins.len() as u64, steps: 1 },
             Node::Series(list) | Node::Parallel(list) => {
                 list.iter().map(of).fold(Extent { actions: 0, steps: 1 }, Extent::plus)
             }
@@ -154,6 +155,7 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
         | Node::Approach { body, .. }
         | Node::Stretch { body, .. }
         | Node::Exempt { body, .. } => Some(body).filter(|_| i == 0),
+        Node::Goal(goal) => goal.body().filter(|_| i == 0),
         Node::Action(_) => None,
     }
 }
@@ -217,5 +219,6 @@ pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node
         Node::Exempt { body, kind, cause } => {
             Node::Exempt { body: new(body), kind: kind.clone(), cause: *cause }
         }
+        Node::Goal(goal) => Node::Goal(Box::new(goal.with_body(new))),
     }
 }

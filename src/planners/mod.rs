@@ -8,6 +8,7 @@
 
 pub mod fastest;
 pub mod fold;
+pub mod goals;
 pub mod locomote;
 pub mod morph;
 pub mod planar_path;

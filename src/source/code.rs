@@ -122,6 +122,9 @@ codes! {
     NOT_COVERED = "E0802", "a problem that the planner does not cover";
     UNFOLDABLE = "E0803", "a shape that panels do not fold into";
     TOO_HEAVY = "E0804", "a load that no slowness makes lighter";
+    UNREACHABLE = "E0805", "a place that a port cannot reach";
+    NOT_FREE = "E0806", "a way that begins or ends where bodies meet";
+    NO_FREE_WAY = "E0807", "no free way found";
     // W0xxx: lints and notes.
     NAME_STYLE = "W0001", "a name in another style";
     UNIT_SHADOWED = "W0002", "a unit that has the name of a variable";

@@ -10,6 +10,7 @@ pub mod fold_files;
 pub mod fold_objective;
 pub mod fold_orders;
 pub mod fold_random;
+pub mod goals;
 pub mod locomotion;
 pub mod morphing;
 pub mod planar_path;

@@ -174,7 +174,11 @@ impl Remap {
                     *cause = self.cause(*cause);
                 }
                 Node::Exempt { kind, cause, .. } => (*kind, *cause) = (self.kind(kind), self.cause(*cause)),
-                Node::Action(_) | Node::Series(_) | Node::Parallel(_) | Node::Repeat { .. } => {}
+                Node::Action(_)
+                | Node::Series(_)
+                | Node::Parallel(_)
+                | Node::Repeat { .. }
+                | Node::Goal(_) => {}
             }
             done.push(Arc::new(made));
         }
