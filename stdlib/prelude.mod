@@ -2583,8 +2583,8 @@ extern type Morphing is Plan {
 /// The target keeps its orientation; with `orientations`, as many random ones are tried for some steps
 /// each, and the best is taken. Limits beside those of the struts are kept, too, and the verdict says how
 /// nearly: `angle` between struts that share a node; `rigidity`, below which no singular value of the
-/// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, after every step;
-/// `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
+/// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, as the judge asks: `auto` is
+/// 0.05, or an eighth of the value at the start if that is less, and nothing for more than 200 nodes; `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
 /// of struts whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan.
 /// There is neither gravity nor ground, as in the paper; struts move as fast as their speed allows.
 /// `obstacles` are solids in the world, in which the truss begins where its nodes were declared: struts keep
@@ -2606,7 +2606,7 @@ extern fn morph(
   orientations: Int = 0,
   seed: auto | Int = auto,
   angle: Angle = 0deg,
-  rigidity: Number = 0,
+  rigidity: auto | Number = auto,
   failed: List<Text> = [],
   perimeters: List<List<Text>> = [],
   timeout: Time?,
@@ -2641,7 +2641,12 @@ extern type Travel is Plan {
 /// first length (17), `lengths` changes lengths as little as possible (14, with the motion of nodes beside
 /// it, without which it gets stuck), `restoring` is `lengths` towards the first lengths, `fewest` moves
 /// few struts (the sum of the rates' sizes; slower to plan). `hold` says which nodes on the ground stay
-/// where they are: `three` around the centre of mass, or `all`. Where no step is found, easier ones are
+/// where they are: `all`, or `three` around the centre of mass, while others slide; `auto` is `all`, but
+/// `three` without `impact`. All nodes together slide no farther than `slip`: `auto` is 1 m with `all`, and no
+/// limit with `three`. With `forces`, forces that are in equilibrium at every node, with half the weight of
+/// each of its struts and with friction of 0.8, stay within `max_force`; many paths have no such motion, and
+/// the plan then ends where forces are at their greatest. Without it the verdict tells the least force that the
+/// path needs. Where no step is found, easier ones are
 /// tried, unless `fallbacks` is false: slower, with the centre free to sink, with the other hold, with the
 /// other objective. Without `impact` it does not fall over an edge where it can put a node down beyond it
 /// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`,
@@ -2667,11 +2672,11 @@ extern fn locomote(
   truss: Truss,
   path: List<Vec3<Length>>,
   objective: springs | lengths | restoring | fewest = springs,
-  hold: three | all = three,
+  hold: auto | three | all = auto,
   fallbacks: Bool = true,
   budget: Int = 100_000,
   angle: Angle = 0deg,
-  rigidity: Number = 0,
+  rigidity: auto | Number = auto,
   failed: List<Text> = [],
   perimeters: List<List<Text>> = [],
   timeout: Time?,
@@ -2679,4 +2684,6 @@ extern fn locomote(
   obstacles: List<Shape> = [],
   terrain: Terrain?,
   lookahead: Int = 0,
+  slip: auto | Length = auto,
+  forces: Bool = false,
 ) -> Travel

@@ -83,8 +83,10 @@ fn failure_code(kind: CheckKind) -> Code {
         CheckKind::Form | CheckKind::Momentum => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision | CheckKind::Deflection => code::COLLISION,
-        CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration => code::LIMIT_EXCEEDED,
-        CheckKind::Torque => code::OVERLOAD,
+        CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration | CheckKind::Rigidity => {
+            code::LIMIT_EXCEEDED
+        }
+        CheckKind::Torque | CheckKind::StrutLoad => code::OVERLOAD,
         CheckKind::BondLoad => code::BOND_OVERLOAD,
         CheckKind::Docking => code::DOCK_MISS,
         CheckKind::Connectedness => code::FALLS_APART,

@@ -25,6 +25,9 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The distance that nodes may slide over the ground, summed over all, m, where all that are on it are held.
+const SLIP_MAX: f64 = 1.0;
+
 /// The built-ins `morph` and `locomote`: the key of each with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[
     Native::on_run("morph", MorphArguments::PARAMETERS, morph),
@@ -51,7 +54,9 @@ arguments! {
         truss: &'c Rc<Instance>,
         path: &'c [Value],
         objective: Objective,
-        hold: Hold,
+        hold: WordOr<Auto, Hold>,
+        slip: WordOr<Auto, Positive> as "the greatest slip",
+        forces: bool,
         fallbacks: bool,
         budget: usize as "a budget",
         timeout: Option<Positive> as "a timeout",
@@ -162,9 +167,22 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     };
     let path = arguments.path.iter().map(place).collect::<Eval<Vec<[f64; 2]>>>()?;
     let problem = locomote::Problem { truss, path };
+    // Without impact feet have to slide, or the truss could not leave those behind it.
+    let hold = match arguments.hold {
+        WordOr::Value(hold) => hold,
+        WordOr::Word(Auto) if arguments.impact => Hold::All,
+        WordOr::Word(Auto) => Hold::Three,
+    };
+    let slip_max = match (arguments.slip, hold) {
+        (WordOr::Value(slip), _) => slip.0,
+        (WordOr::Word(Auto), Hold::All) => SLIP_MAX,
+        (WordOr::Word(Auto), Hold::Three) => f64::INFINITY,
+    };
     let settings = locomote::Settings {
         objective: arguments.objective,
-        hold: arguments.hold,
+        hold,
+        slip_max,
+        forces: arguments.forces,
         impact: arguments.impact,
         lookahead: arguments.lookahead,
         fallbacks: arguments.fallbacks,

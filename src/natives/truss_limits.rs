@@ -1,11 +1,12 @@
 //! The limits that a call of `morph` or `locomote` sets beside those of the struts, and the obstacles it names.
 
-use crate::interpret::argument::arguments;
+use crate::geometry::Vec3;
+use crate::interpret::argument::{Auto, WordOr, arguments};
 use crate::interpret::design::TrussDesign;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
-use crate::planners::truss::Limits;
+use crate::planners::truss::{Limits, rigidity_kept};
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, code};
 
@@ -13,7 +14,7 @@ arguments! {
     /// The values of the arguments about limits of a truss's shape, which `morph` and `locomote` share.
     pub(super) struct LimitArguments<'c> {
         angle: f64,
-        rigidity: f64,
+        rigidity: WordOr<Auto, f64>,
         failed: &'c [Value],
         perimeters: &'c [Value],
         obstacles: &'c [Value],
@@ -25,6 +26,7 @@ arguments! {
 /// # Errors
 /// A fault where the truss has no strut of a name, or a strut is named twice.
 pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArguments) -> Eval<Limits> {
+    let nodes: Vec<Vec3> = truss.nodes.iter().map(|node| node.position).collect();
     let mut loops = Vec::new();
     for list in arguments.perimeters {
         let Value::List(list) = list else {
@@ -34,7 +36,11 @@ pub(super) fn limits(call: &Call, truss: &TrussDesign, arguments: &LimitArgument
     }
     Ok(Limits {
         angle: arguments.angle,
-        rigidity: arguments.rigidity,
+        rigidity: match arguments.rigidity {
+            WordOr::Value(rigidity) => rigidity,
+            WordOr::Word(Auto) => rigidity_kept(&nodes, &truss.struts),
+        },
+        forces: None,
         locked: struts(call, "failed", arguments.failed, truss)?,
         loops,
     })

@@ -6,6 +6,9 @@
 //! an order that keeps the envelope small ([`super::cuthill_mckee`]), by the active-set quadratic programs. Small
 //! systems of a size known when compiled are left to nalgebra's own decomposition, which needs no heap.
 
+/// Threshold: the part of its diagonal entry, without unit, below which the sign of a pivot is not trusted.
+const INERTIA_PIVOT: f64 = 1e-12;
+
 /// A symmetric matrix, of which the lower half is stored by rows within an envelope (skyline storage; George and Liu
 /// 1981, sec. 4.2): each row from its first entry that may differ from zero to the diagonal.
 #[derive(Clone, Debug)]
@@ -124,6 +127,40 @@ impl SymmetricMatrix {
             *diagonal = libm::sqrt(rule.accepted(pivot, *diagonal)?);
         }
         Some(Cholesky { lower: self })
+    }
+
+    /// Returns the number of negative pivots of the decomposition `L D Lᵀ`, which is that of negative eigenvalues
+    /// (Sylvester's law of inertia). `None` if a pivot is so small beside its diagonal entry that rounding decides its
+    /// sign.
+    pub fn negative_pivots(mut self) -> Option<usize> {
+        let mut negative = 0;
+        let mut products = Vec::new();
+        for i in 0..self.size() {
+            let (done, rest) = self.values.split_at_mut(self.start[i]);
+            let from = self.first[i];
+            let row = &mut rest[..i + 1 - from];
+            // Rows hold L, `products` holds L D of this one.
+            products.clear();
+            products.extend_from_slice(row);
+            for j in from..i {
+                let other = &done[self.start[j]..self.start[j + 1]];
+                let first = self.first[j];
+                let common = from.max(first);
+                let sum =
+                    self.summation.dot(&products[common - from..j - from], &other[common - first..j - first]);
+                products[j - from] -= sum;
+            }
+            for j in from..i {
+                row[j - from] = products[j - from] / done[self.start[j + 1] - 1];
+            }
+            let pivot = row[i - from] - self.summation.dot(&products[..i - from], &row[..i - from]);
+            if pivot.abs() <= INERTIA_PIVOT * row[i - from].abs() {
+                return None;
+            }
+            negative += usize::from(pivot < 0.0);
+            row[i - from] = pivot;
+        }
+        Some(negative)
     }
 }
 

@@ -14,6 +14,7 @@ mod linear;
 mod active_set;
 mod quadratic;
 
+pub use cholesky::SymmetricMatrix;
 pub use cma_es::CmaEs;
 pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};
 pub use quadratic::QuadraticProgram;

@@ -47,6 +47,10 @@ pub enum CheckKind {
     Traction,
     /// Links that are apart as planned do not meet as servos yield under their loads.
     Deflection,
+    /// A truss stays rigid: no singular value of its rigidity matrix that belongs to no rigid motion gets too small.
+    Rigidity,
+    /// The struts of a truss bear its weight.
+    StrutLoad,
 }
 
 impl CheckKind {
@@ -72,6 +76,8 @@ impl CheckKind {
             CheckKind::Balance => "balance",
             CheckKind::Traction => "traction",
             CheckKind::Deflection => "deflection",
+            CheckKind::Rigidity => "rigidity",
+            CheckKind::StrutLoad => "strut load",
         }
     }
 }
@@ -124,7 +130,7 @@ macro_rules! worst_value {
 
 /// Every worst value of a verdict, in the order in which it is shown. All that prints, compares or rounds worst
 /// values goes through this table.
-pub const WORST_VALUES: [WorstKind; 9] = [
+pub const WORST_VALUES: [WorstKind; 11] = [
     worst_value!(clearance, "clearance", Some("clearance"), Length, false),
     worst_value!(margin, "margin", Some("margin of stability"), Length, false),
     worst_value!(torque_margin, "torque margin", Some("torque margin"), Fraction, false),
@@ -133,6 +139,8 @@ pub const WORST_VALUES: [WorstKind; 9] = [
     worst_value!(impact, "impact", None, Speed, true),
     worst_value!(angle, "angle", Some("angle"), Angle, false),
     worst_value!(rigidity, "rigidity", Some("rigidity"), Number, false),
+    worst_value!(force_margin, "force margin", Some("force margin"), Fraction, false),
+    worst_value!(elastic_margin, "elastic margin", None, Fraction, false),
     worst_value!(slip, "slip", None, Length, true),
 ];
 
@@ -311,6 +319,14 @@ pub struct Verdict {
     /// was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigidity: Option<Worst>,
+    /// The least 1 - force / limit of the struts of a truss, with the best distribution of forces that there is; `None` if
+    /// none was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_margin: Option<Worst>,
+    /// The least 1 - force / limit of the struts of a truss, with the forces of elastic struts that carry none where
+    /// nothing loads them; `None` if none was measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elastic_margin: Option<Worst>,
     /// The displacement of the base over the plan, x, y, z in the world, m; 0 for families without a base.
     pub travel: [f64; 3],
     /// The change of the base's heading, rad, counter-clockwise from above.

@@ -4,7 +4,7 @@
 //! states ([`Assembly`], [`State`]), mass ([`mass`]), forward kinematics ([`Kinematics`]), the geometric Jacobian
 //! ([`jacobian`]), inverse kinematics ([`inverse_kinematics`], and of one [`chain`]), inverse dynamics ([`dynamics`]) and forward dynamics
 //! ([`articulated_bodies`], on [`spatial`] vectors), the isomorphism of two robots ([`matching()`]), embeddings of one in
-//! another ([`embeddings`]), rigidity of trusses ([`truss`]), and files of
+//! another ([`embeddings`]), rigidity of trusses ([`truss`]) and the forces that hold them ([`truss_statics`]), and files of
 //! RoFI modules ([`rofi`]).
 #![allow(non_snake_case)]
 
@@ -34,6 +34,10 @@ mod symmetry;
 
 mod banded_qr;
 pub mod truss;
+mod truss_forces;
+mod truss_layout;
+mod truss_modes;
+pub mod truss_statics;
 
 pub mod rofi;
 pub mod rofi_assembly;

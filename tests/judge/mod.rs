@@ -12,4 +12,5 @@ mod slip_spread;
 pub mod slopes;
 mod snapping;
 pub mod truss_judge;
+mod truss_loads;
 pub mod verify;

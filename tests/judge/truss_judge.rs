@@ -28,11 +28,11 @@ pub fn keyframe(time: f64, interpolation: Interpolation, nodes: &[Place]) -> Key
     Keyframe { time, interpolation, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
 }
 
-fn straight(time: f64, nodes: &[Place]) -> Keyframe {
+pub fn straight(time: f64, nodes: &[Place]) -> Keyframe {
     keyframe(time, Interpolation::Linear, nodes)
 }
 
-fn plan_in(world: World, struts: &[(usize, usize)], keyframes: Vec<Keyframe>) -> Plan {
+pub fn plan_in(world: World, struts: &[(usize, usize)], keyframes: Vec<Keyframe>) -> Plan {
     let names = (0..keyframes[0].nodes.len()).map(|i| format!("n{i}")).collect();
     let paths = NodePaths {
         strut: 0,

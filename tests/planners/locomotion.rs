@@ -5,7 +5,7 @@ use crate::support::properties::whole;
 use crate::support::trusses::{actuator, looked_at, robot, stepping, truth};
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
-use modl::planners::locomote::{End, Objective, Settings, Travel, cost, follow_path};
+use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path};
 use modl::planners::truss::constraint::Constraint;
 use modl::planners::truss::motion::Move;
 use modl::planners::truss::roll::rolled;
@@ -77,7 +77,7 @@ fn nothing_comes_too_near_between_the_samples() {
 /// A node is put down before the centre of mass crosses an edge: nothing falls on the whole way.
 #[test]
 fn it_rolls_without_impact() {
-    let settings = Settings { impact: false, ..stepping(Objective::Springs, 3000) };
+    let settings = Settings { impact: false, hold: Hold::Three, ..stepping(Objective::Springs, 3000) };
     let travel = travelled(&s_path(25.0)[..3], &settings);
     assert_eq!(travel.end, End::Arrived);
     assert_eq!(travel.rolls, 0);

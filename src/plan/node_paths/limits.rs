@@ -28,6 +28,12 @@ impl Surroundings {
     pub fn above(&self, p: Vec3) -> f64 {
         self.terrain.as_ref().map_or(p.z, |terrain| terrain.above(p))
     }
+
+    /// Returns the normal of the ground below a world position (m), a unit vector that points up.
+    pub fn normal(&self, p: Vec3) -> Vec3 {
+        let [a, b] = self.terrain.as_ref().map_or([0.0; 2], |terrain| terrain.slope(p.x, p.y));
+        Vec3::new(-a, -b, 1.0).normalize()
+    }
 }
 
 /// The limits of a truss beside those that every strut has.
@@ -38,12 +44,23 @@ pub struct TrussLimits {
     #[serde(default)]
     pub angle: f64,
     /// The value above which the least singular value of the rigidity matrix (rows of unit vectors) that belongs to
-    /// no rigid motion stays at the keyframes; without unit; 0: no limit.
+    /// no rigid motion stays; without unit; 0: the judge's default limit, 0.05, or an eighth of the value at the start
+    /// if that is less.
     #[serde(default)]
     pub rigidity: f64,
+    /// True if forces that hold the truss at rest on the ground stay within what a strut bears.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub forces: bool,
+    /// The greatest distance that nodes on the ground slide, summed over all, m; 0: no limit.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub slip: f64,
     /// Sums of lengths that stay in a range; a single strut whose length stays is one, too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sums: Vec<LengthSum>,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// The range of a sum of strut lengths: of several struts of one tube, or of a single strut that has failed and keeps

@@ -32,6 +32,7 @@
 //! # Ok::<(), locomote::Refusal>(())
 //! ```
 
+mod detours;
 mod lookahead;
 mod objective;
 mod rollout;
@@ -120,7 +121,8 @@ pub fn plan(
     settings: &Settings,
     progress: &mut dyn Progress,
 ) -> Result<Solution<Report>, Refusal> {
-    let truss = problem.truss.structure(settings.tolerances).map_err(Refusal::Truss)?;
+    let mut truss = problem.truss.structure(settings.tolerances).map_err(Refusal::Truss)?;
+    truss.limits.forces = settings.forces.then(|| problem.truss.weight());
     let start = roll::settled(&truss, &problem.truss.nodes).ok_or(Refusal::NeverRests)?;
     problem.truss.check_start(&truss, &start).map_err(Refusal::Truss)?;
     if problem.path.is_empty() {
@@ -141,7 +143,8 @@ pub fn plan(
         slip: travel.slip,
         end: travel.end,
     };
-    let paths = node_paths(&problem.truss, &truss, &start, &travel.moves, settings.time_law, true);
+    let mut paths = node_paths(&problem.truss, &truss, &start, &travel.moves, settings.time_law, true);
+    paths.limits.slip = if settings.slip_max.is_finite() { settings.slip_max } else { 0.0 };
     Ok(Solution { body: Body::NodePaths(paths), program: None, report })
 }
 

@@ -1,34 +1,30 @@
 //! The rollout of locomotion: the centre of mass along a path, step by step, and over the edge of the
 //! support polygon where it gets there (sections IV.A to IV.C of the paper).
 
-use super::lookahead;
 use super::objective::{Objective, cost};
+use super::{detours, lookahead};
 use crate::geometry::Vec3;
 use crate::planners::Progress;
 use crate::planners::truss::Structure;
 use crate::planners::truss::constraint::Constraint;
 use crate::planners::truss::motion::{Move, TimeLaw};
 use crate::planners::truss::roll::{self, Equilibrium};
-use crate::planners::truss::step::{StepError, StepProblem, WarmStart, step};
-use crate::planners::truss::support_polygon;
+use crate::planners::truss::step::{QuadraticCost, StepError, StepProblem, WarmStart, step};
 use crate::planners::truss::tolerances::Tolerances;
+use crate::planners::truss::{forces, support_polygon};
 
 /// The greatest number of relaxed steps in a row.
 const RELAXED_MAX: usize = 60;
 /// The greatest number of relaxed steps in a row with lookahead, where other policies are known.
 const RELAXED_MAX_LOOKAHEAD: usize = 3;
-/// The number of bisections of a step in which the centre of mass leaves the support polygon: more than a double has
-/// bits.
-const BISECTIONS: usize = 60;
-
 /// The contacts that keep their positions during a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
     /// Three nodes on the ground, those whose triangle holds the centre of mass with the greatest margin; others may
     /// slide or lift off.
-    #[default]
     Three,
     /// All nodes on the ground keep their positions.
+    #[default]
     All,
 }
 
@@ -44,7 +40,7 @@ pub struct Settings {
     /// The cost that each step minimises. Default [`Objective::Springs`], Eq. 17 of [Usevitch et
     /// al.](crate::planners::truss): the most robust.
     pub objective: Objective,
-    /// The contacts that keep their positions during a step. Default [`Hold::Three`].
+    /// The contacts that keep their positions during a step. Default [`Hold::All`]: nothing slides.
     pub hold: Hold,
     /// True if the truss may fall over an edge onto other nodes; false if it places a node beyond the edge first,
     /// where it can, as variable topology trusses roll without impact. Default true, as in [Usevitch et
@@ -58,8 +54,14 @@ pub struct Settings {
     pub lookahead: usize,
     /// True if easier steps are tried where none is found: with a half or a quarter of the stride, with free height of
     /// the centre of mass, with the other choice of [`Hold`], or with the objective [`Objective::Springs`] and the
-    /// whole, half or none of the stride. Default true.
+    /// whole, half or none of the stride; and, where all get stuck, from some steps before with another objective. Default true.
     pub fallbacks: bool,
+    /// True if forces that hold the truss at rest, of struts and of the ground, stay within what a strut bears after every
+    /// step. Default false: many paths have no such motion.
+    pub forces: bool,
+    /// The greatest distance that nodes on the ground slide, summed over all, m; infinite for no limit. Default
+    /// infinite.
+    pub slip_max: f64,
     /// The greatest number of steps. Default 100 000: a distance of five thousand units.
     pub steps_max: usize,
     /// The settings of placing nodes without impact, with the defaults that its fields state.
@@ -90,10 +92,12 @@ impl Default for Settings {
             arrival_distance: 0.25,
             stride: 0.05,
             objective: Objective::Springs,
-            hold: Hold::Three,
+            hold: Hold::All,
             impact: true,
             lookahead: 0,
             fallbacks: true,
+            forces: false,
+            slip_max: f64::INFINITY,
             steps_max: 100_000,
             foothold: Foothold { trigger: 0.1, beyond: 0.2, weight: 100.0, steps_max: 60 },
             time_law: TimeLaw::default(),
@@ -142,6 +146,12 @@ pub struct Travel {
     /// The duration of the motion, s, without rounding steps up to the law's shortest.
     pub duration: f64,
 }
+
+/// The weight of the motion over the ground of a contact that is not held, relative to that of other nodes, where all
+/// are held that can be: it then lifts off rather than slides.
+const ANCHOR: f64 = 100.0;
+/// The height by which such a contact would lift off if nothing else moved it, as a fraction of the stride.
+const LIFT: f64 = 1.0;
 
 /// A relaxation of a step: an easier one that is tried instead.
 struct Relaxation {
@@ -193,7 +203,7 @@ pub fn follow_path(
         x: start.to_vec(),
         warm_start: WarmStart::default(),
         relaxed_in_a_row: 0,
-        allow_fallbacks: settings.lookahead == 0,
+        allow_fallbacks: false,
         place_node_first: false,
         placing: None,
         out_of_reach: Vec::new(),
@@ -202,7 +212,7 @@ pub fn follow_path(
     rollout.travel.end = match rollout.settle() {
         Err(end) => end,
         Ok(()) if settings.lookahead > 0 => return lookahead::search(rollout, &mut monitor).travel,
-        Ok(()) => rollout.advance_steps(usize::MAX, &mut monitor).unwrap_or(End::Steps),
+        Ok(()) => return detours::search(rollout, &mut monitor).travel,
     };
     rollout.travel
 }
@@ -316,7 +326,17 @@ impl Rollout<'_> {
             return self.settle();
         }
         let before = (self.x.clone(), self.travel.moves.len(), self.travel.duration, self.travel.slip);
-        let y = self.next(stride).map_err(End::Stuck)?;
+        let y = match self.next(stride) {
+            Ok(y) => y,
+            Err(error) => {
+                if self.place_node_first || !error.constraints().contains(&Constraint::Force) {
+                    return Err(End::Stuck(error));
+                }
+                self.place_node_first = true;
+                self.warm_start = WarmStart::default();
+                return Ok(());
+            }
+        };
         self.travel.steps += 1;
         self.move_to(y);
         let settled = self.settle();
@@ -394,17 +414,26 @@ impl Rollout<'_> {
         let mut cost = cost(self.policy.objective, self.truss, &self.x, pace);
         cost.hessian.push((3 * node + 2, 3 * node + 2, weight));
         cost.linear[3 * node + 2] += weight * down;
+        let contacts = support_polygon::contacts(self.truss, &self.x);
+        let pinned = match self.settings.hold {
+            Hold::Three => {
+                support_polygon::support_triangle(&self.x, hull, self.truss.centre_of_mass(&self.x))
+            }
+            Hold::All => contacts.clone(),
+        };
+        self.released(&mut cost, &contacts, &pinned);
         let problem = StepProblem {
             truss: self.truss,
             x: &self.x,
             cost: &cost,
-            pinned: &support_polygon::support_triangle(&self.x, hull, self.truss.centre_of_mass(&self.x)),
+            pinned: &pinned,
             centre_of_mass: &[(0, 0.0), (1, 0.0)],
             ground: true,
             displacement_max: f64::INFINITY,
         };
         let y = step(&problem, &mut self.warm_start).ok()?;
-        (self.x[node].z - y[node].z > 0.1 * down).then_some(y)
+        let slides = self.travel.slip + self.slip(&y) > self.settings.slip_max;
+        (!slides && self.x[node].z - y[node].z > 0.1 * down).then_some(y)
     }
 
     /// Returns the positions after the next step, from the first relaxation that has one.
@@ -414,6 +443,14 @@ impl Rollout<'_> {
         let relaxations = if self.settings.fallbacks { &RELAXATIONS[..] } else { &RELAXATIONS[..1] };
         for (index, relaxation) in relaxations.iter().enumerate() {
             match self.attempt(relaxation, stride, &contacts) {
+                // Nodes would slide too far.
+                Ok(y)
+                    if self.travel.slip + self.slip(&support_polygon::standing(self.truss, &self.x, &y))
+                        > self.settings.slip_max =>
+                {
+                    self.warm_start.active.clear();
+                    first.get_or_insert(StepError::NotConverged(Vec::new()));
+                }
                 Ok(y) => {
                     let relaxed = index > 0;
                     self.travel.relaxed_steps += usize::from(relaxed);
@@ -452,10 +489,12 @@ impl Rollout<'_> {
             let rise = self.truss.surroundings.ground_rise([centre.x, centre.y], to, self.truss.unit);
             goal.push((2, rise));
         }
+        let mut cost = cost(objective, self.truss, &self.x, self.stride / self.truss.unit);
+        self.released(&mut cost, contacts, &pinned);
         let problem = StepProblem {
             truss: self.truss,
             x: &self.x,
-            cost: &cost(objective, self.truss, &self.x, self.stride / self.truss.unit),
+            cost: &cost,
             pinned: &pinned,
             centre_of_mass: &goal,
             ground: true,
@@ -464,41 +503,34 @@ impl Rollout<'_> {
         step(&problem, &mut self.warm_start)
     }
 
+    /// Makes contacts that are not held lift off rather than slide, where all are held that can be.
+    fn released(&self, cost: &mut QuadraticCost, contacts: &[usize], pinned: &[usize]) {
+        if self.settings.hold == Hold::Three {
+            return;
+        }
+        for &node in contacts.iter().filter(|node| !pinned.contains(node)) {
+            (0..2).for_each(|k| cost.hessian.push((3 * node + k, 3 * node + k, ANCHOR)));
+            cost.linear[3 * node + 2] -= LIFT * self.stride;
+        }
+    }
+
     /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
     fn move_to(&mut self, y: Vec<Vec3>) {
-        let towards =
-            |fraction: f64| self.x.iter().zip(&y).map(|(p, q)| p + (q - p) * fraction).collect::<Vec<_>>();
-        // Nodes that lift off during the step, or touch down, carry nothing.
-        let before = support_polygon::contacts(self.truss, &self.x);
-        let contacts = |x: &[Vec3]| {
-            let now = support_polygon::contacts(self.truss, x);
-            let stays = |node: &usize| {
-                now.contains(node) && support_polygon::stays_in_contact(self.truss, self.x[*node], x[*node])
-            };
-            before.iter().copied().filter(stays).collect::<Vec<_>>()
-        };
-        let stable = |x: &[Vec3]| {
-            let margin = support_polygon::stability_margin(self.truss, x, &contacts(x));
-            margin.is_some_and(|(inside, _)| inside >= 0.0)
-        };
-        let next = if stable(&y) {
-            y
-        } else {
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..BISECTIONS {
-                let middle = (low + high) / 2.0;
-                if stable(&towards(middle)) { low = middle } else { high = middle }
-            }
-            towards(low)
-        };
-        for node in contacts(&next) {
-            let slid = next[node] - self.x[node];
-            self.travel.slip += libm::hypot(slid.x, slid.y);
-        }
+        let next = support_polygon::standing(self.truss, &self.x, &y);
+        self.travel.slip += self.slip(&next);
         if next != self.x {
             self.push(Move::Linear(next.clone()));
             self.x = next;
         }
+    }
+
+    /// Returns the distance that nodes on the ground slide on the way to `next`, summed over all, m.
+    fn slip(&self, next: &[Vec3]) -> f64 {
+        let slid = |node: usize| {
+            let way = next[node] - self.x[node];
+            libm::hypot(way.x, way.y)
+        };
+        support_polygon::staying(self.truss, &self.x, next).into_iter().map(slid).sum()
     }
 
     /// Adds a move and its duration.
@@ -518,8 +550,12 @@ impl Rollout<'_> {
             if let Some(constraint) = roll::blocked(self.truss, &self.x, roll) {
                 return Err(End::Blocked(constraint));
             }
+            let landed = roll::rolled(&self.x, roll);
+            if !forces::holds(self.truss, &landed) {
+                return Err(End::Blocked(Constraint::Force));
+            }
             self.push(Move::Roll(roll));
-            self.x = roll::rolled(&self.x, roll);
+            self.x = landed;
             // Distances between struts are invariant under a roll; those from the surroundings are not.
             let outer = |constraint: &Constraint| {
                 matches!(

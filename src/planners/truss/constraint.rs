@@ -2,10 +2,12 @@
 //! constraint Jacobian: lengths, distances between struts and from obstacles, heights, angles, sums of
 //! lengths, rigidity.
 
+use super::forces;
 use super::rigidity;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 use crate::geometry::closest_points::{SegmentPair, end_segment, segment_segment};
+use crate::robot::truss_statics::Modes;
 
 /// One inequality constraint g(x) >= 0 on the positions x of the nodes. The numbers are indices in
 /// [`Structure::struts`], from 0, unless said otherwise.
@@ -41,6 +43,8 @@ pub enum Constraint {
     /// The lower limit of a singular value of the rigidity matrix: of the mode i for (i, i), counted from the least;
     /// of two modes together, (i, j) for the sum of their vectors if i < j and for the difference if i > j.
     Rigidity(usize, usize),
+    /// The upper limit of the forces of struts, as they are distributed so that the greatest is least.
+    Force,
 }
 
 /// The number of equal pieces into which the sample points of [`Constraint::StrutHeight`] divide a strut.
@@ -77,9 +81,10 @@ impl Constraint {
             Constraint::LoopMin(index) => truss.loop_length(x, index) - truss.loop_ranges[index].0,
             Constraint::LoopMax(index) => truss.loop_ranges[index].1 - truss.loop_length(x, index),
             Constraint::Rigidity(i, j) => {
-                let modes = rigidity::weakest(truss, x, i.max(j) + 1);
+                let modes = rigidity::weakest(truss, x, i.max(j) + 1, &mut Modes::default());
                 rigidity::joined(&modes, i, j).spare(truss)
             }
+            Constraint::Force => forces::spare(truss, &forces::levelled(truss, x)),
         }
     }
 
@@ -132,9 +137,11 @@ impl Constraint {
                 truss.limits.loops[index].iter().flat_map(ends).collect()
             }
             Constraint::Rigidity(i, j) => {
-                let modes = rigidity::weakest(truss, x, i.max(j) + 1);
+                let modes = rigidity::weakest(truss, x, i.max(j) + 1, &mut Modes::default());
                 rigidity::joined(&modes, i, j).gradient(truss, x)
             }
+            Constraint::Force => forces::levelled(truss, x)
+                .map_or_else(|_| Vec::new(), |found| forces::gradient(truss, x, &found)),
         }
     }
 

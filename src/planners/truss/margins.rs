@@ -7,6 +7,7 @@ use super::structure::Structure;
 use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::plan::Margins;
+use crate::robot::truss_statics::Modes;
 
 /// Returns the least margin of each kind of limit at the positions `x` of the nodes, m, in the unit that [`Margins`]
 /// gives. A margin is `None` for a kind of limit that the truss does not have, and a distance to struts or obstacles
@@ -35,7 +36,7 @@ pub fn margins(truss: &Structure, x: &[Vec3], stands: bool) -> Margins {
         .flat_map(|index| [Constraint::LoopMin(index), Constraint::LoopMax(index)])
         .chain(locked);
     let contacts = if stands { support_polygon::contacts(truss, x) } else { Vec::new() };
-    let modes = (truss.limits.rigidity > 0.0).then(|| rigidity::weakest(truss, x, 1));
+    let modes = (truss.limits.rigidity > 0.0).then(|| rigidity::weakest(truss, x, 1, &mut Modes::default()));
     Margins {
         length: least(&mut lengths.map(value)),
         clearance: least(&mut pairs.iter().map(|&(i, j, _)| value(Constraint::Clearance(i, j))).filter(near)),

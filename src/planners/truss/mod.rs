@@ -12,6 +12,7 @@ pub mod structure;
 pub mod surroundings;
 pub mod tolerances;
 
+pub(super) mod forces;
 mod rigidity;
 
 pub mod margins;
@@ -33,6 +34,7 @@ mod rotation;
 pub mod motion;
 pub mod problem;
 
+pub use rigidity::kept as rigidity_kept;
 pub use structure::{Limits, Structure};
 pub use surroundings::Surroundings;
 pub use tolerances::Tolerances;

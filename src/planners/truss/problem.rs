@@ -8,7 +8,9 @@ use super::surroundings::Surroundings;
 use super::tolerances::Tolerances;
 use crate::geometry::soundness::{EXTENT_MAX, check_placed, in_reach};
 use crate::geometry::{HeightField, Placed, Solid, Unsound, Vec3};
+use crate::plan::World;
 use crate::robot::Strut;
+use crate::robot::truss_statics::{FRICTION, ForceModel};
 use crate::units::{Dimension, quantity};
 use std::f64::consts::FRAC_PI_3;
 use std::fmt;
@@ -166,6 +168,18 @@ impl TrussProblem {
         Ok(truss.with_limits(&self.nodes, self.limits.clone()).with_surroundings(surroundings))
     }
 
+    /// Returns the weights of the nodes, half of each of their struts, and what struts and ground bear, in a world with
+    /// the gravity and friction of the earth.
+    pub fn weight(&self) -> ForceModel {
+        let mut loads = vec![Vec3::zeros(); self.nodes.len()];
+        let half = Vec3::new(0.0, 0.0, -self.strut.mass * World::default().gravity / 2.0);
+        for &(a, b) in &self.struts {
+            loads[a] += half;
+            loads[b] += half;
+        }
+        ForceModel { loads, friction: FRICTION, force_max: self.strut.force, buckling: f64::INFINITY }
+    }
+
     /// Checks graph, positions and limits.
     fn check(&self) -> Result<(), InvalidTruss> {
         if self.node_names.len() != self.nodes.len() || self.struts.is_empty() {
@@ -277,6 +291,7 @@ impl TrussProblem {
                 format!("the sum of perimeter {} changes", k + 1)
             }
             Constraint::Rigidity(..) => "its rigidity is at its least".to_string(),
+            Constraint::Force => "the forces of its struts are at their greatest".to_string(),
         }
     }
 }

@@ -11,13 +11,17 @@ use super::advancement;
 use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
 use super::environment;
+use super::forces;
 use super::rigidity::{self, Mode};
 use super::structure::Structure;
+use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::{QuadraticProgram, Row, Unsolved};
-use std::cell::OnceCell;
+use crate::robot::truss_statics::{Forces, ForcesError, Modes, Weights};
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
+use std::mem;
 
 /// The greatest number of quadratic programs solved for one step.
 const ROUNDS_MAX: usize = 40;
@@ -67,6 +71,14 @@ pub enum StepError {
     NotConverged(Vec<Constraint>),
 }
 
+impl StepError {
+    /// Returns the constraints that had rows in the last quadratic program.
+    pub fn constraints(&self) -> &[Constraint] {
+        let (StepError::Infeasible(constraints) | StepError::NotConverged(constraints)) = self;
+        constraints
+    }
+}
+
 /// The data that one step hands on to the next step of the same truss, so that it needs fewer rounds. The first step
 /// begins with the default.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +87,10 @@ pub struct WarmStart {
     pub active: Vec<Constraint>,
     /// The pairs of struts that may come near; `None` before the first step.
     neighbours: Option<NeighbourList>,
+    /// The least singular values of the rigidity matrix and their vectors.
+    modes: Modes,
+    /// The weights by which the forces of struts are distributed.
+    weights: Weights,
 }
 
 /// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of
@@ -85,11 +101,33 @@ pub struct WarmStart {
 /// # Errors
 /// [`StepError`] if no step is found; the active constraints of `warm_start` then stay as they were.
 pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
+    let columns = columns(problem);
+    let search = Search {
+        modes: mem::take(&mut warm_start.modes).coarse(),
+        weights: mem::take(&mut warm_start.weights),
+    };
+    let search = RefCell::new(search);
+    let forces = OnceCell::new();
+    let cost = with_forces(problem, &search, &forces);
+    let problem = &StepProblem { cost: cost.as_ref().unwrap_or(problem.cost), ..*problem };
+    let mut rows = Rows::new(problem, &columns, search);
+    rows.forces = forces;
+    let found = stepped(problem, &columns, &mut rows, warm_start);
+    let search = rows.search.into_inner();
+    (warm_start.modes, warm_start.weights) = (search.modes, search.weights);
+    found
+}
+
+/// Solves the quadratic program of a step until its solution violates nothing.
+fn stepped(
+    problem: &StepProblem,
+    columns: &[Option<usize>],
+    rows: &mut Rows,
+    warm_start: &mut WarmStart,
+) -> Result<Vec<Vec3>, StepError> {
     let StepProblem { truss, .. } = *problem;
     let tolerances = &truss.tolerances;
-    let columns = columns(problem);
     // Start with rows for the constraints that were nearly active at the end of the last step.
-    let mut rows = Rows::new(problem, &columns);
     for constraint in &warm_start.active {
         rows.add(*constraint, 0.0);
     }
@@ -97,17 +135,17 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
         interrupt::checkpoint();
         // Solve the quadratic program over the rows so far.
         let (y, fraction) = match rows.program.solve() {
-            Ok(u) => displaced(problem, &columns, &u),
+            Ok(u) => displaced(problem, columns, &u),
             Err(Unsolved::Infeasible | Unsolved::Unbounded) => {
                 return Err(StepError::Infeasible(rows.constraints()));
             }
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
         // Check all constraints at the end of the step and during it.
-        let violated = violated(problem, &y, &mut warm_start.neighbours);
+        let violated = violated(problem, &y, &mut warm_start.neighbours, &rows.search);
         if violated.is_empty() {
             let near = |constraint: &Constraint| {
-                matches!(constraint, Constraint::Rigidity(..))
+                matches!(constraint, Constraint::Rigidity(..) | Constraint::Force)
                     || constraint.value(truss, &y) < tolerances.active_band * truss.unit
             };
             warm_start.active = rows.constraints().into_iter().filter(near).collect();
@@ -132,6 +170,15 @@ struct Rows<'a> {
     program: QuadraticProgram,
     known: BTreeMap<Constraint, Asked>,
     modes: OnceCell<Vec<Mode>>,
+    forces: OnceCell<Result<Forces, ForcesError>>,
+    search: RefCell<Search>,
+}
+
+/// The singular values and forces known from positions nearby.
+#[derive(Default)]
+struct Search {
+    modes: Modes,
+    weights: Weights,
 }
 
 /// A constraint in the program; values in m.
@@ -146,7 +193,7 @@ struct Asked {
 
 impl<'a> Rows<'a> {
     /// Makes the program of cost and centre of mass, without rows for constraints.
-    fn new(problem: &'a StepProblem, columns: &'a [Option<usize>]) -> Rows<'a> {
+    fn new(problem: &'a StepProblem, columns: &'a [Option<usize>], search: RefCell<Search>) -> Rows<'a> {
         let StepProblem { truss, cost, .. } = *problem;
         // The cost over the coordinates of free nodes.
         let index = |entry: usize| columns[entry / 3].map(|column| column + entry % 3);
@@ -178,7 +225,15 @@ impl<'a> Rows<'a> {
             let terms = fractions.filter_map(|(column, part)| Some((column.as_ref()? + axis, *part)));
             program.equal((terms.collect(), wanted));
         }
-        Rows { problem, columns, program, known: BTreeMap::new(), modes: OnceCell::new() }
+        Rows {
+            problem,
+            columns,
+            program,
+            known: BTreeMap::new(),
+            modes: OnceCell::new(),
+            forces: OnceCell::new(),
+            search,
+        }
     }
 
     /// Adds a row for a constraint; if there is one, asks it for more than the shortfall, m.
@@ -206,12 +261,21 @@ impl<'a> Rows<'a> {
     /// Returns value and gradient of a constraint at the start of the step; singular values are found once.
     fn linearised(&self, constraint: Constraint) -> (f64, Vec<(usize, Vec3)>) {
         let StepProblem { truss, x, .. } = *self.problem;
-        let Constraint::Rigidity(i, j) = constraint else {
-            return (constraint.value(truss, x), constraint.gradient(truss, x));
-        };
-        let modes = self.modes.get_or_init(|| rigidity::weakest(truss, x, MODES));
-        let mode = rigidity::joined(modes, i, j);
-        (mode.spare(truss), mode.gradient(truss, x))
+        match constraint {
+            Constraint::Rigidity(i, j) => {
+                let modes = self
+                    .modes
+                    .get_or_init(|| rigidity::weakest(truss, x, MODES, &mut self.search.borrow_mut().modes));
+                let mode = rigidity::joined(modes, i, j);
+                (mode.spare(truss), mode.gradient(truss, x))
+            }
+            Constraint::Force => {
+                let found = self.forces.get_or_init(|| begun(self.problem, &self.search));
+                let gradient = found.iter().flat_map(|found| forces::gradient(truss, x, found));
+                (forces::spare(truss, found), gradient.collect())
+            }
+            _ => (constraint.value(truss, x), constraint.gradient(truss, x)),
+        }
     }
 
     /// Adds the rows that a violated constraint brings with it, where its gradient alone misleads.
@@ -260,6 +324,41 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// Returns the cost of a step with motion beside it that makes the greatest force of a strut less; `None` if forces are
+/// not limited, or none hold the truss. `forces`: those at the start, which become known.
+fn with_forces(
+    problem: &StepProblem,
+    search: &RefCell<Search>,
+    forces: &OnceCell<Result<Forces, ForcesError>>,
+) -> Option<QuadraticCost> {
+    let StepProblem { truss, x, cost, ground, .. } = *problem;
+    if truss.limits.forces.is_none() || !ground {
+        return None;
+    }
+    let found = forces.get_or_init(|| begun(problem, search)).as_ref().ok()?;
+    let gradient = forces::gradient(truss, x, found);
+    let free = gradient.iter().filter(|(node, _)| !problem.pinned.contains(node));
+    let steepest = free.map(|(_, g)| g.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    // Near a singular shape the gradient is so steep that the step would lead anywhere.
+    let tolerances = &truss.tolerances;
+    let size = tolerances.force_descent.min(tolerances.force_descent_max / steepest) * truss.unit;
+    let mut cost = cost.clone();
+    for (node, g) in gradient {
+        (0..3).for_each(|k| cost.linear[3 * node + k] -= size * g[k]);
+    }
+    Some(cost)
+}
+
+/// Returns the forces at the start of a step, and levels the weights for the next search.
+fn begun(problem: &StepProblem, search: &RefCell<Search>) -> Result<Forces, ForcesError> {
+    let StepProblem { truss, x, .. } = *problem;
+    let contacts = forces::contacts(truss, x, &support_polygon::contacts(truss, x));
+    let weights = &mut search.borrow_mut().weights;
+    let found = forces::within(truss, x, &contacts, weights);
+    found.iter().for_each(|found| forces::level(truss, x, found, weights));
+    found
+}
+
 /// Returns true if the angle between two struts is so small that their closest points jump from end to end.
 fn nearly_parallel(truss: &Structure, x: &[Vec3], i: usize, j: usize) -> bool {
     let along = |strut: usize| {
@@ -294,6 +393,7 @@ fn violated(
     problem: &StepProblem,
     y: &[Vec3],
     neighbours: &mut Option<NeighbourList>,
+    search: &RefCell<Search>,
 ) -> Vec<(Constraint, f64)> {
     let StepProblem { truss, x, .. } = *problem;
     let margin = truss.tolerances.clearance_margin * truss.unit;
@@ -310,16 +410,26 @@ fn violated(
     let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
     let mut check = |constraint: Constraint, value: f64| {
         if value < -truss.tolerances.rounding * truss.unit {
-            violated.insert(constraint, -value);
+            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
         }
     };
     for constraint in lengths.chain(clearances).chain(heights).chain(angles).chain(loops) {
         check(constraint, constraint.value(truss, y));
     }
+    let mut search = search.borrow_mut();
     if truss.limits.rigidity > 0.0 {
-        for (i, mode) in rigidity::weakest(truss, y, MODES).iter().enumerate() {
-            check(Constraint::Rigidity(i, i), mode.spare(truss));
+        let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
+        for z in [y, &middle[..]].into_iter().filter(|z| rigidity::is_violated(truss, z)) {
+            for (i, mode) in rigidity::weakest(truss, z, MODES, &mut search.modes).iter().enumerate() {
+                check(Constraint::Rigidity(i, i), mode.spare(truss));
+            }
         }
+    }
+    if truss.limits.forces.is_some() && problem.ground {
+        let end = support_polygon::standing(truss, x, y);
+        let contacts = forces::contacts(truss, &end, &support_polygon::staying(truss, x, &end));
+        let found = forces::within(truss, &end, &contacts, &mut search.weights);
+        check(Constraint::Force, forces::spare(truss, &found));
     }
     // Conservative advancement during the step. Uneven ground comes last, once all else holds: of a long
     // step, before its rows are known, its certificate takes long.

@@ -4,6 +4,7 @@ use super::surroundings::Surroundings;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::Strut;
+use crate::robot::truss_statics::{ForceModel, Layout};
 
 /// A truss of linear actuators: its graph, the limits of its struts and of its shape, and its surroundings. The
 /// positions of its nodes are not part of it; functions take them as `x`, m, in the world's frame, one for each node.
@@ -33,6 +34,8 @@ pub struct Structure {
     pub surroundings: Surroundings,
     /// The tolerances of all computations on this truss.
     pub tolerances: Tolerances,
+    /// The envelope of its stiffness matrix.
+    pub layout: Layout,
 }
 
 /// The limits of the shape of a truss beside those that every strut has.
@@ -43,6 +46,9 @@ pub struct Limits {
     /// The lower limit after every step on the smallest singular value of the rigidity matrix (rows of unit vectors)
     /// that belongs to no rigid motion, without unit; 0 for no limit.
     pub rigidity: f64,
+    /// The loads on the nodes and the strength of the struts under which forces have to hold the truss; `None` for no
+    /// limit on forces.
+    pub forces: Option<ForceModel>,
     /// The indices of struts that keep their length at the start: they failed, or have no motor.
     pub locked: Vec<usize>,
     /// The loops: sets of struts (indices) made of one tube or cable; the sum of the lengths of each set stays.
@@ -73,6 +79,7 @@ impl Structure {
             corners: Vec::new(),
             surroundings: Surroundings::default(),
             tolerances: Tolerances::DEFAULT,
+            layout: Layout::new(start.len(), struts),
         }
     }
 

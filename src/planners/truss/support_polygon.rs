@@ -23,6 +23,36 @@ pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: V
     })
 }
 
+/// The number of bisections of a step in which the centre of mass leaves the support polygon: more than a double has
+/// bits.
+const BISECTIONS: usize = 60;
+
+/// Returns the indices of the nodes that stay on the ground while they move linearly from `x` to `y`, m.
+pub(in crate::planners) fn staying(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<usize> {
+    let now = contacts(truss, y);
+    let stays = |node: &usize| now.contains(node) && stays_in_contact(truss, x[*node], y[*node]);
+    contacts(truss, x).into_iter().filter(stays).collect()
+}
+
+/// Returns the positions of the nodes, m, as far on the way from `x` to `y` as the truss is statically stable on the
+/// nodes that stay on the ground till then (by bisection).
+pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec3> {
+    let towards = |fraction: f64| x.iter().zip(y).map(|(p, q)| p + (q - p) * fraction).collect::<Vec<_>>();
+    let stable = |z: &[Vec3]| {
+        let margin = stability_margin(truss, z, &staying(truss, x, z));
+        margin.is_some_and(|(inside, _)| inside >= 0.0)
+    };
+    if stable(y) {
+        return y.to_vec();
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..BISECTIONS {
+        let middle = (low + high) / 2.0;
+        if stable(&towards(middle)) { low = middle } else { high = middle }
+    }
+    towards(low)
+}
+
 /// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above, counter-clockwise,
 /// without nodes on its edges (Andrew's monotone chain). `x`: the positions of the nodes, m; `contacts`: their indices.
 pub(in crate::planners) fn hull(x: &[Vec3], contacts: &[usize]) -> Vec<usize> {

@@ -62,6 +62,11 @@ impl Surroundings {
         Vec3::new(-slope[0], -slope[1], 1.0)
     }
 
+    /// Returns the normal of the ground below a point, a unit vector in the world's frame.
+    pub fn normal(&self, p: Vec3) -> Vec3 {
+        self.height_gradient(p).normalize()
+    }
+
     /// Returns the rise of the ground from one point (x, y) to another, m, each height averaged over a disc of the
     /// given radius, m; 0 without terrain.
     pub fn ground_rise(&self, from: [f64; 2], to: [f64; 2], radius: f64) -> f64 {

@@ -57,6 +57,15 @@ pub struct Tolerances {
     /// The distance beyond the plane of a face, units, up to which nodes lie on it; and six times the volume, cubic
     /// units, up to which tetrahedra are flat. Default 1e-6.
     pub coplanar: f64,
+    /// The least singular value of the rigidity matrix up to which a truss is not rigid, without unit. Default 1e-7:
+    /// rounding.
+    pub not_rigid: f64,
+    /// The descent of the greatest force of a strut, as a part of its limit, that stands in the cost of a step where
+    /// forces are limited: units of displacement for a gradient of 1 per unit. Default 0.65: the median force of walks
+    /// halves.
+    pub force_descent: f64,
+    /// The greatest displacement that this descent asks of a node, units. Default 0.015: a third of a step.
+    pub force_descent_max: f64,
 }
 
 impl Tolerances {
@@ -80,6 +89,9 @@ impl Tolerances {
         liftoff_height: 2e-4,
         roll_clearance_margin: 1e-4,
         coplanar: 1e-6,
+        not_rigid: 1e-7,
+        force_descent: 0.65,
+        force_descent_max: 0.015,
     };
 }
 

@@ -158,9 +158,24 @@ impl Judgement<'_> {
                 time: plan.body.duration(),
                 at: vec![self.paths.node_names[node].clone()],
             });
-            ledger.check(CheckKind::Slip, Status::NotChecked(standing.sliding()));
-            let why = "the forces in the struts are not found";
-            ledger.check(CheckKind::BondLoad, Status::NotChecked(why.into()));
+            self.slip(standing, plan.body.duration(), ledger);
         }
+    }
+
+    /// Checks the distance that all nodes together slide over the ground, m, against the plan's limit.
+    fn slip(&self, standing: &StabilityMonitor, time: f64, ledger: &mut Ledger) {
+        let (slid, limit) = (standing.slid_in_all(), self.paths.limits.slip);
+        if limit == 0.0 {
+            return ledger.check(CheckKind::Slip, Status::NotChecked(standing.sliding()));
+        }
+        if slid > limit + self.tolerances.slip {
+            let [found, wanted] = [slid, limit].map(|way| quantity(way, Dimension::LENGTH));
+            let message =
+                format!("its nodes slide {found} over the ground, all together; the plan keeps {wanted}");
+            let at = vec![self.paths.node_names[standing.slid().1].clone()];
+            let failure = self.failure(CheckKind::Slip, time, at, message);
+            ledger.fail(Failure { value: slid, limit, ..failure });
+        }
+        ledger.check(CheckKind::Slip, Status::Proved);
     }
 }

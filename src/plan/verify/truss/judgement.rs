@@ -7,6 +7,7 @@ use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
 use crate::robot::Strut;
+use crate::robot::truss_statics::Layout;
 
 /// The motion from one keyframe to the next.
 pub(super) struct Step {
@@ -36,6 +37,11 @@ pub(super) struct Judgement<'a> {
     pub strut: &'a Strut,
     /// The obstacles of the plan's surroundings.
     pub obstacles: Vec<Obstacle>,
+    /// The envelope of the matrices of stiffness and rigidity.
+    pub layout: Layout,
+    /// The limit on the least singular value of the rigidity matrix, without unit; 0 for a truss that is not rigid at
+    /// its start.
+    pub rigidity: f64,
     /// The greatest slope of uneven ground, without unit; 0 on flat ground.
     pub steepest: f64,
 }

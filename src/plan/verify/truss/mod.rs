@@ -3,13 +3,15 @@
 //!
 //! Between two keyframes all nodes move on straight lines at one rate, or the truss rolls over an edge as one
 //! rigid body. Of each step the checks are made in this order: lengths of struts and their rates, distances
-//! between struts, distances to obstacles, shape (angles, sums of lengths, rigidity), the ground, and static
-//! stability; last the margins that the plan states at its keyframes. Struts are line segments without thickness
+//! between struts, distances to obstacles, shape (angles, sums of lengths), rigidity, the ground, static
+//! stability, and the forces that hold the truss; last the margins that the plan states at its keyframes. Struts are line segments without thickness
 //! that keep a clearance from each other; half of a strut's mass is at each of its ends.
 
 mod checks;
 mod judgement;
 mod lengths;
+mod loads;
+mod rigidity;
 mod sample_budget;
 mod shape;
 mod stated_margins;
@@ -22,7 +24,10 @@ use super::ledger::Ledger;
 use crate::geometry::{HeightField, Vec3};
 use crate::interrupt;
 use crate::plan::{CheckKind, Interpolation, NodePaths, Plan, Verdict};
+use crate::robot::truss_statics::{Layout, Modes};
 use judgement::{Judgement, Step};
+use loads::LoadMonitor;
+use rigidity::RigidityMonitor;
 use sample_budget::SampleBudget;
 use support::StabilityMonitor;
 use tolerances::Tolerances;
@@ -42,6 +47,8 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         corners,
         strut,
         obstacles: Vec::new(),
+        layout: Layout::new(paths.node_names.len(), &paths.struts),
+        rigidity: paths.limits.rigidity,
         steepest,
     };
     // Checks that do not depend on time: obstacles, corners, node positions at the keyframes.
@@ -58,7 +65,18 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         let last = plan.worlds.partition_point(|w| w.from <= t).max(1) - 1;
         plan.worlds[last].world
     };
+    if judged.rigidity == 0.0 {
+        let (start, _) = rigidity::weakest(paths, &judged.layout, &places[0], &mut Modes::default());
+        let Tolerances { rigidity_limit, rigidity_part, .. } = judged.tolerances;
+        judged.rigidity = if start > judged.tolerances.stated_margin {
+            rigidity_limit.min(rigidity_part * start)
+        } else {
+            0.0
+        };
+    }
     let mut standing = StabilityMonitor::new(&judged);
+    let mut stiff = RigidityMonitor::new(&judged);
+    let mut loads = LoadMonitor::new(&judged);
     // The start.
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
@@ -78,10 +96,16 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         judged.distances(&step, &mut ledger);
         judged.obstacles(&step, &mut ledger);
         judged.shape(&step, &mut ledger);
+        stiff.step(&step, i, &mut ledger);
         if world.has_floor() {
             judged.ground(&step, &mut ledger);
             if world.gravity > 0.0 {
+                let stood = ledger.verdict.failures.len();
                 standing.step(&step, &mut ledger);
+                // Forces are of no interest where it topples.
+                if ledger.verdict.failures.len() == stood {
+                    loads.step(&step, i, world, &standing, &mut ledger);
+                }
             }
         }
         // Only gravity on a ground makes a truss roll.
@@ -101,5 +125,9 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
         }
     }
     judged.summary(&places, &standing, plan, &mut ledger);
+    ledger.check(CheckKind::Rigidity, stiff.status());
+    if loads.samples > 0 {
+        ledger.check(CheckKind::StrutLoad, loads.status());
+    }
     ledger.finish()
 }

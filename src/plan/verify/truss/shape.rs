@@ -1,24 +1,17 @@
-//! The limits of a truss beside those of its struts: angles between struts that share a node, sums of lengths, and
-//! the rigidity that is left.
+//! The limits of a truss beside those of its struts: angles between struts that share a node, and sums of lengths.
 //!
-//! Angles (by conservative advancement) and sums (by bisection) are proved between the keyframes; rigidity is
-//! sampled at the keyframes.
+//! Angles (by conservative advancement) and sums (by bisection) are proved between the keyframes.
 
 use super::judgement::{Judgement, Step};
 use super::lengths;
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Failure, Interpolation, LengthSum, NodePaths};
-use crate::units::number;
 use crate::units::{Dimension, quantity};
-use nalgebra::DMatrix;
-
-/// The number of singular values that belong to rigid motions of the whole truss.
-const RIGID_MOTIONS: usize = 6;
 
 impl Judgement<'_> {
     /// Checks, against the limits of the plan, the angles between struts at their nodes and the sums of lengths on a
-    /// step, and the rigidity at its ends; a rigid roll changes none of them.
+    /// step; a rigid roll changes none of them.
     pub(super) fn shape(&self, step: &Step, ledger: &mut Ledger) {
         if step.interpolation != Interpolation::Linear {
             return;
@@ -28,12 +21,6 @@ impl Judgement<'_> {
         }
         for sum in &self.paths.limits.sums {
             self.sum(step, sum, ledger);
-        }
-        if self.paths.limits.rigidity > 0.0 {
-            if step.start == 0.0 {
-                self.rigidity(&step.from, 0.0, ledger);
-            }
-            self.rigidity(&step.to, step.start + step.duration, ledger);
         }
     }
 
@@ -144,41 +131,6 @@ impl Judgement<'_> {
         let limit = if length < sum.range.0 { sum.range.0 } else { sum.range.1 };
         ledger.fail(Failure { value: length, limit, ..failure });
     }
-
-    /// Checks the least singular value of the rigidity matrix at an instant.
-    fn rigidity(&self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
-        let limit = self.paths.limits.rigidity;
-        let weakest = weakest(self.paths, x);
-        keep_least(&mut ledger.verdict.rigidity, weakest, time, Vec::new);
-        if weakest < limit - self.tolerances.rigidity {
-            let message = format!(
-                "the truss is near to losing its rigidity: a singular value of {}; the plan keeps {}",
-                number(weakest),
-                number(limit)
-            );
-            let failure = self.failure(CheckKind::JointRange, time, vec![], message);
-            ledger.fail(Failure { value: weakest, limit, ..failure });
-        }
-    }
-}
-
-/// Returns the seventh singular value of the rigidity matrix, in ascending order: the least that does not belong to
-/// one of the six rigid motions of the whole truss. `x`: the positions of the nodes, m. Rows are unit vectors along
-/// the struts, so it has no unit; 0 if the truss is not rigid, and for nodes on one line.
-pub(super) fn weakest(paths: &NodePaths, x: &[Vec3]) -> f64 {
-    let struts = &paths.struts;
-    let mut matrix = DMatrix::<f64>::zeros(struts.len(), 3 * x.len());
-    for (row, &(a, b)) in struts.iter().enumerate() {
-        let along = (x[a] - x[b]).normalize();
-        for k in 0..3 {
-            matrix[(row, 3 * a + k)] = along[k];
-            matrix[(row, 3 * b + k)] = -along[k];
-        }
-    }
-    let mut squares: Vec<f64> =
-        (matrix.transpose() * &matrix).symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_by(f64::total_cmp);
-    squares.get(RIGID_MOTIONS).map_or(0.0, |square| square.max(0.0).sqrt())
 }
 
 /// A pair of struts that share a node.

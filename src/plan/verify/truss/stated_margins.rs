@@ -2,10 +2,11 @@
 
 use super::judgement::{Judgement, Step};
 use super::support::{StabilityMonitor, centre};
-use super::{shape, strut_distance};
+use super::{rigidity, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
 use crate::plan::{CheckKind, Failure, Interpolation, Margins};
+use crate::robot::truss_statics::Modes;
 use crate::units::number;
 
 impl Judgement<'_> {
@@ -19,7 +20,7 @@ impl Judgement<'_> {
         time: f64,
         standing: &StabilityMonitor,
     ) -> Option<Failure> {
-        let Margins { length, clearance, obstacle, support, angle, rigidity, sum } = *stated;
+        let Margins { length, clearance, obstacle, support, angle, rigidity: stiff, sum } = *stated;
         let found = |stated: Option<f64>, found: &dyn Fn() -> Option<f64>, what: &'static str| {
             let stated = stated?;
             let found = found().unwrap_or(f64::INFINITY);
@@ -59,7 +60,10 @@ impl Judgement<'_> {
             let angles = self.corners.iter().map(|corner| corner.angle(x) - self.paths.limits.angle);
             angles.reduce(f64::min)
         };
-        let weakest = || Some(shape::weakest(self.paths, x) - self.paths.limits.rigidity);
+        let weakest = || {
+            let (least, _) = rigidity::weakest(self.paths, &self.layout, x, &mut Modes::default());
+            Some(least - self.paths.limits.rigidity)
+        };
         let sums = || {
             let one = |sum: &crate::plan::LengthSum| {
                 let length: f64 = sum.struts.iter().map(|&strut| self.length(x, strut)).sum();
@@ -73,7 +77,7 @@ impl Judgement<'_> {
             .or_else(|| found(obstacle, &beside, "beside obstacles"))
             .or_else(|| found(support, &inside, "of the support"))
             .or_else(|| found(angle, &angles, "of angles"))
-            .or_else(|| found(rigidity, &weakest, "of rigidity"))
+            .or_else(|| found(stiff, &weakest, "of rigidity"))
             .or_else(|| found(sum, &sums, "of sums of lengths"))?;
         let message =
             format!("the plan states a margin {what} of {}; it is {}", number(stated), number(found));

@@ -76,6 +76,11 @@ impl<'a> StabilityMonitor<'a> {
         self.slid.iter().enumerate().fold((0.0, 0), most)
     }
 
+    /// Returns the distance that all nodes together slid over the ground so far, m.
+    pub(super) fn slid_in_all(&self) -> f64 {
+        self.slid.iter().sum()
+    }
+
     /// Returns in words that sliding is not judged, and the friction that the steepest slope under a foot takes.
     pub(super) fn sliding(&self) -> String {
         let words = "nodes may slide on the ground";
@@ -95,7 +100,7 @@ impl<'a> StabilityMonitor<'a> {
     }
 
     /// Returns true if a node is on the ground during the whole step.
-    fn stays_down(&self, step: &Step, node: usize) -> bool {
+    pub(super) fn stays_down(&self, step: &Step, node: usize) -> bool {
         let (from, to) = (step.from[node], step.to[node]);
         let mut stays = self.touches(from) && self.touches(to);
         if let Some(terrain) =

@@ -14,8 +14,23 @@ pub(super) struct Tolerances {
     /// The excess of a sum of lengths over its range that is not a failure, m. Default 1e-9 m: rounding.
     pub length_sum: f64,
     /// The lack of the least singular value of the rigidity matrix, as the plan's limit counts it, that is not a
-    /// failure; without unit. Default 1e-9: rounding.
+    /// failure; without unit. Default 1e-7: that of its iteration.
     pub rigidity: f64,
+    /// The least singular value of the rigidity matrix that a truss keeps if its plan states none, without unit. Default
+    /// 0.05: a tenth of that of regular trusses of some dozens of struts, below which a load of one strut's weight turns
+    /// into forces of twenty.
+    pub rigidity_limit: f64,
+    /// The part of the least singular value at the start that is the limit if that is less. Default an eighth: large
+    /// trusses are soft by their size.
+    pub rigidity_part: f64,
+    /// The excess of a strut's force over its limit, as a part of it, that is not a failure. Default 1e-4: that of the
+    /// linear program's solution.
+    pub load: f64,
+    /// The residual of equilibrium at a node, as a part of the whole weight, up to which forces are in equilibrium.
+    /// Default 1e-4: what the solver reaches at worst, ten grams of a truss of 100 kg.
+    pub balance: f64,
+    /// The sum of squared sines below which the struts of a node lie in one plane. Default 1e-12: rounding.
+    pub flat: f64,
     /// The lack of the clearance between two struts that is not a failure, m. Default 1e-9 m: rounding, since
     /// distances of segments are computed in closed form.
     pub strut_distance: f64,
@@ -39,6 +54,8 @@ pub(super) struct Tolerances {
     /// The distance between a node after a rigid roll and where the plan has it that is not a failure, m. Default 1e-6
     /// m: the plan's angle and coordinates are rounded separately.
     pub roll: f64,
+    /// The excess of the sum of what nodes slide over its limit that is not a failure, m. Default 1e-6 m: rounding.
+    pub slip: f64,
     /// The difference between a margin that the plan states and the margin found that is not a failure, in the
     /// margin's unit (m, rad or none). Default 1e-7: rounding of the singular values of large trusses.
     pub stated_margin: f64,
@@ -51,7 +68,12 @@ impl Default for Tolerances {
             rate: 1e-9,
             angle: 1e-9,
             length_sum: 1e-9,
-            rigidity: 1e-9,
+            rigidity: 1e-7,
+            rigidity_limit: 0.05,
+            rigidity_part: 0.125,
+            load: 1e-4,
+            balance: 1e-4,
+            flat: 1e-12,
             strut_distance: 1e-9,
             obstacle_distance: 2e-9,
             flat_ground: 1e-9,
@@ -60,6 +82,7 @@ impl Default for Tolerances {
             support_margin: 1e-5,
             support_width: 1e-6,
             roll: 1e-6,
+            slip: 1e-6,
             stated_margin: 1e-7,
         }
     }

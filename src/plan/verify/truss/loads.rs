@@ -1,0 +1,272 @@
+//! The forces in struts and contacts that hold a truss under its weight: the best distribution that there is, and the
+//! elastic one.
+//!
+//! Statics at the ends and in the middle of every linear step, on the nodes that stay on the ground all the way of it.
+//! Forces are in equilibrium at every node with half the weight of each of its struts; contacts push, within a pyramid
+//! inside the friction cone. *The best distribution* is the one whose greatest force, as a part of what a strut bears,
+//! is least, over all self-stresses that the motors may give the truss: a linear program (LP), which is solved where a
+//! bound does not decide, and whose solution is checked again here. *The elastic distribution* is that of struts as
+//! stiff as they are short, without stress when nothing pulls, on ground as stiff as a strut.
+
+use super::judgement::{Judgement, Step};
+use super::support::StabilityMonitor;
+use crate::geometry::Vec3;
+use crate::optimize::{LinearProgram, Row, solve_linear_program};
+use crate::plan::verify::ledger::{Ledger, keep_least};
+use crate::plan::{CheckKind, Failure, Interpolation, Status, World};
+use crate::robot::truss_statics::{Contact, FRICTION, ForceModel, Weights};
+use crate::units::{Dimension, quantity};
+
+/// The fractions of a step at which forces are looked for.
+const PARTS: [f64; 3] = [0.0, 0.5, 1.0];
+/// The number of edges of the pyramid inside a friction cone.
+const EDGES: usize = 8;
+/// The number of times that the weights of struts are levelled before the LP is asked.
+const LEVELLINGS: usize = 6;
+/// The number of nodes above which only some keyframes are looked at.
+const NODES_ALL: usize = 200;
+/// The number of keyframes of a larger truss that are looked at.
+const KEYFRAMES_LARGE: usize = 10;
+
+/// The monitor of the forces that hold a truss from step to step.
+pub(super) struct LoadMonitor<'a> {
+    judgement: &'a Judgement<'a>,
+    /// The weights of struts for the best distribution, which go on from one instant to the next.
+    weights: Weights,
+    /// The instants looked at.
+    pub samples: usize,
+    /// The greatest of the least greatest forces so far, as a part of what the strut bears.
+    worst: f64,
+}
+
+/// Forces that hold a truss, found by the LP.
+struct Best {
+    /// The greatest force of a strut as a part of what it bears.
+    ratio: f64,
+    /// The strut of that force.
+    strut: usize,
+    /// The greatest force, N.
+    force: f64,
+}
+
+impl<'a> LoadMonitor<'a> {
+    /// Returns a monitor before the first step.
+    pub(super) fn new(judgement: &'a Judgement<'a>) -> LoadMonitor<'a> {
+        LoadMonitor { judgement, weights: Weights::default(), samples: 0, worst: 0.0 }
+    }
+
+    /// Judges the forces during the step to the keyframe of this index, and records failures and the least margins; of
+    /// rolls, which are falls, nothing is judged.
+    pub(super) fn step(
+        &mut self,
+        step: &Step,
+        keyframe: usize,
+        world: World,
+        standing: &StabilityMonitor,
+        ledger: &mut Ledger,
+    ) {
+        if step.interpolation != Interpolation::Linear || !looked_at(self.judgement, keyframe) {
+            return;
+        }
+        let paths = self.judgement.paths;
+        let feet: Vec<usize> = (0..step.from.len()).filter(|&n| standing.stays_down(step, n)).collect();
+        let model = self.model(world);
+        for part in PARTS {
+            let x: Vec<Vec3> = step.from.iter().zip(&step.to).map(|(p, q)| p + (q - p) * part).collect();
+            let normal = |node: usize| paths.surroundings.normal(x[node]);
+            let contacts: Vec<Contact> =
+                feet.iter().map(|&node| Contact { node, normal: normal(node) }).collect();
+            let time = step.start + part * step.duration;
+            self.samples += 1;
+            if !self.instant(&x, &contacts, &model, time, ledger) {
+                return;
+            }
+        }
+    }
+
+    /// Judges the forces at an instant. Returns false if none hold the truss.
+    fn instant(
+        &mut self,
+        x: &[Vec3],
+        contacts: &[Contact],
+        model: &ForceModel,
+        time: f64,
+        ledger: &mut Ledger,
+    ) -> bool {
+        let Judgement { paths, layout, strut: kind, .. } = self.judgement;
+        let length = |strut: usize| {
+            let (a, b) = paths.struts[strut];
+            (x[a] - x[b]).norm()
+        };
+        let name = |strut: usize| vec![self.judgement.strut_name(strut)];
+        // The elastic distribution.
+        let mut elastic = Weights::default();
+        elastic.struts = (0..paths.struts.len()).map(|strut| length(strut) / kind.length.1).collect();
+        if let Ok(found) = elastic.forces(layout, x, &paths.struts, contacts, model) {
+            keep_least(&mut ledger.verdict.elastic_margin, 1.0 - found.ratio, time, || name(found.strut));
+        }
+        // An upper bound on the least greatest force; what is no worse than what is known needs no LP.
+        let mut bound = f64::INFINITY;
+        for _ in 0..LEVELLINGS {
+            let Ok(found) = self.weights.forces(layout, x, &paths.struts, contacts, model) else {
+                self.weights = Weights::default();
+                break;
+            };
+            bound = bound.min(found.ratio);
+            if bound <= self.worst {
+                return true;
+            }
+            self.weights.levelled(&found, length, model);
+        }
+        let Some(best) = best(&paths.struts, x, contacts, (model, self.judgement.tolerances.balance)) else {
+            let feet = contacts.iter().map(|contact| paths.node_names[contact.node].clone()).collect();
+            let (node, names) = self.without_hold(x);
+            let message = match node {
+                Some(name) => {
+                    format!("no forces, of any size, hold the node {name}: its struts lie in one plane")
+                }
+                None => format!(
+                    "no forces of its struts and of the ground hold it, with a friction of {}",
+                    model.friction
+                ),
+            };
+            let at = if names.is_empty() { feet } else { names };
+            ledger.fail(self.judgement.failure(CheckKind::Stability, time, at, message));
+            return false;
+        };
+        self.worst = self.worst.max(best.ratio);
+        keep_least(&mut ledger.verdict.force_margin, 1.0 - best.ratio, time, || name(best.strut));
+        if best.ratio > 1.0 + self.judgement.tolerances.load && paths.limits.forces {
+            let [force, limit] = [best.force.abs(), best.force.abs() / best.ratio]
+                .map(|force| quantity(force, Dimension::FORCE));
+            let message = format!(
+                "the strut {} would bear {force}, however forces are distributed; a {} bears {limit}",
+                self.judgement.strut_name(best.strut),
+                kind.name
+            );
+            let failure = self.judgement.failure(CheckKind::StrutLoad, time, name(best.strut), message);
+            ledger.fail(Failure { value: best.ratio, limit: 1.0, ..failure });
+        }
+        true
+    }
+
+    /// Returns a node in the air whose struts lie in one plane, or on one line, with its name; none if there is none.
+    fn without_hold(&self, x: &[Vec3]) -> (Option<String>, Vec<String>) {
+        let paths = self.judgement.paths;
+        let flat = |node: &usize| {
+            let along = paths.struts.iter().filter_map(|&(a, b)| {
+                let other = if a == *node {
+                    b
+                } else if b == *node {
+                    a
+                } else {
+                    return None;
+                };
+                Some((x[other] - x[*node]).normalize())
+            });
+            let matrix = along.fold(nalgebra::Matrix3::zeros(), |sum, e| sum + e * e.transpose());
+            let least = matrix.symmetric_eigenvalues().min();
+            least < self.judgement.tolerances.flat
+        };
+        let found =
+            (0..x.len()).filter(|n| x[*n].z > 0.0).find(flat).map(|node| paths.node_names[node].clone());
+        (found.clone(), found.into_iter().collect())
+    }
+
+    /// Returns what the truss is made of in a world.
+    pub(super) fn model(&self, world: World) -> ForceModel {
+        let Judgement { paths, strut, .. } = self.judgement;
+        let mut loads = vec![Vec3::zeros(); paths.node_names.len()];
+        let half = Vec3::new(0.0, 0.0, -strut.mass * world.gravity / 2.0);
+        for &(a, b) in &paths.struts {
+            loads[a] += half;
+            loads[b] += half;
+        }
+        let friction = FRICTION * world.friction;
+        ForceModel { loads, friction, force_max: strut.force, buckling: f64::INFINITY }
+    }
+
+    /// Returns the status of the check of forces: that it was sampled, or why it was not made, with the least force that
+    /// the path needs.
+    pub(super) fn status(&self) -> Status {
+        let Judgement { paths, strut, .. } = self.judgement;
+        if paths.limits.forces || self.worst <= 1.0 {
+            return Status::Sampled(self.samples);
+        }
+        let [needed, has] = [self.worst * strut.force, strut.force].map(|f| quantity(f, Dimension::FORCE));
+        Status::NotChecked(format!(
+            "the plan does not keep it: its struts need {needed} at best, and a {} bears {has}",
+            strut.name
+        ))
+    }
+}
+
+/// Returns true if a step to the keyframe of this index is looked at: all of small trusses, some of large ones.
+pub(super) fn looked_at(judgement: &Judgement, keyframe: usize) -> bool {
+    let count = judgement.paths.keyframes.len();
+    let every = count.div_ceil(KEYFRAMES_LARGE).max(1);
+    judgement.paths.node_names.len() <= NODES_ALL || keyframe % every == 0 || keyframe + 1 == count
+}
+
+/// Returns the distribution of forces whose greatest, as a part of what a strut bears, is least, in equilibrium and
+/// within the friction pyramids, as checked here to `balance`, a part of the whole load; `None` if there is none. Forces of
+/// the LP are in parts of the whole load.
+fn best(
+    struts: &[(usize, usize)],
+    x: &[Vec3],
+    contacts: &[Contact],
+    (model, balance): (&ForceModel, f64),
+) -> Option<Best> {
+    let whole: f64 = model.loads.iter().map(Vec3::norm).sum();
+    let greatest = struts.len() + EDGES * contacts.len();
+    let mut rows: Vec<Row> =
+        model.loads.iter().flat_map(|load| (0..3).map(move |k| (Vec::new(), -load[k] / whole))).collect();
+    let mut lengths = Vec::with_capacity(struts.len());
+    for (strut, &(a, b)) in struts.iter().enumerate() {
+        let d = x[b] - x[a];
+        lengths.push(d.norm());
+        for k in 0..3 {
+            rows[3 * a + k].0.push((strut, d[k] / d.norm()));
+            rows[3 * b + k].0.push((strut, -d[k] / d.norm()));
+        }
+    }
+    let directions: Vec<Vec3> =
+        contacts.iter().flat_map(|contact| pyramid(contact, model.friction)).collect();
+    for (edge, direction) in directions.iter().enumerate() {
+        let node = contacts[edge / EDGES].node;
+        (0..3).for_each(|k| rows[3 * node + k].0.push((struts.len() + edge, direction[k])));
+    }
+    let mut problem = LinearProgram { costs: vec![0.0; greatest + 1], ..LinearProgram::default() };
+    problem.costs[greatest] = 1.0;
+    problem.equal = rows;
+    for (strut, &length) in lengths.iter().enumerate() {
+        let (pull, push) = model.limits(length);
+        problem.at_most.push((vec![(strut, whole / pull), (greatest, -1.0)], 0.0));
+        problem.at_most.push((vec![(strut, -whole / push), (greatest, -1.0)], 0.0));
+    }
+    problem.at_most.extend((struts.len()..greatest).map(|at| (vec![(at, -1.0)], 0.0)));
+    let found = solve_linear_program(&problem).ok()?.x;
+    // The check: pushes of contacts are made what they may be, then equilibrium is looked at.
+    let value = |at: usize| if at < struts.len() { found[at] } else { found[at].max(0.0) };
+    let rest = |(terms, right): &Row| terms.iter().map(|&(at, part)| part * value(at)).sum::<f64>() - right;
+    let off = problem.equal.iter().map(|row| rest(row).abs()).fold(0.0, f64::max);
+    if off > balance {
+        return None;
+    }
+    let ratios =
+        lengths.iter().enumerate().map(|(strut, &length)| (model.ratio(found[strut] * whole, length), strut));
+    let (ratio, strut) = ratios.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(Best { ratio, strut, force: found[strut] * whole })
+}
+
+/// Returns the edges of a pyramid inside the friction cone of a contact.
+fn pyramid(contact: &Contact, friction: f64) -> impl Iterator<Item = Vec3> {
+    let normal = contact.normal;
+    let across = if normal.x.abs() < 0.5 { Vec3::x() } else { Vec3::y() };
+    let u = normal.cross(&across).normalize();
+    let v = normal.cross(&u);
+    (0..EDGES).map(move |edge| {
+        let (sine, cosine) = libm::sincos(std::f64::consts::TAU * edge as f64 / EDGES as f64);
+        normal + (u * cosine + v * sine) * friction
+    })
+}

@@ -1,0 +1,9 @@
+//! Statics of trusses: the stiffness matrix of a truss, the least singular values of its rigidity matrix, and the
+//! forces in struts and contacts that hold it under its weight.
+//!
+//! Struts are pin-jointed bars; a positive force is tension. The sparse matrices of all of them have the same envelope
+//! ([`Layout`]), which is found once for a truss.
+
+pub use super::truss_forces::{Contact, FRICTION, ForceModel, Forces, ForcesError, Weights};
+pub use super::truss_layout::Layout;
+pub use super::truss_modes::{Mode, Modes, below};
