@@ -205,7 +205,7 @@ impl<'a> LoadMonitor<'a> {
 pub(super) fn looked_at(judgement: &Judgement, keyframe: usize) -> bool {
     let count = judgement.paths.keyframes.len();
     let every = count.div_ceil(KEYFRAMES_LARGE).max(1);
-    judgement.paths.node_names.len() <= NODES_ALL || keyframe % every == 0 || keyframe + 1 == count
+    judgement.paths.node_names.len() <= NODES_ALL || keyframe.is_multiple_of(every) || keyframe + 1 == count
 }
 
 /// Returns the distribution of forces whose greatest, as a part of what a strut bears, is least, in equilibrium and
