@@ -42,6 +42,7 @@ pub mod natives;
 pub mod execute;
 
 pub mod document;
+pub mod language_server;
 pub mod session;
 
 pub mod cli;

@@ -3,6 +3,7 @@
 mod behavior;
 mod desk;
 mod dynamics;
+mod editor;
 mod exchange;
 mod house;
 mod judge;

@@ -89,6 +89,16 @@ pub(super) enum Command {
         #[arg(long)]
         test: bool,
     },
+    /// Serve an editor with diagnostics, completion and documentation
+    #[command(
+        after_help = "Speaks the Language Server Protocol on standard input and output: an editor starts it.\n\
+        docs/editors.md says how Neovim, Helix and others are told."
+    )]
+    Lsp {
+        /// Standard input and output, as some editors say; there is no other way
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Judge plan files again, from nothing but the files
     #[command(after_help = "Prints every check with its status, and the worst values found.\n\n\
         Example:\n  modl verify out/walkbot.plan.json")]

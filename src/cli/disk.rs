@@ -52,6 +52,11 @@ impl Project {
         })
     }
 
+    /// Returns the root of the project: absolute, without links.
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
     /// Returns the path of an existing folder or file relative to the project's root; `None` if it is not below the
     /// root.
     pub(super) fn path_below(&self, path: &Path) -> Option<String> {

@@ -16,6 +16,7 @@ mod fmt;
 mod folders;
 mod import;
 mod judge;
+mod lsp;
 mod manifest;
 mod new;
 mod output;
@@ -196,6 +197,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
         Command::Repl { file, .. } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),
+        Command::Lsp { .. } => lsp::run(globals),
         Command::New { name } => new::run(name, globals),
         Command::Explain { code } => explain::run(code.as_deref(), globals),
         Command::Completions { shell, .. } => {

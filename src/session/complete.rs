@@ -10,7 +10,7 @@ pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
 use super::state::{Session, is_given, value_type};
 use crate::check::summary::{param_text, params_of, type_params};
-use crate::check::typed::Param;
+use crate::check::typed::{DefId, Param};
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::{FileId, Files, Symbol, library};
 use crate::syntax::{self, CONFIG, ITEMS, MODULE, Outline, RESERVED, STATEMENTS, TRUSS, TokenKind, ast};
@@ -24,6 +24,51 @@ pub struct Knowledge {
     entries: Vec<Entry>,
     checked: Arc<Checked>,
     last: Option<Symbol>,
+}
+
+impl Knowledge {
+    /// Returns what completion needs to know of a program in a file, whose text is given.
+    pub(crate) fn of_program(files: Arc<FileSnapshot>, checked: Arc<Checked>, text: &str) -> Knowledge {
+        let entry =
+            Entry { name: "<program>".into(), text: text.to_owned(), first_line: 1, value: None, last: None };
+        Knowledge { files, entries: vec![entry], checked, last: None }
+    }
+
+    /// Returns the declaration of the type of the expression that ends a text: of an instance or a record. `None` for a value of
+    /// another type, and where no expression ends.
+    pub(crate) fn declaration_before(&self, text: &str) -> Option<DefId> {
+        let (_, ty) = type_of(self, &substituted(receiver(text)?, text));
+        match ty? {
+            Type::Instance(id) | Type::Record(id) => Some(id),
+            _ => None,
+        }
+    }
+}
+
+/// The parameters of a call that is being typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Signature {
+    /// The function, as it was written.
+    pub callee: String,
+    /// The parameters as they are written: `n: Int`.
+    pub parameters: Vec<String>,
+    /// The index of the parameter that the argument being typed is for.
+    pub active: usize,
+}
+
+/// Returns the parameters of the call in which a text ends; `None` outside of a call, and for an unknown function.
+pub(crate) fn signature(knowledge: &Knowledge, before: &str) -> Option<Signature> {
+    let open = open_call(before)?;
+    let callee = receiver(&before[..open])?.to_owned();
+    let (checked, params, inside) = call_at(knowledge, before)?;
+    let given = arguments(inside);
+    let last = given.last().map_or("", |argument| argument.trim_start());
+    let by_name = params.iter().position(|param| {
+        last.strip_prefix(param.name.as_str()).is_some_and(|rest| rest.trim_start().starts_with(':'))
+    });
+    let by_place = given.len().saturating_sub(1).min(params.len().saturating_sub(1));
+    let parameters = params.iter().map(|param| param_text(&checked.program, &[], param)).collect();
+    Some(Signature { callee, parameters, active: by_name.unwrap_or(by_place) })
 }
 
 /// The candidates for completing a text at an offset.

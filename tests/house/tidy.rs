@@ -48,9 +48,10 @@ const ROOMS: &[Room] = &[
     room("execute", &["display", "interrupt"], &["units", "geometry", "plan", "planners"]),
     room("document", &["execute", "syntax"], &["elaborate", "natives", "display"]),
     room("session", &["execute", "format", "units"], &["interrupt", "elaborate", "natives", "display"]),
+    room("language_server", &["interrupt", "session"], &["units"]),
     room(
         "cli",
-        &["session", "document", "simulate", "view", "behavior", "exchange"],
+        &["language_server", "session", "document", "simulate", "view", "behavior", "exchange"],
         &["syntax", "geometry", "robot"],
     ),
 ];
@@ -112,7 +113,12 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("strsim", &["source"]),
     ("pulldown_cmark", &["document"]),
     ("rustyline", &["cli"]),
-    ("serde_json", &["source", "formats", "robot", "plan", "view", "exchange", "document", "cli"]),
+    ("gen_lsp_types", &["language_server"]),
+    ("lsp_server", &["language_server", "cli"]),
+    (
+        "serde_json",
+        &["source", "formats", "robot", "plan", "view", "exchange", "document", "language_server", "cli"],
+    ),
     ("clap", &["cli"]),
     ("clap_complete", &["cli"]),
     ("ctrlc", &["cli"]),
@@ -123,7 +129,7 @@ const OWNERS: &[(&str, &[&str])] = &[
     ("std::io", &["plan", "exchange", "cli"]),
     ("std::net", &[]),
     ("std::process", &["cli"]),
-    ("std::thread", &["interrupt", "planners", "interpret", "cli"]),
+    ("std::thread", &["interrupt", "planners", "interpret", "language_server", "cli"]),
     ("std::time", &["cli"]),
 ];
 

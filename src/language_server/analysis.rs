@@ -1,0 +1,60 @@
+//! A program that is typed, checked.
+
+use super::documents::Opened;
+use crate::check::{self, Checked};
+use crate::session::complete::Knowledge;
+use crate::session::{FileSnapshot, Project};
+use crate::source::FileId;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A checked program, whose root is an open document.
+#[derive(Clone)]
+pub(super) struct Analysis {
+    /// The typed program with its diagnostics.
+    pub checked: Arc<Checked>,
+    /// The files that it was read from; each is read once.
+    pub files: Arc<FileSnapshot>,
+    /// The document in it.
+    pub file: FileId,
+    /// The root of its project.
+    root: PathBuf,
+    /// The path of the document relative to the root.
+    pub name: String,
+}
+
+impl Analysis {
+    /// Checks a document with all that it imports. `None` if its text can't be read as a program at all. `files`: with the
+    /// texts of open documents; `text`: that of the document.
+    pub(super) fn of(files: Project, project: &Opened, text: &str) -> Option<Analysis> {
+        let files = Arc::new(FileSnapshot::new(files));
+        let checked = check::check(&*files, &project.name);
+        let own =
+            |(_, file): &(FileId, &crate::source::SourceFile)| !file.library && *file.name == *project.name;
+        let (file, known) = checked.sources.files().find(own)?;
+        (*known.text == *text).then(|| Analysis {
+            file,
+            checked: Arc::new(checked.clone()),
+            files: files.clone(),
+            root: project.root.clone(),
+            name: project.name.clone(),
+        })
+    }
+
+    /// Returns the text of a file of the program.
+    pub(super) fn text(&self, file: FileId) -> &str {
+        &self.checked.sources.file(file).text
+    }
+
+    /// Returns the absolute path of a file of the program; `None` for one of the library, which is part of the command.
+    pub(super) fn path(&self, file: FileId) -> Option<String> {
+        let source = self.checked.sources.file(file);
+        let path = self.root.join(&*source.name);
+        if source.library { None } else { path.to_str().map(str::to_owned) }
+    }
+
+    /// Returns what completion needs to know of the program.
+    pub(super) fn knowledge(&self) -> Knowledge {
+        Knowledge::of_program(self.files.clone(), self.checked.clone(), self.text(self.file))
+    }
+}

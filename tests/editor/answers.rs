@@ -1,0 +1,195 @@
+//! What an editor asks about a program.
+
+use super::client::{Client, end_of, piece, uri};
+use serde_json::{Value, json};
+
+/// A program with a configuration of its own.
+const PROGRAM: &str = "use std.smores.{Chain3, Smores}
+
+/// Two chains, one behind the other.
+config Pair(gap: Angle = 10deg) {
+  part a: Chain3
+  part b: Chain3
+  connect a.head -- b.tail
+  /// Nods with the first.
+  behavior nod(by: Angle = gap) = move(a.m[1].tilt, to: by)
+}
+
+let pair = Pair(20deg)
+print(plan(pair.nod(by: 5deg)).duration)
+";
+
+/// Returns the program with the mark `|` behind the nth occurrence (from 0) of a piece of it.
+fn marked(piece: &str, nth: usize) -> String {
+    let (at, _) = PROGRAM.match_indices(piece).nth(nth).unwrap_or_else(|| panic!("{piece}"));
+    format!("{}|{}", &PROGRAM[..at + piece.len()], &PROGRAM[at + piece.len()..])
+}
+
+fn labels(items: &Value) -> Vec<&str> {
+    items.as_array().expect("a list").iter().map(|item| item["label"].as_str().expect("a name")).collect()
+}
+
+#[test]
+fn names_are_explained_where_they_stand() {
+    let mut editor = Client::new(&[]);
+    for (piece, nth, words) in [
+        ("Pair", 1, vec!["config Pair(gap: Angle = 10deg)", "Two chains"]),
+        ("Chain3", 1, vec!["config Chain3", "`half_wave`"]),
+        ("nod", 1, vec!["behavior nod(by: Angle = gap)", "of Pair", "Nods with the first."]),
+        ("pair", 0, vec!["let pair: Pair"]),
+        ("plan", 0, vec!["fn plan(", "-> Plan"]),
+        ("a.head", 0, vec!["port head", "of Chain3"]),
+    ] {
+        let answer = editor.ask_at("textDocument/hover", &marked(piece, nth), json!({}));
+        let text =
+            answer["contents"]["value"].as_str().unwrap_or_else(|| panic!("{piece}: {answer}")).to_owned();
+        for words in words.iter().filter(|words| **words != "`half_wave`") {
+            assert!(text.contains(words), "{piece}: {text}");
+        }
+    }
+    assert_eq!(editor.ask_at("textDocument/hover", "let a = 1|mm\n", json!({})), Value::Null);
+}
+
+#[test]
+fn declarations_are_found_and_those_of_the_library_have_no_place() {
+    let mut editor = Client::new(&[]);
+    for (name, nth, at) in
+        [("Pair", 1, "config "), ("nod", 1, "behavior "), ("a.m", 0, "part "), ("pair", 1, "let ")]
+    {
+        let (name, inside) = name.split_once('.').map_or((name, false), |(name, _)| (name, true));
+        let text = if inside { marked(&format!("move({name}"), nth) } else { marked(name, nth) };
+        let answer = editor.ask_at("textDocument/definition", &text, json!({}));
+        assert_eq!(answer["uri"], uri("main.mod"), "{name}");
+        assert_eq!(piece(PROGRAM, &answer["range"]), name);
+        let line = answer["range"]["start"]["line"].as_u64().expect("a line") as usize;
+        let declared = PROGRAM.lines().nth(line).expect("a line of the program");
+        assert!(declared.contains(&format!("{at}{name}")), "{name}: {declared}");
+    }
+    assert_eq!(editor.ask_at("textDocument/definition", &marked("Chain3", 1), json!({})), Value::Null);
+}
+
+#[test]
+fn all_uses_are_found_and_renamed() {
+    let mut editor = Client::new(&[]);
+    let found = editor.ask_at(
+        "textDocument/references",
+        &marked("Pair", 0),
+        json!({ "context": { "includeDeclaration": true } }),
+    );
+    let pieces: Vec<&str> =
+        found.as_array().expect("a list").iter().map(|place| piece(PROGRAM, &place["range"])).collect();
+    assert_eq!(pieces, ["Pair", "Pair"]);
+    let edits = editor.ask_at("textDocument/rename", &marked("Pair", 1), json!({ "newName": "Double" }));
+    let edits = edits["changes"][uri("main.mod")].as_array().expect("edits").clone();
+    assert_eq!(edits.len(), 2);
+    let renamed = PROGRAM.replace("Pair", "Double");
+    let mut text = PROGRAM.to_owned();
+    for edit in edits.iter().rev() {
+        let old = piece(&text, &edit["range"]);
+        let at = old.as_ptr() as usize - text.as_ptr() as usize;
+        text.replace_range(at..at + old.len(), edit["newText"].as_str().expect("a name"));
+    }
+    assert_eq!(text, renamed);
+    // A name that would mean something else, one that is none, and one of the library.
+    for (place, new, words) in [
+        ("Pair", "pair", "other errors"),
+        ("Pair", "two words", "no name"),
+        ("Chain3", "Chain", "of the project"),
+    ] {
+        let refused = editor.try_at("textDocument/rename", &marked(place, 1), json!({ "newName": new }));
+        assert!(refused.as_ref().is_err_and(|said| said.contains(words)), "{new}: {refused:?}");
+    }
+}
+
+#[test]
+fn names_and_arguments_are_completed() {
+    let mut editor = Client::new(&[]);
+    let typed = format!("{PROGRAM}pair.|\n");
+    let found = editor.ask_at("textDocument/completion", &typed, json!({}));
+    for name in ["nod", "a", "b"] {
+        assert!(labels(&found).contains(&name), "{name}: {:?}", labels(&found));
+    }
+    let typed = format!("{PROGRAM}let c = pair.nod(|)\n");
+    let found = editor.ask_at("textDocument/completion", &typed, json!({}));
+    assert!(labels(&found).contains(&"by:"), "{:?}", labels(&found));
+    let typed = format!("{PROGRAM}let c = Pai|\n");
+    let found = editor.ask_at("textDocument/completion", &typed, json!({}));
+    let item =
+        found.as_array().expect("a list").iter().find(|item| item["label"] == "Pair").expect("it is offered");
+    let text = typed.replace('|', "");
+    assert_eq!(piece(&text, &item["textEdit"]["range"]), "Pai");
+    let help =
+        editor.ask_at("textDocument/signatureHelp", &format!("{PROGRAM}let c = move(pair.a, |\n"), json!({}));
+    assert_eq!(help["activeParameter"], 1);
+    assert!(
+        help["signatures"][0]["label"].as_str().is_some_and(|label| label.starts_with("move(joint: ")),
+        "{help}"
+    );
+}
+
+#[test]
+fn documents_have_symbols_folds_tokens_and_one_style() {
+    let mut editor = Client::new(&[]);
+    editor.open("main.mod", PROGRAM);
+    let document = json!({ "textDocument": { "uri": uri("main.mod") } });
+    let symbols = editor.ask("textDocument/documentSymbol", document.clone());
+    let names = |list: &Value| -> Vec<String> {
+        list.as_array()
+            .into_iter()
+            .flatten()
+            .map(|s| s["name"].as_str().expect("a name").to_owned())
+            .collect()
+    };
+    assert_eq!(names(&symbols), ["Pair", "pair"]);
+    assert_eq!(names(&symbols[0]["children"]), ["gap", "a", "b", "nod"]);
+    assert!(piece(PROGRAM, &symbols[0]["range"]).starts_with("config Pair"));
+    let folds = editor.ask("textDocument/foldingRange", document.clone());
+    assert_eq!((folds[0]["startLine"].as_u64(), folds[0]["endLine"].as_u64()), (Some(3), Some(9)));
+    // Tokens, decoded: each a piece of one line.
+    let tokens = editor.ask("textDocument/semanticTokens/full", document.clone());
+    let numbers: Vec<u64> =
+        tokens["data"].as_array().expect("a list").iter().map(|n| n.as_u64().expect("a number")).collect();
+    let legend = &editor.capabilities["semanticTokensProvider"]["legend"]["tokenTypes"];
+    let (mut line, mut column) = (0, 0);
+    let mut seen = Vec::new();
+    for token in numbers.chunks(5) {
+        (line, column) = if token[0] == 0 { (line, column + token[1]) } else { (line + token[0], token[1]) };
+        let end = json!({ "line": line, "character": column + token[2] });
+        let range = json!({ "start": { "line": line, "character": column }, "end": end });
+        seen.push((legend[token[3] as usize].as_str().expect("a class"), piece(PROGRAM, &range)));
+    }
+    for wanted in [
+        ("keyword", "config"),
+        ("type", "Chain3"),
+        ("number", "10deg"),
+        ("comment", "/// Two chains, one behind the other."),
+    ] {
+        assert!(seen.contains(&wanted), "{wanted:?} in {seen:?}");
+    }
+    // What is laid out already is left, and another layout comes to it.
+    assert_eq!(editor.ask("textDocument/formatting", document.clone()), json!([]));
+    let wild = PROGRAM.replace("  part", "      part");
+    editor.change("main.mod", json!([{ "text": wild }]));
+    let edits = editor.ask("textDocument/formatting", document);
+    assert_eq!(edits[0]["newText"], PROGRAM);
+    assert_eq!(edits[0]["range"]["end"]["line"], end_of(&wild).0);
+}
+
+#[test]
+fn what_can_not_be_is_refused_and_the_server_goes_on() {
+    let mut editor = Client::new(&[]);
+    assert!(editor.try_to("textDocument/hover", json!({ "textDocument": 1 })).is_err());
+    assert!(editor.try_to("no/such", json!({})).is_err_and(|words| words.contains("no/such")));
+    let nowhere = json!({ "textDocument": { "uri": "file:///elsewhere/x.mod" }, "position": { "line": 0, "character": 0 } });
+    assert_eq!(editor.ask("textDocument/hover", nowhere), Value::Null);
+    editor.tell(
+        "textDocument/didChange",
+        json!({ "textDocument": { "uri": "x", "version": 1 }, "contentChanges": [] }),
+    );
+    editor.open("main.mod", "\u{0}((((");
+    let far = json!({ "textDocument": { "uri": uri("main.mod") }, "position": { "line": 1000, "character": 1000 } });
+    for method in ["hover", "definition", "references", "completion", "signatureHelp"] {
+        editor.ask(&format!("textDocument/{method}"), far.clone());
+    }
+    assert!(editor.end());
+}

@@ -1,0 +1,6 @@
+//! The language server, asked over the wire as an editor does.
+
+mod answers;
+mod client;
+mod diagnostics;
+mod edits;
