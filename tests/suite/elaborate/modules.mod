@@ -166,11 +166,13 @@ truss Far of PneumaticReel {
   strut a -- b  strut a -- c  strut b -- c  strut a -- d  strut b -- d
 }
 
---- what a connector captures is stated once, positive, and no mass
+--- what a connector captures is stated once, and is no mass
 connector A { mates A, turns 1, capture 4mm 5deg 6deg }
 //                                               ^^^^ E0310 the angle of `capture` is stated twice
 connector B { mates B, turns 1, capture 4mm 10mm/s 5deg/s, snap }
-connector C { mates C, turns 1, capture 4mm 5deg 0mm/s }
-//                                               ^^^^^ E0506 the speed of capture must be positive
 connector D { mates D, turns 1, capture 4mm 5kg }
 //                                          ^^^ E0201 wants an angle
+
+--- a speed of capture is positive
+connector C { mates C, turns 1, capture 4mm 5deg 0mm/s }
+//                                               ^^^^^ E0506 the speed of capture must be positive
