@@ -98,6 +98,9 @@ pub(super) enum Command {
         /// Standard input and output, as some editors say; there is no other way
         #[arg(long)]
         stdio: bool,
+        /// In place of the global option, so that no help offers what is refused
+        #[arg(long, hide = true)]
+        json: bool,
     },
     /// Judge plan files again, from nothing but the files
     #[command(after_help = "Prints every check with its status, and the worst values found.\n\n\

@@ -216,6 +216,7 @@ fn no_json(command: &Command) -> Option<&'static str> {
             "a session has no `--json`: `modl -e EXPR --json` answers one question, and `modl run --json FILE` \
              runs a program",
         ),
+        Command::Lsp { .. } => Some("`lsp` has no `--json`: it speaks the protocol of editors"),
         Command::Completions { .. } => {
             Some("`completions` has no `--json`: it prints a script for the shell")
         }

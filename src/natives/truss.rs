@@ -54,7 +54,7 @@ arguments! {
         truss: &'c Rc<Instance>,
         path: &'c [Value],
         objective: Objective,
-        hold: WordOr<Auto, Hold>,
+        hold: HoldWord,
         slip: WordOr<Auto, Positive> as "the greatest slip",
         forces: bool,
         fallbacks: bool,
@@ -76,8 +76,21 @@ impl Choice for Objective {
     ];
 }
 
-impl Choice for Hold {
-    const WORDS: &'static [(&'static str, Hold)] = &[("three", Hold::Three), ("all", Hold::All)];
+/// The argument `hold`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum HoldWord {
+    /// The planner chooses.
+    Auto,
+    /// These feet are held.
+    These(Hold),
+}
+
+impl Choice for HoldWord {
+    const WORDS: &'static [(&'static str, HoldWord)] = &[
+        ("auto", HoldWord::Auto),
+        ("three", HoldWord::These(Hold::Three)),
+        ("all", HoldWord::These(Hold::All)),
+    ];
 }
 
 impl ReportFields for morph::Report {
@@ -169,9 +182,9 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let problem = locomote::Problem { truss, path };
     // Without impact feet have to slide, or the truss could not leave those behind it.
     let hold = match arguments.hold {
-        WordOr::Value(hold) => hold,
-        WordOr::Word(Auto) if arguments.impact => Hold::All,
-        WordOr::Word(Auto) => Hold::Three,
+        HoldWord::These(hold) => hold,
+        HoldWord::Auto if arguments.impact => Hold::All,
+        HoldWord::Auto => Hold::Three,
     };
     let slip_max = match (arguments.slip, hold) {
         (WordOr::Value(slip), _) => slip.0,

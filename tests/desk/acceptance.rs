@@ -44,6 +44,9 @@ fn sandbox_of_example(name: &str, text: &str) -> Sandbox {
     let others = others("examples");
     let mut files: Vec<(&str, &[u8])> = others.iter().map(|(n, b)| (n.as_str(), b.as_slice())).collect();
     files.push((name, text.as_bytes()));
+    let programs = programs("examples");
+    let imported = programs.iter().filter(|(other, _)| text.contains(&format!("use \"{other}\"")));
+    files.extend(imported.map(|(name, text)| (name.as_str(), text.as_bytes())));
     Sandbox::new(&files)
 }
 

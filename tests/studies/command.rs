@@ -349,7 +349,8 @@ mod unix {
             return;
         }
         fine(&s, &["study", "slow.mod", "slow", "-o", "whole"]);
-        for (when, kept) in [(2, 1), (4, 4)] {
+        // The driver that begins again may first note, under a name of its own, at which row the killed one was.
+        for (when, kept) in [(2, [1, 1]), (4, [3, 4])] {
             let traced = "strace -f -qq -o trace -e trace=rename,renameat,renameat2 -e \
                           inject=rename,renameat,renameat2:signal=KILL";
             let ran =
@@ -365,7 +366,7 @@ mod unix {
                 names.into_iter().any(|name| name.to_string_lossy().starts_with(".modl-")),
                 "it was written"
             );
-            assert_eq!(shards(&folder).len(), kept);
+            assert!(kept.contains(&shards(&folder).len()), "{} of {kept:?}", shards(&folder).len());
         }
         for i in [3, 1, 2] {
             fine(&s, &["study", "slow.mod", "slow", "-o", "out", "--shard", &format!("{i}/3")]);
