@@ -47,7 +47,7 @@ const RANGES: [f64; 7] = [2.96, 2.09, 2.96, 2.09, 2.96, 2.09, 3.05];
 
 /// Returns the axis of a joint of the arm.
 fn axis(index: usize) -> Vec3 {
-    if index % 2 == 0 { Vec3::z() } else { Vec3::y() }
+    if index.is_multiple_of(2) { Vec3::z() } else { Vec3::y() }
 }
 
 /// The arm of seven joints, drawn upright.
@@ -88,7 +88,7 @@ fn tool(q: &[f64]) -> Pose {
 fn apart(a: &Pose, b: &Pose) -> (f64, f64) {
     let turn = a.rotation.inverse() * b.rotation;
     let sine = turn.imag().norm();
-    ((a.translation.vector - b.translation.vector).norm(), 2.0 * sine.atan2(turn.w.abs()))
+    ((a.translation.vector - b.translation.vector).norm(), 2.0 * libm::atan2(sine, turn.w.abs()))
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn positions_and_axes_are_reached_alone() {
         chain.reach(&target, &mut found, (20, &mut SplitMix64(1)), &DescentSettings::default());
     assert_eq!(starts, 20);
     // The shoulder is above the first two lengths, and the rest is stretched out from there.
-    let nearest = 2.2f64.hypot(LENGTHS[1]) - LENGTHS[2..].iter().sum::<f64>();
+    let nearest = libm::hypot(2.2, LENGTHS[1]) - LENGTHS[2..].iter().sum::<f64>();
     assert!(error.distance > nearest - 1e-9 && error.distance < nearest + 1e-4, "{error:?}, not {nearest}");
 }
 
@@ -258,7 +258,7 @@ fn way(walls: &[Wall], from: [f64; 2], to: [f64; 2], clearance: f64, seed: u64) 
 /// Returns the distance of a point in the plane from a wall, m; 0 inside.
 fn distance([x, y]: [f64; 2], [a, b, c, d]: [f64; 4]) -> f64 {
     let (dx, dy) = ((a - x).max(x - b).max(0.0), (c - y).max(y - d).max(0.0));
-    dx.hypot(dy)
+    libm::hypot(dx, dy)
 }
 
 #[test]
@@ -271,7 +271,7 @@ fn ways_lead_through_gaps_and_keep_their_clearance() {
         assert_eq!((&postures[0], &postures[postures.len() - 1]), (&vec![-0.8, -0.8], &vec![0.8, -0.6]));
         let mut length = 0.0;
         for pair in postures.windows(2) {
-            length += (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+            length += libm::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
             for i in 0..=1000 {
                 let s = f64::from(i) / 1000.0;
                 let p = [0, 1].map(|k| pair[0][k] + s * (pair[1][k] - pair[0][k]));
@@ -280,7 +280,7 @@ fn ways_lead_through_gaps_and_keep_their_clearance() {
             }
         }
         // Not shorter than straight to the gap and on, and not much longer after shortcuts.
-        let shortest = (0.7f64).hypot(1.08) + 0.2 + (0.7f64).hypot(0.88);
+        let shortest = libm::hypot(0.7, 1.08) + 0.2 + libm::hypot(0.7, 0.88);
         assert!(length > shortest - 0.1 && length < 1.25 * shortest, "{length} instead of {shortest}");
     }
 }
