@@ -29,7 +29,6 @@ module Block {{
 config One {{ part m: Block }}
 config Two {{ part m: Block  part n: Block  connect m.rear -- n.face  base m }}
 config Alone {{ part p: Pusher }}
-config Long {{ part p: Pusher }}
 scene S {{
   part a: {first}
   part b: {second} at [180mm, 0mm, {error}
@@ -107,6 +106,30 @@ fn a_robot_that_is_held_does_not_snap() {
     // Without an error there is nothing to move, and without `snap` nothing has to.
     for (capture, error) in [("capture 4mm 5deg, snap", "0mm]"), ("capture 4mm 5deg", "3mm]")] {
         run_clean(&scene(capture, "Alone", "One", error, "ground: held"));
+    }
+}
+
+#[test]
+fn a_robot_is_hit_by_what_snaps_to_it() {
+    // Only the two robots are there: a board of the pusher's own hangs over the block, which turns by 80 degrees.
+    for (gap, hits) in [(43.0, false), (41.0, true)] {
+        let board = format!(
+            "port tip: Face on slide at [10mm, 0mm, 0mm] facing +X up +Z
+  link board = box(100mm, 100mm, 10mm, mass: 100g) at [180mm, 0mm, {}mm]
+  joint held : body -> board = fixed() at [180mm, 0mm, 0mm]",
+            gap + 5.0
+        );
+        let program = scene("capture 4mm 85deg, snap", "Alone", "One", "0mm] turned(X, 80deg)", AFLOAT)
+            .replace("port tip: Face on slide at [10mm, 0mm, 0mm] facing +X up +Z", &board)
+            // The block turns under the board before the slide draws it back under it.
+            .replace("wait(1s), move(a.p.out, to: 0mm, in: 2s)", "wait(1s)");
+        let (observed, desk, _) = run(&MapFiles::of(&program), Mode::Run);
+        let said: Vec<String> =
+            observed.diagnostics.iter().map(|d| format!("{} {}", d.code, d.message)).collect();
+        assert_eq!(desk.written.is_empty(), hits, "{gap} mm: {said:?}");
+        let collides =
+            |words: &String| words.contains("E0601") && words.contains("a.p") && words.contains("b.m");
+        assert_eq!(said.iter().any(collides), hits, "{gap} mm: {said:?}");
     }
 }
 

@@ -80,7 +80,8 @@ pub(super) fn judge(
             }
         }
     }
-    for cluster in clusters.iter().filter(|cluster| times.contains(&cluster.from)) {
+    // Two robots that snap are one afterwards, and no samples of theirs are left.
+    for cluster in clusters.iter().filter(|cluster| ended.is_none_or(|(end, _)| cluster.from < end)) {
         unproved += links.observe_snaps(cluster, (clusters, &mut placed), ledger);
     }
     let found = std::mem::take(&mut links.found);
@@ -302,20 +303,19 @@ impl<'a> PlacedLinks<'a> {
             let shift = (back * Point::from(centre)).coords - centre;
             let way = shift.norm() + snap.motion.rotation.angle() * reach;
             let steps = libm::ceil(way / self.tolerances.snap_step).max(1.0) as usize;
+            let moved = way / steps as f64;
             let after = self.poses.clone();
             for step in 0..steps {
                 // Backwards from the pose after, about the body that moves.
                 let part = (step + 1) as f64 / steps as f64;
                 let turn = UnitQuaternion::from_scaled_axis(back.rotation.scaled_axis() * part);
-                let moved = centre + shift * part - turn * centre;
-                let motion = Pose::from_parts(moved.into(), turn);
+                let motion = Pose::from_parts((centre + shift * part - turn * centre).into(), turn);
                 for link in snap.modules.iter().flat_map(|module| links(robot, &self.numbers, *module)) {
                     self.poses[link] = motion * after[link];
                 }
                 for &x in &snap.modules {
                     for &y in around.iter().filter(|module| !snap.modules.contains(module)) {
-                        let nearest = self.observe((x, y), time, way / steps as f64, ledger);
-                        unproved += usize::from(nearest < way / steps as f64);
+                        unproved += usize::from(self.observe((x, y), time, moved, ledger) < moved);
                     }
                 }
             }
