@@ -3,82 +3,27 @@
 //!
 //! `cargo bench --bench goals`.
 
+#[allow(dead_code)]
+#[path = "../tests/support"]
+mod support {
+    pub mod arms;
+    pub mod robots;
+}
+
+use modl::geometry::Vec3;
 use modl::geometry::pose::shifted;
-use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::optimize::random::SplitMix64;
+use modl::robot::Kinematics;
 use modl::robot::chain::{Chain, DescentSettings, Orientation, Target};
 use modl::robot::jacobian::LinkFrame;
-use modl::robot::{
-    Assembly, Joint, JointKind, Kinematics, Library, Limits, Link, ModuleInstance, ModuleType, Servo, Surface,
-};
-use std::sync::Arc;
 use std::time::Instant;
+use support::arms::{LENGTHS, RANGES, seven_joints};
 
-/// The lengths from axis to axis, m.
-const LENGTHS: [f64; 8] = [0.17, 0.17, 0.2, 0.2, 0.2, 0.2, 0.08, 0.05];
-/// How far the joints turn to either side, rad.
-const RANGES: [f64; 7] = [2.96, 2.09, 2.96, 2.09, 2.96, 2.09, 3.05];
 /// The number of poses.
 const POSES: u64 = 10_000;
 
-fn arm() -> Assembly {
-    let link = |name: String, height: f64| {
-        let shape = vec![Placed { pose: Pose::identity(), shape: Shape::Sphere { radius: 0.01 } }];
-        Link {
-            name,
-            pose: shifted(Vec3::z() * height),
-            collides: shape.clone(),
-            left_out: 0.0,
-            shape,
-            mass: 1.0,
-            com: Vec3::zeros(),
-            inertia: [1e-4, 1e-4, 1e-4, 0.0, 0.0, 0.0],
-            friction: 0.5,
-            surface: Surface::default(),
-        }
-    };
-    let mut height = 0.0;
-    let (mut links, mut joints) = (vec![link("l0".into(), 0.0)], vec![]);
-    for index in 0..7 {
-        height += LENGTHS[index];
-        links.push(link(format!("l{}", index + 1), height));
-        let range = Some((-RANGES[index], RANGES[index]));
-        joints.push(Joint {
-            name: format!("j{index}"),
-            parent: index,
-            child: index + 1,
-            kind: JointKind::Revolute,
-            pose: shifted(Vec3::z() * height),
-            axis: if index % 2 == 0 { Vec3::z() } else { Vec3::y() },
-            limits: Limits { range, speed: Some(1.0), acceleration: None, effort: None },
-            passive: false,
-            mimic: None,
-            servo: Servo::default(),
-        });
-    }
-    let kind = ModuleType {
-        name: "Arm".into(),
-        links,
-        joints,
-        ports: vec![],
-        motors: vec![],
-        touching: vec![],
-        touch: 1e-4,
-        contact: 1e-3,
-    };
-    Assembly {
-        name: "Arm".into(),
-        library: Arc::new(Library { modules: vec![kind], ..Library::default() }),
-        modules: vec![ModuleInstance { name: "a".into(), kind: 0 }],
-        bonds: vec![],
-        base: 0,
-        closed: false,
-        misalignments: vec![],
-    }
-}
-
 fn main() {
-    let robot = arm();
+    let robot = seven_joints();
     let kinematics = Kinematics::new(&robot, &[], 0);
     let frame = LinkFrame { link: 7, X_LF: shifted(Vec3::z() * LENGTHS[7]) };
     let chain = Chain::new(&robot, &kinematics, 0, &frame).expect("the links are connected");

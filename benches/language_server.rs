@@ -1,4 +1,4 @@
-//! How long an editor waits: `cargo bench --bench language_server`. In a program of 1,000 lines a key is typed, as the
+//! The time for which an editor waits: `cargo bench --bench language_server`. In a program of 1,000 lines a key is typed, as the
 //! protocol says it; then the diagnostics of its types have come, candidates after a dot are asked for, and an explanation.
 
 mod generate;

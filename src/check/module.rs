@@ -62,21 +62,21 @@ impl<'a> Checker<'a> {
     /// Checks a further value of `capture`, and keeps it by its dimension: an angle, a speed or an angular speed.
     fn capture_bound(&mut self, scope: &mut Scope, e: &'a ast::Expr, capture: &mut CaptureDef) {
         let got = self.expr(scope, e, None);
-        let span = got.span;
-        let (slot, what) = match &got.ty {
-            Type::Quantity(d) if *d == Dimension::SPEED => (&mut capture.speed, "speed"),
-            Type::Quantity(d) if *d == Dimension::ANGULAR_SPEED => (&mut capture.rate, "angular speed"),
-            Type::Error => return,
-            _ => (&mut capture.angle, "angle"),
-        };
-        let stated = slot.is_some();
-        let turn = Type::Quantity(Dimension::ANGLE);
-        *slot = Some(if what == "angle" {
-            self.coerce(got, &turn, Role::Place("the angle of `capture`"))
+        if got.ty.is_error() {
+            return;
+        }
+        let is = |dimension: Dimension| got.ty == Type::Quantity(dimension);
+        let (slot, what, bound) = if is(Dimension::SPEED) {
+            (&mut capture.speed, "speed", got)
+        } else if is(Dimension::ANGULAR_SPEED) {
+            (&mut capture.rate, "angular speed", got)
         } else {
-            got
-        });
-        if stated {
+            let turn = Type::Quantity(Dimension::ANGLE);
+            let angle = self.coerce(got, &turn, Role::Place("the angle of `capture`"));
+            (&mut capture.angle, "angle", angle)
+        };
+        let span = bound.span;
+        if slot.replace(bound).is_some() {
             let message = format!("the {what} of `capture` is stated twice");
             self.report(Diagnostic::error(code::BAD_CONNECTOR, message).label(span, "stated before"));
         }

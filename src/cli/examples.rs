@@ -4,8 +4,7 @@ use super::disk::Project;
 use super::terminal::Terminal;
 use crate::check::{self, Checked, Entry};
 use crate::document::examples::examples;
-use crate::interpret::{Host, Mode, Options, WriteError};
-use crate::interrupt::CancelState;
+use crate::interpret::{Host, Mode, Options, SilentHost};
 use crate::source::{Diagnostic, Files};
 
 /// The result of running an example.
@@ -20,23 +19,6 @@ pub(super) struct Ran {
     pub passed: bool,
     /// True if the user cancelled the example.
     pub cancelled: bool,
-}
-
-/// The host of an example: discards what it prints and writes.
-struct Silent(CancelState);
-
-impl Host for Silent {
-    fn print(&mut self, _: &str) {}
-
-    fn write(&mut self, path: &str, _: &[u8]) -> Result<String, WriteError> {
-        Ok(path.to_owned())
-    }
-
-    fn progress(&mut self, _: &str) {}
-
-    fn cancel_state(&self) -> CancelState {
-        self.0.clone()
-    }
 }
 
 /// Runs the examples in the documentation of a program whose names contain the filter, in the order of the text; all of
@@ -67,7 +49,7 @@ pub(super) fn run(
         let mut cancelled = false;
         if !diagnostics.iter().any(Diagnostic::is_error) {
             let mode = if example.only_checked { Mode::Check } else { Mode::Run };
-            let mut host = Silent(terminal.cancel_state());
+            let mut host = SilentHost(terminal.cancel_state());
             let mut outcome = crate::execute::run(&checked, mode, project as &dyn Files, &mut host, options);
             diagnostics.append(&mut outcome.diagnostics);
             cancelled = outcome.cancelled;

@@ -45,6 +45,23 @@ pub trait Host {
     }
 }
 
+/// A host that discards what a program prints and writes.
+pub struct SilentHost(pub CancelState);
+
+impl Host for SilentHost {
+    fn print(&mut self, _: &str) {}
+
+    fn write(&mut self, path: &str, _: &[u8]) -> Result<String, WriteError> {
+        Ok(path.to_owned())
+    }
+
+    fn progress(&mut self, _: &str) {}
+
+    fn cancel_state(&self) -> CancelState {
+        self.0.clone()
+    }
+}
+
 /// The part of a program that is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {

@@ -55,5 +55,5 @@ mod table_text;
 
 pub mod session;
 
-pub use host::{Host, Limits, Mode, Options, Outcome, TestResult, WriteError};
+pub use host::{Host, Limits, Mode, Options, Outcome, SilentHost, TestResult, WriteError};
 pub use run::{run, with_interpreter};

@@ -4,7 +4,7 @@ use super::documents::Opened;
 use crate::check::{self, Checked};
 use crate::session::complete::Knowledge;
 use crate::session::{FileSnapshot, Project};
-use crate::source::FileId;
+use crate::source::{FileId, SourceFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -28,17 +28,13 @@ impl Analysis {
     /// texts of open documents; `text`: that of the document.
     pub(super) fn of(files: Project, project: &Opened, text: &str) -> Option<Analysis> {
         let files = Arc::new(FileSnapshot::new(files));
-        let checked = check::check(&*files, &project.name);
-        let own =
-            |(_, file): &(FileId, &crate::source::SourceFile)| !file.library && *file.name == *project.name;
+        let checked = Arc::new(check::check(&*files, &project.name));
+        let own = |(_, file): &(FileId, &SourceFile)| !file.library && *file.name == *project.name;
         let (file, known) = checked.sources.files().find(own)?;
-        (*known.text == *text).then(|| Analysis {
-            file,
-            checked: Arc::new(checked.clone()),
-            files: files.clone(),
-            root: project.root.clone(),
-            name: project.name.clone(),
-        })
+        if *known.text != *text {
+            return None;
+        }
+        Some(Analysis { checked, files, file, root: project.root.clone(), name: project.name.clone() })
     }
 
     /// Returns the text of a file of the program.

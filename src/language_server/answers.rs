@@ -3,7 +3,6 @@
 use super::analysis::Analysis;
 use super::names::Named;
 use crate::check::summary::{self, Group};
-use crate::check::typed::DefKind;
 use crate::format;
 use crate::source::{Diagnostic, FileId, Severity, Span};
 use crate::syntax::{Outline, TokenKind};
@@ -34,16 +33,9 @@ pub(super) fn hover(analysis: &Analysis, at: usize) -> Option<String> {
 /// Returns the place at which what stands at an offset is declared; `None` for what is declared in the library or nowhere.
 pub(super) fn definition(analysis: &Analysis, at: usize) -> Option<Span> {
     let Named { def, member } = analysis.named_at(at)?;
-    let declared = analysis.checked.program.def(def);
     match member {
-        None => Some(declared.span),
-        Some(name) => {
-            let behavior = match &declared.kind {
-                DefKind::Config(config) => config.behaviors.iter().find(|b| b.name.as_str() == name),
-                _ => None,
-            };
-            behavior.map(|b| b.span).or_else(|| Some(analysis.member(def, &name)?.span))
-        }
+        None => Some(analysis.checked.program.def(def).span),
+        Some(name) => analysis.member_span(def, &name),
     }
 }
 
@@ -73,11 +65,7 @@ pub(super) fn symbols(analysis: &Analysis) -> Vec<Symbol> {
             let whole = def.whole.range();
             let member = |inside: summary::Inside| {
                 let name = inside.name.as_str();
-                let behavior = match &def.kind {
-                    DefKind::Config(config) => config.behaviors.iter().find(|b| b.name == inside.name),
-                    _ => None,
-                };
-                let span = behavior.map(|b| b.span).or_else(|| Some(analysis.member(*id, name)?.span))?;
+                let span = analysis.member_span(*id, name)?;
                 let named = (span.file == analysis.file && whole.contains(&span.range().start))
                     .then(|| span.range())?;
                 Some(Symbol {
@@ -145,8 +133,8 @@ pub(super) struct Shown {
     pub related: Vec<(Span, String)>,
 }
 
-/// Returns diagnostics as they are shown in a document: those of files that it imports stand at its begin. `elsewhere` says
-/// where a span is: file and line.
+/// Returns diagnostics as they are shown in a document: those of files that it imports stand at its begin, with
+/// file and line.
 pub(super) fn shown(analysis: &Analysis, diagnostics: &[Diagnostic]) -> Vec<Shown> {
     let one = |diagnostic: &Diagnostic| {
         let first = diagnostic.labels.first();

@@ -2,7 +2,7 @@
 
 use super::analysis::Analysis;
 use crate::check::summary::{self, Inside};
-use crate::check::typed::{Def, DefId, DefKind, Member};
+use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{self, Checked, Meaning};
 use crate::source::{FileId, Files, ReadError, Span};
 use std::borrow::Cow;
@@ -53,7 +53,7 @@ impl Analysis {
         let word = word_at(text, at)?;
         let name = &text[word.clone()];
         let of = |def: DefId| Named { def, member: Some(name.to_owned()) };
-        let has = |def: &DefId| self.member(*def, name).is_some();
+        let has = |def: &DefId| self.about_member(*def, name).is_some();
         if text[..word.start].ends_with('.') {
             let knowledge = self.knowledge();
             return knowledge.declaration_before(&text[..word.start - 1]).filter(has).map(of);
@@ -78,11 +78,21 @@ impl Analysis {
         program.own.iter().find(around).copied()
     }
 
-    /// Returns a member of a declaration with instances: the place where it is declared, and its kind.
-    pub(super) fn member(&self, def: DefId, name: &str) -> Option<&Member> {
+    /// Returns the place at which a declaration declares a member: a behaviour, or a member of its instances; `None` where it
+    /// has none of this name with a place of its own.
+    pub(super) fn member_span(&self, def: DefId, name: &str) -> Option<Span> {
         let kind = &self.checked.program.def(def).kind;
-        let members = kind.instantiable().map(|instantiable| instantiable.members)?;
-        members.iter().find(|member| member.name.as_str() == name)
+        let behavior = match kind {
+            DefKind::Config(config) => {
+                config.behaviors.iter().find(|behavior| behavior.name.as_str() == name)
+            }
+            _ => None,
+        };
+        let member = || {
+            let members = kind.instantiable()?.members;
+            members.iter().find(|member| member.name.as_str() == name).map(|member| member.span)
+        };
+        behavior.map(|behavior| behavior.span).or_else(member)
     }
 
     /// Returns the words about a member of a declaration: what documentation shows of it.

@@ -100,12 +100,15 @@ impl Server<'_> {
                 self.at(params, |_, analysis, at| written(answers::hover(analysis, at).map(wire::hover)))
             }
             "textDocument/definition" => self.at(params, |server, analysis, at| {
-                written(answers::definition(analysis, at).and_then(|span| server.location(analysis, span)))
+                written(
+                    answers::definition(analysis, at)
+                        .and_then(|span| location(analysis, span, server.encoding)),
+                )
             }),
             "textDocument/references" => self.at(params, |server, analysis, at| {
                 let places = analysis.declaration_at(at).map(|def| analysis.places_of(def));
                 let location = |(file, range): &(_, std::ops::Range<usize>)| {
-                    server.location(analysis, Span::new(*file, range.start, range.end))
+                    location(analysis, Span::new(*file, range.start, range.end), server.encoding)
                 };
                 written(places.map(|places| places.iter().filter_map(location).collect::<Vec<_>>()))
             }),
@@ -271,13 +274,9 @@ impl Server<'_> {
         }
         Ok(written(Some(lsp::WorkspaceEdit { changes: Some(changes), ..Default::default() })))
     }
-
-    /// Returns the location of a span; `None` for one in the library.
-    fn location(&self, analysis: &Analysis, span: Span) -> Option<lsp::Location> {
-        location(analysis, span, self.encoding)
-    }
 }
 
+/// Returns the location of a span; `None` for one in the library.
 fn location(analysis: &Analysis, span: Span, encoding: Encoding) -> Option<lsp::Location> {
     let uri = lsp::Uri(uri_of(&analysis.path(span.file)?));
     Some(lsp::Location { uri, range: wire::range(analysis.text(span.file), &span.range(), encoding) })

@@ -82,7 +82,7 @@ pub(super) fn changed(
     })
 }
 
-/// Returns a diagnostic of a document. `uri_of` gives the location of another place; `None` where it has none.
+/// Returns a diagnostic of a document. `location` gives that of another place; `None` where it has none.
 pub(super) fn diagnostic(
     text: &str,
     shown: &Shown,

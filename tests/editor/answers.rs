@@ -1,4 +1,4 @@
-//! What an editor asks about a program.
+//! Answers to what an editor asks about a program.
 
 use super::client::{Client, end_of, piece, uri};
 use serde_json::{Value, json};
@@ -166,7 +166,7 @@ fn documents_have_symbols_folds_tokens_and_one_style() {
     ] {
         assert!(seen.contains(&wanted), "{wanted:?} in {seen:?}");
     }
-    // What is laid out already is left, and another layout comes to it.
+    // A program that is laid out already is left, and another layout comes to it.
     assert_eq!(editor.ask("textDocument/formatting", document.clone()), json!([]));
     let wild = PROGRAM.replace("  part", "      part");
     editor.change("main.mod", json!([{ "text": wild }]));

@@ -30,7 +30,7 @@ pub struct Client {
     server: Option<std::thread::JoinHandle<Result<bool, String>>>,
     next: i32,
     versions: BTreeMap<String, i64>,
-    /// What the server said of itself.
+    /// The capabilities that the server stated.
     pub capabilities: Value,
 }
 

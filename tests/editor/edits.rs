@@ -4,7 +4,7 @@ use super::client::{Client, uri};
 use crate::support::numbers::Numbers;
 use serde_json::json;
 
-/// What is typed: characters of one to four bytes, and of one or two code units of UTF-16.
+/// The pieces that are typed: characters of one to four bytes, and of one or two code units of UTF-16.
 const TYPED: [&str; 8] = ["a", " ", "\n", "é", "→", "🦾", "// x\n", "\r\n"];
 
 /// Returns line and column of an offset, the column in code units of UTF-8 or UTF-16.

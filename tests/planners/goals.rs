@@ -1,5 +1,6 @@
 //! Motions by goals: inverse kinematics against kinematics written another way, free ways against closed forms of distances.
 
+use crate::support::arms::{LENGTHS, RANGES, axis, robot_of, seven_joints};
 use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
 use crate::support::robots::{at_rest, boxed, joint, link};
@@ -12,69 +13,7 @@ use modl::planners::goals::avoid::{Path, Problem, Refusal, Settings, plan};
 use modl::planners::goals::{FreeSpace, Surroundings};
 use modl::robot::chain::{Chain, DescentSettings, Orientation, Target};
 use modl::robot::jacobian::LinkFrame;
-use modl::robot::{
-    Assembly, JointKind, Kinematics, Library, Limits, ModuleInstance, ModuleType, PortRef, State,
-};
-use std::sync::Arc;
-
-/// One module as a robot; `touching`: its pairs of links that meet by design.
-fn robot_of(links: Vec<modl::robot::Link>, joints: Vec<modl::robot::Joint>) -> Assembly {
-    let kind = ModuleType {
-        name: "Robot".into(),
-        links,
-        joints,
-        ports: vec![],
-        motors: vec![],
-        touching: vec![],
-        touch: 1e-4,
-        contact: 1e-3,
-    };
-    Assembly {
-        name: "Robot".into(),
-        library: Arc::new(Library { modules: vec![kind], ..Library::default() }),
-        modules: vec![ModuleInstance { name: "r".into(), kind: 0 }],
-        bonds: vec![],
-        base: 0,
-        closed: false,
-        misalignments: vec![],
-    }
-}
-
-/// The lengths from axis to axis of an arm of seven joints that turn about z and y by turns, m.
-const LENGTHS: [f64; 8] = [0.17, 0.17, 0.2, 0.2, 0.2, 0.2, 0.08, 0.05];
-/// How far its joints turn to either side, rad.
-const RANGES: [f64; 7] = [2.96, 2.09, 2.96, 2.09, 2.96, 2.09, 3.05];
-
-/// Returns the axis of a joint of the arm.
-fn axis(index: usize) -> Vec3 {
-    if index.is_multiple_of(2) { Vec3::z() } else { Vec3::y() }
-}
-
-/// The arm of seven joints, drawn upright.
-fn seven_joints() -> Assembly {
-    let ball = vec![Placed { pose: Pose::identity(), shape: Shape::Sphere { radius: 0.01 } }];
-    let mut height = 0.0;
-    let mut links = vec![link("l0", ball.clone(), 1.0, Vec3::zeros(), 0.5)];
-    let mut joints = vec![];
-    for index in 0..7 {
-        height += LENGTHS[index];
-        let mut next = link(&format!("l{}", index + 1), ball.clone(), 1.0, Vec3::zeros(), 0.5);
-        next.pose = shifted(Vec3::z() * height);
-        links.push(next);
-        let range = Some((-RANGES[index], RANGES[index]));
-        let limits = Limits { range, speed: Some(1.0), acceleration: None, effort: None };
-        let pose = shifted(Vec3::z() * height);
-        joints.push(joint(
-            &format!("j{index}"),
-            (index, index + 1),
-            JointKind::Revolute,
-            pose,
-            axis(index),
-            limits,
-        ));
-    }
-    robot_of(links, joints)
-}
+use modl::robot::{Assembly, JointKind, Kinematics, Limits, PortRef, State};
 
 /// Returns the pose of the tool of [`seven_joints`], written as a product of turns and shifts.
 fn tool(q: &[f64]) -> Pose {
@@ -138,7 +77,7 @@ fn positions_and_axes_are_reached_alone() {
             assert!(orientation == Orientation::Free || off < 1e-6, "{off}");
         }
     }
-    // What is twice as far away as the arm is long is not reached, and the nearest posture points there.
+    // A place twice as far away as the arm is long is not reached, and the nearest posture points there.
     let target = Target { position: Vec3::new(2.2, 0.0, 0.17), orientation: Orientation::Free };
     let mut found = vec![0.0; 7];
     let (error, starts) =

@@ -1,5 +1,6 @@
 //! What the tests share: hosts, sandboxes, terminals, robots and programs made by plain Rust.
 
+pub mod arms;
 pub mod desk;
 pub mod fences;
 pub mod generated;

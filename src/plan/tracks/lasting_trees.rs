@@ -24,8 +24,9 @@ pub struct LastingTrees {
 }
 
 impl LastingTrees {
-    /// Returns the trees of a plan's robot; `X_WB`: the world pose of its base module's body at the start, m; `clusters`: the
-    /// poses of further clusters then. Bonds have the misalignments with which they hold at the start. `apart`: the bonds, by their indices, that are constraints although they hold all the time, or never.
+    /// Returns the trees of a plan's robot, whose bonds have the misalignments with which they hold at the start. `X_WB`: the
+    /// world pose of its base module's body then, m; `clusters`: the poses of further clusters then; `apart`: the bonds, by
+    /// their indices, that are constraints although they hold all the time, or never.
     pub fn new(tracks: &Tracks, X_WB: &Pose, clusters: &[ClusterPose], apart: &[usize]) -> LastingTrees {
         let mut ever = tracks.start.bonds.clone();
         let mut lasting = ever.clone();

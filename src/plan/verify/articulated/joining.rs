@@ -12,7 +12,7 @@ use crate::geometry::Pose;
 use crate::geometry::pose::turned;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Tracks};
-use crate::robot::{Bond, Kinematics, Residual, mate};
+use crate::robot::{Assembly, Bond, Kinematics, Residual, mate};
 use crate::units::{Dimension, number, quantity};
 
 /// The docking of clusters with each other at one instant.
@@ -201,10 +201,16 @@ pub(super) fn error(
     joints: &[f64],
     poses: &[Pose],
 ) -> Pose {
-    let robot = &tracks.robot;
+    perfect_mate(&tracks.robot, numbers, bond, joints).inverse()
+        * pose_of_second(tracks, numbers, bond, poses)
+}
+
+/// Returns the pose of a bond's second port in the frame of its first (`X_PQ`, m) in a perfect mate, its hinge at its position.
+/// `numbers` and `joints`: as for [`error`].
+pub(super) fn perfect_mate(robot: &Assembly, numbers: &Kinematics, bond: usize, joints: &[f64]) -> Pose {
     let hinge = robot.hinge(bond).zip(numbers.hinge(bond));
     let open = hinge.map_or(Pose::identity(), |(hinge, joint)| turned(hinge.axis, joints[joint]));
-    (open * mate(robot, bond)).inverse() * pose_of_second(tracks, numbers, bond, poses)
+    open * mate(robot, bond)
 }
 
 /// Returns the pose of the second port of a bond, given by its index, in the frame of the first, `X_PQ` in m. `numbers` and

@@ -8,10 +8,9 @@ use super::in_force::world_at;
 use super::joining;
 use super::rollout_input::Rollout;
 use crate::geometry::Pose;
-use crate::geometry::pose::turned;
 use crate::plan::verify::ledger::Ledger;
 use crate::plan::{CheckKind, DockingEvent, Failure, Ground, TOLERANCES};
-use crate::robot::{Assembly, Bond, Kinematics, Residual, mate};
+use crate::robot::{Assembly, Bond, Kinematics, Residual};
 use crate::units::{Dimension, quantity};
 
 /// The motion by which one cluster snaps to another.
@@ -109,9 +108,7 @@ fn closing(
     first: bool,
 ) -> Pose {
     let Bond { a, b, .. } = robot.bonds[bond];
-    let hinge = robot.hinge(bond).zip(numbers.hinge(bond));
-    let open = hinge.map_or(Pose::identity(), |(hinge, joint)| turned(hinge.axis, joints[joint]));
-    let X_PQ = open * mate(robot, bond);
+    let X_PQ = joining::perfect_mate(robot, numbers, bond, joints);
     let [X_WP, X_WQ] = [a, b].map(|port| numbers.port_pose(robot, port, poses));
     match first {
         true => X_WQ * X_PQ.inverse() * X_WP.inverse(),
