@@ -18,6 +18,8 @@ pub(super) struct Torques<'a> {
     base: Pose,
     /// The vector of free fall in the world, m/s².
     gravity: Vec3,
+    /// The inertia of each joint's rotor as the joint feels it, kg·m² or kg; 0 where none is stated.
+    armatures: Vec<f64>,
     /// The joints, then the motors, that state a greatest effort.
     loads: Vec<Load>,
 }
@@ -104,7 +106,8 @@ pub(super) fn torques<'a>(
     let mut loads = joints(robot, reserve);
     loads.extend(motors(robot, &kinematics, reserve));
     let gravity = Vec3::new(0.0, 0.0, -world.gravity);
-    Some(Torques { kinematics, dynamics, base: tracks.start.base, gravity, loads })
+    let armatures = robot.joints().map(|owner| robot.servo(owner).armature.unwrap_or(0.0)).collect();
+    Some(Torques { kinematics, dynamics, base: tracks.start.base, gravity, armatures, loads })
 }
 
 /// Returns the loads of joints with a motor of their own that state a greatest effort.
@@ -167,7 +170,11 @@ impl Torques<'_> {
                 velocities,
                 accelerations,
             };
-            self.dynamics.inverse(&self.kinematics, &state, gravity).efforts
+            let mut efforts = self.dynamics.inverse(&self.kinematics, &state, gravity).efforts;
+            for (joint, effort) in efforts.iter_mut().enumerate() {
+                *effort += self.armatures[joint] * accelerations[joint];
+            }
+            efforts
         };
         let zero = Vec3::zeros();
         let a = efforts(&still, &point.d, &zero);
