@@ -135,14 +135,45 @@ def call(words: Sequence[str], text: str | None = None, raises: bool = True) -> 
     Raises:
         ModlError: if the call is wrong, or if ``raises`` and something else is.
     """
-    arguments = [binary(), "--json", *words]
+    code, out, error = _output([binary(), "--json", *words], None if text is None else text.encode())
+    try:
+        report = json.loads(out)
+    except ValueError:
+        said = error.decode(errors="replace").strip() or f"it ended with {code}"
+        raise ModlError(f"the `modl` command gave no answer: {said}") from None
+    if "call_error" in report:
+        raise ModlError(report["call_error"], report=report)
+    found = tuple(Diagnostic._of(d) for d in report.get("diagnostics", ()))
+    answer = Answer(code, report, found)
+    if raises and code != 0:
+        raise failure(answer)
+    return answer
+
+
+def data(words: Sequence[str]) -> bytes:
+    """Call the command and return the bytes that it prints.
+
+    Raises:
+        ModlError: if something is wrong.
+    """
+    code, out, _ = _output([binary(), *words], None)
+    if code != 0:
+        # The same call tells as JSON what is wrong.
+        raise failure(call([word for word in words if word != "--npy"], raises=False))
+    return out
+
+
+def _output(arguments: list[str], given: bytes | None) -> tuple[int, bytes, bytes]:
+    """Call a program; return its exit code and what it prints to its two outputs.
+
+    Ctrl-C ends it, and raises :class:`KeyboardInterrupt` within a tenth of a second.
+    """
     # Its own group: Ctrl-C is handed on here, once, and not by the terminal as well.
     apart: dict[str, Any] = {"start_new_session": True} if os.name == "posix" else {}
     process = subprocess.Popen(
         arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **apart
     )
     ends: list[bytes] = []
-    given = None if text is None else text.encode()
     # `communicate` itself would wait for a quarter of a second after Ctrl-C.
     waiting = threading.Thread(target=lambda: ends.extend(process.communicate(given)), daemon=True)
     try:
@@ -155,18 +186,7 @@ def call(words: Sequence[str], text: str | None = None, raises: bool = True) -> 
     out, error = ends
     if process.returncode == 130:
         raise KeyboardInterrupt
-    try:
-        report = json.loads(out)
-    except ValueError:
-        said = error.decode(errors="replace").strip() or f"it ended with {process.returncode}"
-        raise ModlError(f"the `modl` command gave no answer: {said}") from None
-    if "call_error" in report:
-        raise ModlError(report["call_error"], report=report)
-    found = tuple(Diagnostic._of(d) for d in report.get("diagnostics", ()))
-    answer = Answer(process.returncode, report, found)
-    if raises and process.returncode != 0:
-        raise failure(answer)
-    return answer
+    return process.returncode, out, error
 
 
 def failure(answer: Answer) -> ModlError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import io
 import json
 import os
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from typing import Any, Iterator, Mapping
 
 import numpy as np
 
-from ._command import ModlError, PathLike, call, failure
+from ._command import ModlError, PathLike, call, data, failure
 
 
 @dataclass(frozen=True)
@@ -96,10 +96,10 @@ class Plan:
         Raises:
             ModlError: if the plan has no such series.
         """
-        answer = call(["plan", self.file, "--series", series, "--rate", f"{rate!r}Hz"])
-        rows = list(csv.reader(answer.report["printed"]))
-        values = [[float(cell) if cell else np.nan for cell in row] for row in rows[1:] if row]
-        return Series(rows[0], np.array(values, dtype=float).reshape(len(values), len(rows[0])))
+        printed = data(["plan", self.file, "--series", series, "--rate", f"{rate!r}Hz", "--npy"])
+        records = np.load(io.BytesIO(printed), allow_pickle=False, max_header_size=len(printed))
+        names = list(records.dtype.names)
+        return Series(names, np.column_stack([records[name].astype(float) for name in names]))
 
     def show(self, height: int = 480):
         """Draw the plan as a page that plays it; in a notebook it is shown inline."""

@@ -63,7 +63,15 @@ def test_a_plan_is_judged_sampled_and_simulated(project):
     assert np.allclose(series.time, np.arange(21) / 10)
     s = series.time / 2
     assert np.allclose(series[bent], np.radians(30) * (10 * s**3 - 15 * s**4 + 6 * s**5), atol=1e-9)
-    assert series.array.shape == (21, len(series.names))
+    assert series.array.shape == (21, len(series.names)) and bent == "m[1].tilt"
+    assert np.allclose(plan.sample(rate=10, series="speeds")[bent], np.gradient(series[bent], 0.1), atol=0.03)
+    base = plan.sample(series="base")
+    assert np.allclose(np.linalg.norm([base[q] for q in ("qw", "qx", "qy", "qz")], axis=0), 1)
+    with pytest.raises(modl.ModlError, match="colours"):
+        plan.sample(series="colours")
+    with pytest.raises(modl.ModlError) as caught:
+        plan.sample(rate=1e12)
+    assert caught.value.codes == ("E0705",)
     played = plan.simulate()
     assert played["duration"] >= 2 and abs(played["fall"] or 0) == 0
     page = plan.show()
@@ -105,6 +113,16 @@ def test_a_study_is_a_table_of_arrays(project):
         table.best()
     pandas = pytest.importorskip("pandas")
     assert isinstance(table.to_pandas(), pandas.DataFrame)
+    parquet = pytest.importorskip("pyarrow.parquet")
+    table.to_parquet("areas.parquet")
+    read = parquet.read_table("areas.parquet")
+    assert read.column_names == list(table) and read.num_rows == 12
+    types = {name: str(read.schema.field(name).type) for name in ("row", "area", "k", "word", "ok", "code")}
+    assert types == {"row": "int64", "area": "double", "k": "int64", "word": "string", "ok": "bool", "code": "string"}
+    assert read["area"].null_count == np.isnan(table["area"]).sum() > 0
+    known = [area for area in read["area"].to_pylist() if area is not None]
+    assert np.array_equal(known, table["area"][table.ok])
+    assert json.loads(read.schema.metadata[b"modl"])["rows"] == 12
 
 
 def test_parts_of_a_study_give_the_table_of_the_whole(project):
@@ -146,9 +164,11 @@ def test_cells_of_notebooks_are_programs(project, capsys):
     assert page._repr_html_().startswith("<iframe")
 
 
-def test_the_readme_runs(project):
-    text = (Path(__file__).parents[1] / "README.md").read_text()
-    code = text.split("```python\n")[1].split("```")[0].replace("../examples", str(EXAMPLES))
+@pytest.mark.parametrize("readme", ["python/README.md", "README.md"])
+def test_the_readmes_run(project, readme):
+    text = (EXAMPLES.parent / readme).read_text()
+    code = text.split("```python\n")[1].split("```")[0]
+    code = code.replace("../examples", "examples").replace("examples", str(EXAMPLES))
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("True (")

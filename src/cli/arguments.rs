@@ -170,7 +170,7 @@ pub(super) enum Command {
     #[command(
         after_help = "Examples:\n  modl plan out/walk.plan.json\n  modl plan out/walk.plan.json --series joints --rate 100Hz > \
         walk.csv\n  modl plan out/walk.plan.json --map robot.json\n  modl plan out/walk.plan.json --map robot.json --series \
-        joints > targets.csv\n\nA series is a table in CSV, SI units and radians; with a map its columns are the targets of \
+        joints > targets.csv\n  modl plan out/walk.plan.json --series speeds --npy > walk.npy\n\nA series is a table in CSV, SI units and radians; with a map its columns are the targets of \
         motors,\n`BUS/CHANNEL`. docs/executing.md tells how a robot executes a plan."
     )]
     Plan {
@@ -183,6 +183,9 @@ pub(super) enum Command {
         /// The samples a second, such as 100Hz
         #[arg(long, value_name = "RATE", requires = "series", value_parser = super::choices::rate, default_value = "100Hz")]
         rate: f64,
+        /// Print the series as a file of NumPy, an array of records, instead of CSV
+        #[arg(long, requires = "series", conflicts_with = "json")]
+        npy: bool,
         /// The map from joints to the motors of a robot (docs/robot-map.schema.json)
         #[arg(long, value_name = "MAPFILE")]
         map: Option<PathBuf>,

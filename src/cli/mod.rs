@@ -189,8 +189,9 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Study(arguments) => study::run(arguments, globals),
         Command::Export { files, to } => export::run(files, to, globals),
         Command::Import { files } => import::run(files, globals),
-        Command::Plan { file, series, rate, map } => {
-            plan::run(file, series.as_deref().map(|name| (name, *rate)), map.as_deref(), globals)
+        Command::Plan { file, series, rate, npy, map } => {
+            let wanted = series.as_deref().map(|series| plan::Wanted { series, rate: *rate, npy: *npy });
+            plan::run(file, wanted, map.as_deref(), globals)
         }
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::What { file, robot } => repl::what(file, robot, globals),

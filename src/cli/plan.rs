@@ -4,10 +4,11 @@ use super::arguments::Globals;
 use super::disk;
 use super::judge::{self, PlanFileFault};
 use super::report::Report;
-use super::terminal::{print, print_exact};
+use super::terminal::{print, print_bytes, print_exact};
 use super::{CallError, Ending};
 use crate::exchange::mapping::{self, Driven, RobotMap};
 use crate::exchange::series::{self, SAMPLES_MAX, Series};
+use crate::formats::{RecordTable, npy};
 use crate::plan::{Body, Plan};
 use crate::source::{Diagnostic, Sources, Span, code};
 use crate::units::counted;
@@ -16,14 +17,24 @@ use std::path::Path;
 /// The greatest size of a map file, in bytes.
 const MAP_BYTES_MAX: usize = 16 << 20;
 
-/// Runs the command `modl plan`. `wanted`: the name of a series and its rate in Hz; `map`: a map file. Without both it says
-/// what the plan holds.
+/// A series of a plan that is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'w> {
+    /// The name of the series.
+    pub series: &'w str,
+    /// The samples a second, Hz.
+    pub rate: f64,
+    /// True if it is to be a file of NumPy instead of CSV.
+    pub npy: bool,
+}
+
+/// Runs the command `modl plan`. `wanted`: a series; `map`: a map file. Without both it says what the plan holds.
 ///
 /// # Errors
 /// A message if a file can't be read or is too large.
 pub(super) fn run(
     file: &Path,
-    wanted: Option<(&str, f64)>,
+    wanted: Option<Wanted>,
     map: Option<&Path>,
     globals: &Globals,
 ) -> Result<Ending, CallError> {
@@ -36,7 +47,14 @@ pub(super) fn run(
     judge::each_plan(&[file.to_owned()], report, globals, |name, plan, report| {
         let driven = map.as_ref().map(|(path, bytes)| fitted(path, bytes, plan)).transpose()?;
         let text = match wanted {
-            Some((series, rate)) => sampled(name, plan, series, rate, driven.as_deref())?,
+            Some(wanted) => {
+                let table = sampled(name, plan, wanted, driven.as_deref())?;
+                if wanted.npy {
+                    print_bytes(&npy(&table));
+                    return Ok(true);
+                }
+                series::csv(&table)
+            }
             None => match &driven {
                 Some(driven) => fits(plan, driven),
                 None => format!("{name}: {}\n", holds(plan)),
@@ -75,17 +93,16 @@ fn fits(plan: &Plan, driven: &[Driven]) -> String {
     text
 }
 
-/// Returns a series of a plan as CSV; with motors the targets of these.
+/// Returns a series of a plan; with motors the targets of these.
 ///
 /// # Errors
 /// The fault of a plan without joints, or one that is too long for the rate.
 fn sampled(
     name: &str,
     plan: &Plan,
-    series: &str,
-    rate: f64,
+    Wanted { series, rate, .. }: Wanted,
     driven: Option<&[Driven]>,
-) -> Result<String, PlanFileFault> {
+) -> Result<RecordTable, PlanFileFault> {
     let fault =
         |message: String| Box::new((Sources::default(), Diagnostic::error(code::NOT_EXPORTED, message)));
     let times = series::times(plan.body.duration(), rate)
@@ -93,10 +110,9 @@ fn sampled(
     let kind =
         Series::WORDS.iter().find(|(word, _)| *word == series).map_or(Series::Joints, |(_, kind)| *kind);
     if let (Some(driven), Some(tracks), Series::Joints) = (driven, plan.body.tracks(), kind) {
-        return Ok(series::csv(&mapping::targets(tracks, driven, &times)));
+        return Ok(mapping::targets(tracks, driven, &times));
     }
-    let table = series::table(plan, kind, &times).map_err(|refusal| fault(format!("`{name}`: {refusal}")))?;
-    Ok(series::csv(&table))
+    series::table(plan, kind, &times).map_err(|refusal| fault(format!("`{name}`: {refusal}")))
 }
 
 /// Returns the motors of a plan's joints by a map file.

@@ -153,8 +153,13 @@ pub(super) fn print_json(json: &str) {
 /// Writes text to standard output as it is, without escaping. A failure is kept for [`output_failure`]; a closed output
 /// is none: `modl ... | head` is quiet.
 pub(super) fn print_exact(text: &str) {
+    print_bytes(text.as_bytes());
+}
+
+/// Writes bytes to standard output, as [`print_exact`] writes text.
+pub(super) fn print_bytes(bytes: &[u8]) {
     let mut out = io::stdout().lock();
-    note_output(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+    note_output(out.write_all(bytes).and_then(|()| out.flush()));
 }
 
 /// Stores the error of a failed write to standard output, unless an earlier one is stored; a pipe that its reader

@@ -13,6 +13,7 @@ mod fold;
 mod fold_reader;
 pub(crate) mod masses;
 pub mod mjcf;
+mod npy;
 mod obj;
 mod off;
 mod ply;
@@ -26,6 +27,7 @@ use crate::robot::{rofi, rofi_json};
 pub use content::{Content, triangles};
 pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
+pub use npy::npy;
 pub use table::{RecordCell, RecordColumn, RecordTable};
 
 /// A file format of meshes or point clouds, with its reader.

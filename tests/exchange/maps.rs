@@ -197,6 +197,42 @@ fn rates_and_series_that_are_none_are_wrong_calls() {
 }
 
 #[test]
+fn a_file_of_numpy_holds_the_numbers_of_the_table() {
+    let (sandbox, _) = sandbox();
+    let call = ["plan", "out/drive.plan.json", "--series", "joints", "--rate", "50Hz"];
+    let table = sandbox.run(&call).out;
+    let printed = sandbox.command(&[&call[..], &["--npy"]].concat()).output().expect("it runs");
+    assert!(printed.status.success());
+    let bytes = printed.stdout;
+    // NEP 1: magic, version 3.0, the length of the head, the head, which ends where alignment wants it.
+    assert_eq!(&bytes[..8], b"\x93NUMPY\x03\x00");
+    let length = u32::from_le_bytes(bytes[8..12].try_into().expect("four bytes")) as usize;
+    assert_eq!((12 + length) % 64, 0);
+    let head = std::str::from_utf8(&bytes[12..12 + length]).expect("it is UTF-8");
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines
+        .next()
+        .expect("a head")
+        .split(',')
+        .map(|name| name.split(" [").next().expect("a name"))
+        .collect();
+    let fields: String = names.iter().map(|name| format!("('{name}', '<f8'), ")).collect();
+    let rows: Vec<f64> =
+        lines.flat_map(|line| line.split(',').map(|x| x.parse::<f64>().expect("a number"))).collect();
+    let shape = rows.len() / names.len();
+    let wanted = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({shape},), }}");
+    assert_eq!(head.trim_end_matches(' ').trim_end_matches('\n').trim_end(), wanted);
+    assert!(head.ends_with('\n') && names.len() == 5 && shape > 10);
+    let found: Vec<f64> = bytes[12 + length..]
+        .chunks_exact(8)
+        .map(|x| f64::from_le_bytes(x.try_into().expect("eight bytes")))
+        .collect();
+    assert_eq!(found, rows);
+    assert_eq!(sandbox.run(&["plan", "out/drive.plan.json", "--npy"]).code, 2);
+    assert_eq!(sandbox.run(&[&call[..], &["--npy", "--json"]].concat()).code, 2);
+}
+
+#[test]
 fn the_published_schema_of_maps_is_up_to_date_and_takes_the_map_of_the_page() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/robot-map.schema.json");
     let text = format!("{}\n", serde_json::to_string_pretty(&RobotMap::schema()).expect("it can be written"));
