@@ -6,10 +6,11 @@
 
 use super::law::{self, MotionLimits, Piece};
 use super::motion::Motion;
+use super::played::Played;
 use super::refusal::{Reason, Refusal, limit};
-use super::run::{Played, Run};
+use super::run::Run;
 use crate::plan::time::{tick_after, tick_near};
-use crate::plan::visit::Graph;
+use crate::plan::visit::{Graph, has_contracts};
 use crate::plan::{Action, CauseId, Command, Node, Profile, Segment, Target, Track};
 use crate::robot::JointId;
 use std::collections::BTreeSet;
@@ -53,6 +54,10 @@ impl Run<'_> {
         for mut exemption in played.exemptions {
             (exemption.from, exemption.to) = (self.now + at(exemption.from), self.now + at(exemption.to));
             self.exemptions.push(exemption);
+        }
+        for mut contract in played.contracts {
+            (contract.from, contract.to) = (self.now + at(contract.from), self.now + at(contract.to));
+            self.contracts.push(contract);
         }
         self.actions += played.actions;
         Ok(self.now + duration)
@@ -113,6 +118,9 @@ impl Run<'_> {
     fn round(&mut self, body: &Arc<Node>, shift: f64, cause: CauseId) -> Result<Round, Refusal> {
         if !(0.0..=1.0).contains(&shift) {
             return Err(Refusal::at(cause, Reason::BadNumber { what: "a phase", value: shift }));
+        }
+        if has_contracts(body) {
+            return Err(Refusal::at(cause, Reason::NotCyclic { what: "a behaviour with a contract" }));
         }
         let positions = self.positions();
         let first = self.run_body(body, positions, cause)?;

@@ -7,7 +7,7 @@
 
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Pose, Vec3};
-use crate::plan::visit::{Graph, rewritten};
+use crate::plan::visit::{Graph, has_contracts, rewritten};
 use crate::plan::{Action, Command, Condition, Node, Signal, Target};
 use crate::robot::{Assembly, JointId, JointKind, JointOwner, Kinematics};
 use std::sync::Arc;
@@ -32,6 +32,8 @@ pub enum MirrorError {
     Docking,
     /// A motion that is stated by its goal, given by the name of the built-in that makes it.
     Goal(&'static str),
+    /// A contract, whose condition is about the robot as it stands.
+    Contract,
     /// A condition on the distance of ports or on modules, of which no image is known.
     Sensing,
 }
@@ -43,6 +45,9 @@ impl std::fmt::Display for MirrorError {
             MirrorError::Docking => write!(f, "docking has no mirror image"),
             MirrorError::Goal(name) => {
                 write!(f, "`{name}` has no mirror image: what joints do is not known here")
+            }
+            MirrorError::Contract => {
+                write!(f, "a behaviour with a contract has no mirror image: the contract is about this side")
             }
             MirrorError::Sensing => {
                 write!(f, "conditions on modules and ports have no mirror image, only those on joints have")
@@ -64,6 +69,9 @@ pub fn mirrored(
     program: &Arc<Node>,
     plane: Plane,
 ) -> Result<Arc<Node>, MirrorError> {
+    if has_contracts(program) {
+        return Err(MirrorError::Contract);
+    }
     if let Some(name) = goal_in(program) {
         return Err(MirrorError::Goal(name));
     }

@@ -5,8 +5,9 @@ use super::condition::{self, Sensors, View};
 use super::joints::JointFacts;
 use super::limits::Issue;
 use super::motion::Motion;
+use super::played::Played;
 use super::refusal::{Reason, Refusal, limit};
-use super::schedule::Settings;
+use super::schedule::{ContractInterval, Settings};
 use crate::plan::time::{DURATION_MAX, tick_after};
 use crate::plan::{Action, CauseId, Condition, DockingEvent, Exemption, Node, Otherwise, Track};
 use crate::robot::{Assembly, JointId};
@@ -34,6 +35,8 @@ pub(super) struct Run<'a> {
     pub(super) open_turns: Vec<usize>,
     /// The intervals so far that are excused from a check.
     pub(super) exemptions: Vec<Exemption>,
+    /// The intervals so far over which contracts are judged.
+    pub(super) contracts: Vec<ContractInterval>,
     /// Stated durations so far that are shorter than the limits allow.
     pub(super) issues: Vec<Issue>,
     /// The limits and tolerances of scheduling.
@@ -63,32 +66,6 @@ pub(super) struct Run<'a> {
     done: bool,
 }
 
-/// The result of a run that has come to its end.
-pub(super) struct Played {
-    /// The robot, with the bonds that docking added.
-    pub(super) robot: Arc<Assembly>,
-    /// The trajectory of every joint that moves, ascending by joint.
-    pub(super) tracks: Vec<Track>,
-    /// The positions at the start, by the number in the joint's `JointId`, rad or m.
-    pub(super) joints: Vec<f64>,
-    /// The positions at the end, by the number in the joint's `JointId`, rad or m.
-    pub(super) end: Vec<f64>,
-    /// The changes of bonds, in order of time.
-    pub(super) docks: Vec<DockingEvent>,
-    /// The bonds whose turns depend on how robots stand; see [`Run::open_turns`].
-    pub(super) open_turns: Vec<usize>,
-    /// The time at which all is done and at rest, s.
-    pub(super) duration: f64,
-    /// The intervals that are excused from a check.
-    pub(super) exemptions: Vec<Exemption>,
-    /// Stated durations that are shorter than the limits allow.
-    pub(super) issues: Vec<Issue>,
-    /// The number of actions executed.
-    pub(super) actions: u64,
-    /// The number of nodes entered, which measures the work.
-    pub(super) steps: u64,
-}
-
 /// A task at the present instant.
 enum Task<'a> {
     /// A node begins; it completes to the frame of this index.
@@ -108,6 +85,7 @@ enum FrameKind<'a> {
     Parallel { left: usize },
     Repeat { body: &'a Arc<Node>, left: u64, until: Option<&'a Condition>, began: f64 },
     Exempt { index: usize },
+    Contract { index: usize },
 }
 
 /// An action, or a piece of a cycle, that has begun.
@@ -175,6 +153,7 @@ impl<'a> Run<'a> {
             docks: vec![],
             open_turns: vec![],
             exemptions: vec![],
+            contracts: vec![],
             issues: vec![],
             settings,
             now: 0.0,
@@ -310,6 +289,13 @@ impl<'a> Run<'a> {
                 let frame = self.open(parent, FrameKind::Exempt { index });
                 self.tasks.push(Task::Begin(body, Some(frame)));
             }
+            Node::Contract { body, number, cause } => {
+                let index = self.contracts.len();
+                let (from, to) = (self.now, self.now);
+                self.contracts.push(ContractInterval { number: *number, cause: *cause, from, to });
+                let frame = self.open(parent, FrameKind::Contract { index });
+                self.tasks.push(Task::Begin(body, Some(frame)));
+            }
             Node::Goal(goal) => return Err(Refusal::unresolved(goal)),
             Node::Phase { .. } | Node::Approach { .. } | Node::Stretch { .. } => {
                 let end = self.begin_cycle(node)?;
@@ -378,6 +364,10 @@ impl<'a> Run<'a> {
             }
             FrameKind::Exempt { index } => {
                 self.exemptions[*index].to = self.now;
+                None
+            }
+            FrameKind::Contract { index } => {
+                self.contracts[*index].to = self.now;
                 None
             }
             FrameKind::Repeat { .. } | FrameKind::Parallel { .. } => None,
@@ -577,6 +567,7 @@ impl<'a> Run<'a> {
             open_turns: self.open_turns,
             duration,
             exemptions: self.exemptions,
+            contracts: self.contracts,
             issues: self.issues,
             actions: self.actions,
             steps: self.steps,

@@ -8,9 +8,10 @@
 use super::joints::{self, JointFacts};
 use super::limits::Issue;
 use super::motion::Motion;
+use super::played::Played;
 use super::refusal::{Reason, Refusal};
-use super::run::{Played, Run};
-use crate::plan::visit::Graph;
+use super::run::Run;
+use crate::plan::visit::{Graph, without_contracts};
 use crate::plan::{CauseId, Exemption, Node, Otherwise, Program, Tracks};
 use crate::robot::{Assembly, JointId, State};
 use std::sync::Arc;
@@ -78,6 +79,8 @@ pub struct Scheduled {
     pub program: Program,
     /// The intervals of the motion that are excused from a check of the judge.
     pub exemptions: Vec<Exemption>,
+    /// The intervals of the motion over which contracts are judged, in the order in which they begin.
+    pub contracts: Vec<ContractInterval>,
     /// True if times depend on sensors or timeouts; the times are then those of the undisturbed run.
     pub nominal: bool,
     /// The number of actions that were carried out, repetitions included.
@@ -87,6 +90,19 @@ pub struct Scheduled {
     pub open_turns: Vec<usize>,
     /// Stated durations that are shorter than the joints' limits allow, at most one for each cause.
     pub issues: Vec<Issue>,
+}
+
+/// The interval of a behaviour that has a contract, in one of its uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContractInterval {
+    /// The number of the contract, as its [`Node::Contract`] has it.
+    pub number: u32,
+    /// The cause that is to blame where the contract does not hold.
+    pub cause: CauseId,
+    /// The time at which the behaviour begins, s.
+    pub from: f64,
+    /// The time at which all of it has ended, s.
+    pub to: f64,
 }
 
 /// Schedules a behaviour, a series-parallel action graph (Section V-B of the compositional-design paper, Tosun, Jing,
@@ -120,8 +136,19 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
     let motions = start.joints.iter().map(|&q| Motion::at_rest(q)).collect();
     let obstacles = Default::default();
     let run = Run::new(Arc::new(robot), facts, motions, start.bonds.clone(), settings);
-    let Played { robot, tracks, joints, docks, open_turns, duration, exemptions, actions, issues, .. } =
-        run.play(&program)?;
+    let Played {
+        robot,
+        tracks,
+        joints,
+        docks,
+        open_turns,
+        duration,
+        exemptions,
+        contracts,
+        actions,
+        issues,
+        ..
+    } = run.play(&program)?;
     let robot = Arc::unwrap_or_clone(robot);
     let bonds = robot.bonds.iter().enumerate().map(|(i, _)| start.bonds.get(i).copied().unwrap_or(false));
     let start = State { bonds: bonds.collect(), joints, ..start };
@@ -137,8 +164,9 @@ pub fn schedule(problem: Problem) -> Result<Scheduled, Refusal> {
             start_causes,
             bond_causes,
         },
-        program: Program { root: program },
+        program: Program { root: without_contracts(&program) },
         exemptions,
+        contracts,
         nominal,
         actions,
         open_turns,

@@ -5,12 +5,12 @@ use super::expr::Role;
 use super::family::Family;
 use super::scope::Scope;
 use super::typed::{
-    BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, MemberKind,
-    PartCount, PartDef,
+    BehaviorDef, ConfigClause, ConfigDef, DefId, DefKind, Exemption, ExemptionKind, Expr, ExprKind,
+    MemberKind, PartCount, PartDef, Stmt, StmtKind,
 };
 use super::types::Type;
 use crate::source::suggest::suggest;
-use crate::source::{Diagnostic, code};
+use crate::source::{Diagnostic, Span, code};
 use crate::syntax::ast::{self, ConfigClauseKind};
 use crate::units::Dimension;
 
@@ -183,13 +183,19 @@ impl<'a> Checker<'a> {
         self.lint_snake(ast.name.text, ast.name.span, "behaviors");
         let params = self.typed_params(&mut scope, &ast.params, &info.signature.params, true);
         let allows = ast.allows.iter().filter_map(|e| self.exemption(&mut scope, e)).collect();
-        let body = self.expect(&mut scope, &ast.body, &Type::Behavior, Role::Place("a behavior"));
+        scope.in_behavior = true;
+        scope.contracts = matches!(ast.body.kind, ast::ExprKind::Block { .. });
+        let body = self.expr(&mut scope, &ast.body, Some(&Type::Behavior));
+        self.ensure_last(&body);
+        let contracts = contracts_of(&body);
+        let body = self.coerce(body, &Type::Behavior, Role::Place("a behavior"));
         BehaviorDef {
             name: ast.name.text,
             span: ast.name.span,
             doc: info.doc.clone(),
             params,
             allows,
+            contracts,
             body,
             frame: scope.frame(),
         }
@@ -409,4 +415,15 @@ impl<'a> Checker<'a> {
         self.note_frame(id, scope.frame());
         MemberKind::Port { count, value }
     }
+}
+
+/// Returns the clauses of requirements and contracts of a behaviour's own block, as [`BehaviorDef::contracts`].
+fn contracts_of(body: &Expr) -> Vec<(Span, bool)> {
+    let ExprKind::Block { statements, .. } = &body.kind else { return vec![] };
+    let clause = |statement: &Stmt| match &statement.kind {
+        StmtKind::Contract(contract) => Some((contract.span, true)),
+        StmtKind::Expect { .. } => Some((statement.span, false)),
+        _ => None,
+    };
+    statements.iter().filter_map(clause).collect()
 }

@@ -237,10 +237,12 @@ impl<'a> Checker<'a> {
     ) -> Expr {
         // A block with no statement is its value.
         if let (Some(value), []) = (value, statements) {
+            scope.contracts = false;
             return self.expr(scope, value, want);
         }
         let mark = scope.open();
         let statements = self.statements(scope, statements);
+        scope.contracts = false;
         for s in &statements {
             if let StmtKind::Expr(e) = &s.kind
                 && !matches!(e.ty, Type::Nothing | Type::Error)

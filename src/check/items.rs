@@ -361,8 +361,23 @@ impl<'a> Checker<'a> {
 
     /// Checks a statement; `mark` is that of the block it is in. `None` for an unreadable one.
     fn statement(&mut self, scope: &mut Scope, mark: (usize, u32), s: &'a ast::Stmt) -> Option<Stmt> {
+        // What stands within the statement is not in the block itself.
+        let own = std::mem::take(&mut scope.contracts);
+        let kind = self.statement_kind(scope, mark, s, own);
+        scope.contracts = own;
+        Some(Stmt { span: s.span, kind: kind? })
+    }
+
+    /// Checks a statement by its kind. `own`: true in a behaviour's own block.
+    fn statement_kind(
+        &mut self,
+        scope: &mut Scope,
+        mark: (usize, u32),
+        s: &'a ast::Stmt,
+        own: bool,
+    ) -> Option<StmtKind> {
         use ast::StmtKind as K;
-        let kind = match &s.kind {
+        Some(match &s.kind {
             K::Error => return None,
             K::Let(x) => {
                 let value = self.let_value(scope, x);
@@ -385,6 +400,8 @@ impl<'a> Checker<'a> {
                     .as_ref()
                     .map(|m| self.expect(scope, m, &Type::Text, Role::Place("the message"))),
             },
+            K::Require(r) if own => self.behavior_require(scope, r),
+            K::Ensure(r) => return self.ensure(scope, r, own),
             K::Require(r) => {
                 let r = self.require(scope, r);
                 StmtKind::Expect { condition: r.condition, message: r.message }
@@ -402,8 +419,7 @@ impl<'a> Checker<'a> {
                 scope.close(outer);
                 StmtKind::For { binder: local, iterable, body }
             }
-        };
-        Some(Stmt { span: s.span, kind })
+        })
     }
 
     /// Checks statements in an inner scope.

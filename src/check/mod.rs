@@ -11,6 +11,7 @@ mod bindings;
 mod call;
 mod checker;
 mod config;
+mod contracts;
 mod describe;
 mod expr;
 mod families;

@@ -95,6 +95,9 @@ impl<'a> Checker<'a> {
         if want.is_some_and(Type::is_error) {
             return error_expr(span);
         }
+        if self.state_elsewhere(scope, name, span) {
+            return error_expr(span);
+        }
         let choice = want.and_then(choice_of).filter(|c| !c.words.is_empty());
         if let Some(choice) = choice {
             let words: Vec<&str> = choice.words.iter().map(|w| w.as_str()).collect();

@@ -15,6 +15,12 @@ pub(super) struct Scope {
     pub type_params: Vec<TypeParam>,
     /// True in the body of the function that has the type parameters, where they are types of which nothing is known.
     pub in_body: bool,
+    /// True in the statements of a behaviour's own block, where contracts stand.
+    pub contracts: bool,
+    /// True in the body of a behaviour.
+    pub in_behavior: bool,
+    /// True once a state or a report that only contracts know was named since it was last set to false.
+    pub states_named: bool,
     frame: Frame,
     /// Frames around a lambda, innermost last.
     outer: Vec<Frame>,
@@ -38,6 +44,8 @@ struct Binding {
     name: Symbol,
     local: Local,
     ty: Type,
+    /// True for a state or a report that only contracts know.
+    of_contract: bool,
 }
 
 impl Frame {
@@ -64,6 +72,9 @@ impl Scope {
             this,
             type_params: Vec::new(),
             in_body: false,
+            contracts: false,
+            in_behavior: false,
+            states_named: false,
             frame: Frame::default(),
             outer: Vec::new(),
         }
@@ -72,7 +83,14 @@ impl Scope {
     /// Adds a local to the innermost scope, and returns its slot.
     pub(super) fn bind(&mut self, name: Symbol, ty: Type) -> Local {
         let local = self.frame.slot();
-        self.frame.locals.push(Binding { name, local, ty });
+        self.frame.locals.push(Binding { name, local, ty, of_contract: false });
+        local
+    }
+
+    /// Adds a state or a report that only contracts know to the innermost scope, and returns its slot.
+    pub(super) fn bind_of_contract(&mut self, name: Symbol, ty: Type) -> Local {
+        let local = self.bind(name, ty);
+        self.frame.locals.iter_mut().rev().take(1).for_each(|bound| bound.of_contract = true);
         local
     }
 
@@ -118,7 +136,9 @@ impl Scope {
     /// Returns (local, type) of the local of this name, captured from an outer frame if need be; `None` if there is
     /// none.
     pub(super) fn local(&mut self, name: Symbol) -> Option<(Local, Type)> {
-        self.local_at(name, self.outer.len()).map(|b| (b.local, b.ty))
+        let found = self.local_at(name, self.outer.len())?;
+        self.states_named |= found.of_contract;
+        Some((found.local, found.ty))
     }
 
     /// Returns a local as seen from the frame at this depth, captured from the frames outside if need be.

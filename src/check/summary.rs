@@ -1,8 +1,8 @@
 //! Declarations as they are written, without their bodies, for documentation, hover and completion.
 
-use super::typed::{Def, DefId, DefKind, Member, MemberKind, Param, Program, StudyAxis};
+use super::typed::{BehaviorDef, Def, DefId, DefKind, Member, MemberKind, Param, Program, StudyAxis};
 use super::{Checked, Type};
-use crate::source::Symbol;
+use crate::source::{Span, Symbol};
 use std::sync::Arc;
 
 /// A declaration inside a declaration, with its documentation.
@@ -14,6 +14,8 @@ pub(crate) struct Inside {
     pub name: Symbol,
     /// The text of the declaration without the keyword: `bend: Joint<Angle>`, `walk(steps: Int = 4)`.
     pub head: String,
+    /// The clauses that a behaviour states, each on one line: what it requires, and what it ensures. Empty for other members.
+    pub contracts: Vec<String>,
     /// The text of the member's doc comment; `None` if there is none.
     pub doc: Option<Arc<str>>,
 }
@@ -153,6 +155,7 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         group,
         name,
         head,
+        contracts: Vec::new(),
         doc: doc.clone(),
     };
     let names = type_params(&def.kind);
@@ -203,7 +206,9 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
                 entry(Group::Part, part.name, head, &member.and_then(|member| member.doc.clone()))
             });
             let behaviors = config.behaviors.iter().map(|b| {
-                entry(Group::Behavior, b.name, format!("{}({})", b.name, params(&b.params, &[])), &b.doc)
+                let head = format!("{}({})", b.name, params(&b.params, &[]));
+                let inside = entry(Group::Behavior, b.name, head, &b.doc);
+                Inside { contracts: contracts(checked, b), ..inside }
             });
             let before = of_params(&config.params).into_iter().chain(parts);
             before.chain(of_members(&config.members)).chain(behaviors).collect()
@@ -236,4 +241,14 @@ pub(crate) fn inside(checked: &Checked, def: &Def) -> Vec<Inside> {
         DefKind::Truss(d) => of_params(&d.params).into_iter().chain(of_members(&d.members)).collect(),
         _ => Vec::new(),
     }
+}
+
+/// Returns the requirements and contracts of a behaviour as they are written, each on one line.
+fn contracts(checked: &Checked, behavior: &BehaviorDef) -> Vec<String> {
+    let clause = |(span, _): &(Span, bool)| {
+        let text = checked.sources.text(*span).split_whitespace().collect::<Vec<_>>().join(" ");
+        // `expect` states nothing that a caller can rely on.
+        (!text.starts_with("expect")).then_some(text)
+    };
+    behavior.contracts.iter().filter_map(clause).collect()
 }

@@ -10,7 +10,9 @@ use super::types::Type;
 use crate::source::{FileId, Span, Symbol};
 use std::sync::Arc;
 
-pub use super::typed_expr::{BinaryOp, Body, Clause, Expr, ExprKind, Stmt, StmtKind, Test, UnaryOp};
+pub use super::typed_expr::{
+    BinaryOp, Body, Clause, Contract, ContractKind, Expr, ExprKind, Stmt, StmtKind, Test, UnaryOp,
+};
 pub use super::typed_module::{
     JointBetween, JointDef, JointDefKind, Linear, LinkDef, ModuleClause, ModuleDef, MotorDef, Placement,
     PortClause, PortGroup,
@@ -388,6 +390,9 @@ pub struct BehaviorDef {
     pub params: Vec<Param>,
     /// The exemptions from verification, in order.
     pub allows: Vec<Exemption>,
+    /// The spans of its requirements and contracts, in the order of the text: those of their whole clauses, with true for
+    /// contracts, which are judged when the behaviour is used.
+    pub contracts: Vec<(Span, bool)>,
     /// The expression that gives the behaviour.
     pub body: Expr,
     /// The number of slots, for local variables, of the frame in which the body is evaluated.

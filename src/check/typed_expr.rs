@@ -55,6 +55,8 @@ pub enum StmtKind {
         /// The message if the condition does not hold, a text; `None` if none is written.
         message: Option<Expr>,
     },
+    /// A contract of a behaviour, in its own block, which is judged when the behaviour is used.
+    Contract(Arc<Contract>),
     /// A branch of statements: `if condition { ... } else { ... }`.
     If {
         /// The condition, an expression of type `Bool`.
@@ -73,6 +75,45 @@ pub enum StmtKind {
         /// The statements that each pass of the loop carries out, in order.
         body: Vec<Stmt>,
     },
+}
+
+/// A contract of a behaviour, judged at each of its uses: `require condition, message` on the state in which it begins, or
+/// `ensure condition, message` on its end and its own interval.
+#[derive(Clone, Debug)]
+pub struct Contract {
+    /// The span of the clause in the source text.
+    pub span: Span,
+    /// The kind of the contract, which says who is to blame.
+    pub kind: ContractKind,
+    /// The condition that must hold, an expression of type `Bool`.
+    pub condition: Expr,
+    /// The message if the condition does not hold, a text; `None` if none is written.
+    pub message: Option<Expr>,
+    /// The local that holds the state in which the behaviour begins; `None` where a name of the program takes its place.
+    pub start: Option<Local>,
+    /// The local that holds the state in which the behaviour ends; `None` for a requirement.
+    pub end: Option<Local>,
+    /// The local that holds the report on the behaviour's own interval; `None` for a requirement.
+    pub report: Option<Local>,
+}
+
+/// A kind of contract.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContractKind {
+    /// A requirement on the state in which a behaviour begins: its caller is to blame.
+    Require,
+    /// A statement of what a behaviour brings about: the behaviour is to blame.
+    Ensure,
+}
+
+impl ContractKind {
+    /// Returns the keyword of the clause.
+    pub fn word(self) -> &'static str {
+        match self {
+            ContractKind::Require => "require",
+            ContractKind::Ensure => "ensure",
+        }
+    }
 }
 
 /// A checked expression, with its type and span.

@@ -77,7 +77,7 @@ impl Interpreter<'_> {
     pub(super) fn display_plan(&mut self, planned: &Rc<PlanValue>) -> Eval<String> {
         let duration = planned.plan.body.duration();
         let settings = self.judge_settings();
-        let verdict = self.judge(planned, settings, None);
+        let verdict = self.judge(planned, settings, None)?;
         let mark =
             if verdict.ok() { plan::headline(&planned.plan, &verdict) } else { "NOT VERIFIED".to_owned() };
         let long = quantity(duration, Dimension::TIME);
@@ -219,6 +219,7 @@ impl Drawer<'_> {
             Node::Approach { shift, .. } => format!("approach {shift} of the cycle"),
             Node::Stretch { duration, .. } => format!("in {}", quantity(*duration, Dimension::TIME)),
             Node::Exempt { kind, .. } => format!("allows {}", kind.name()),
+            Node::Contract { .. } => "with a contract".to_owned(),
             Node::Goal(goal) => goal.name().to_owned(),
         };
         let below = match node {
@@ -236,7 +237,9 @@ impl Drawer<'_> {
                 let shown = nodes.iter().take(NODES_DRAWN);
                 shown.map(|node| self.branch(node, from, depth + 1)).collect()
             }
-            Node::Repeat { body, .. } | Node::Exempt { body, .. } => vec![self.branch(body, from, depth + 1)],
+            Node::Repeat { body, .. } | Node::Exempt { body, .. } | Node::Contract { body, .. } => {
+                vec![self.branch(body, from, depth + 1)]
+            }
             // Within these the time runs otherwise.
             Node::Phase { body, .. } | Node::Stretch { body, .. } => vec![self.branch(body, None, depth + 1)],
         };
@@ -269,7 +272,7 @@ impl Drawer<'_> {
                 Some(first + more as f64 * (second - first))
             }
             Node::Stretch { duration, .. } => Some(from + duration),
-            Node::Exempt { body, .. } => self.end(body, from),
+            Node::Exempt { body, .. } | Node::Contract { body, .. } => self.end(body, from),
             Node::Phase { .. } | Node::Approach { .. } | Node::Goal(_) => None,
         }
     }

@@ -93,6 +93,9 @@ fn list(entry: &PageEntry, group: Group, inside: &[&Inside], doc: Doc) -> String
     for i in inside {
         let id = format!("{}.{}", entry.name, i.name);
         let _ = writeln!(out, "<dt id=\"{id}\"><code>{}</code></dt>", escaped(&i.head), id = escaped(&id));
+        for clause in &i.contracts {
+            let _ = writeln!(out, "<dd><code>{}</code></dd>", escaped(clause));
+        }
         if let Some(text) = &i.doc {
             let _ = writeln!(out, "<dd>{}</dd>", doc(text));
         }

@@ -13,7 +13,7 @@ use super::stop::{Eval, fault};
 use super::value::{Behavior, BehaviorCall, Callable, Value};
 use crate::check::Type;
 use crate::check::typed::{BehaviorDef, DefId, DefKind, Expr, FnDef, NativeDef, Param, RecordDef};
-
+use crate::plan::CauseId;
 use crate::source::{Span, Symbol, code};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -281,7 +281,10 @@ impl Interpreter<'_> {
         };
         let Some(declared) = config.behaviors.get(behavior) else { return Ok(Value::Unknown) };
         let name = declared.name;
-        self.with_call(span, name, |this| this.recall_behavior(declared, behavior, object, args))
+        // Blame for contracts falls on the call, with the loop variables of the caller.
+        let judged = declared.contracts.iter().any(|(_, judged)| *judged);
+        let called = judged.then(|| (span, self.cause(span, Vec::new(), "")));
+        self.with_call(span, name, |this| this.recall_behavior(declared, behavior, object, args, called))
     }
 
     /// Returns the behaviour that the same call gave before, or makes it. A call that prints, or fails, is made
@@ -292,15 +295,17 @@ impl Interpreter<'_> {
         behavior: usize,
         object: &Rc<Instance>,
         args: Args,
+        called: Option<(Span, CauseId)>,
     ) -> Eval<Value> {
         let in_library = self.is_library(declared.span);
         let caller = if in_library { self.user_call().map(|call| call.span) } else { None };
+        let caller = called.map(|(span, _)| span).or(caller);
         let call = BehaviorCall { object: object.clone(), behavior, args: args.values.clone(), caller };
         if let Some(known) = self.memory.recalled.find(call.key(), |other| call.is_same(other)) {
             return Ok(Value::Behavior(known));
         }
         let (errors, effects, steps) = (self.reported.errors, self.stack.effects, self.stack.steps);
-        let value = self.run_behavior(declared, object, args)?;
+        let value = self.run_behavior(declared, object, args, called.map(|(_, cause)| cause))?;
         let clean = errors == self.reported.errors && effects == self.stack.effects;
         if let Value::Behavior(made) = &value
             && clean
@@ -310,15 +315,24 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// Returns the behaviour that the body of a declaration gives, with its exemptions.
-    fn run_behavior(&mut self, declared: &BehaviorDef, object: &Rc<Instance>, args: Args) -> Eval<Value> {
+    /// Returns the behaviour that the body of a declaration gives, with its contracts and exemptions. `called`: the cause of
+    /// the call, if the declaration has contracts.
+    fn run_behavior(
+        &mut self,
+        declared: &BehaviorDef,
+        object: &Rc<Instance>,
+        args: Args,
+        called: Option<CauseId>,
+    ) -> Eval<Value> {
         let mut frame = Frame::new(declared.frame, Some(object.clone()));
         self.fill(&declared.params, args, &mut frame)?;
         let body = self.eval(&declared.body, &mut frame)?;
         let Value::Behavior(behavior) = body else { return Ok(Value::Unknown) };
         // One that only waits still is a behaviour of this robot.
         let robot = Some(behavior.robot.clone().unwrap_or_else(|| object.robot.clone()));
-        let behavior = Rc::new(Behavior { robot, node: behavior.node.clone() });
+        let stated = std::mem::take(&mut frame.contracts);
+        let node = self.with_contracts(&behavior.node, declared.name, stated, called);
+        let behavior = Rc::new(Behavior { robot, node });
         self.exempt(&behavior, &declared.allows, &mut frame)
     }
 
@@ -332,8 +346,11 @@ impl Interpreter<'_> {
             return Ok(None);
         }
         let args = Args { values: vec![None; behavior.params.len()], spans: Vec::new() };
-        self.with_call(behavior.span, behavior.name, |this| this.run_behavior(behavior, object, args))
-            .map(Some)
+        self.with_call(behavior.span, behavior.name, |this| {
+            let called = this.cause(behavior.span, Vec::new(), "");
+            this.run_behavior(behavior, object, args, Some(called))
+        })
+        .map(Some)
     }
 
     /// Returns the behaviour `action else b`, in which `b` follows the timeout of an action; `Value::Unknown` where one

@@ -113,6 +113,10 @@ impl PlanCauses {
                 let body = self.renumber_shared(body, done);
                 Node::Exempt { body, kind: kind.clone(), cause: self.number(*cause) }
             }
+            Node::Contract { body, number, cause } => {
+                let body = self.renumber_shared(body, done);
+                Node::Contract { body, number: *number, cause: self.number(*cause) }
+            }
             Node::Goal(goal) => {
                 let body = goal.body().map(|body| self.renumber_shared(body, done));
                 let mut goal = goal.with_body(|old| body.clone().unwrap_or_else(|| old.clone()));

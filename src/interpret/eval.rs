@@ -1,5 +1,6 @@
 //! The evaluation of expressions to values.
 
+use super::contracts::ContractValue;
 use super::design::{DesignKind, Instance};
 use super::identity::Name;
 use super::interpreter::Interpreter;
@@ -22,13 +23,15 @@ pub struct Frame {
     pub slots: Vec<Value>,
     /// The instance whose body is evaluated; `None` outside of declarations with instances.
     pub this: Option<Rc<Instance>>,
+    /// The contracts that were stated in the body, in order.
+    pub contracts: Vec<ContractValue>,
 }
 
 impl Frame {
     /// Returns a frame of `size` slots with unknown values, for a body of `this`; `None` outside of declarations with
     /// instances.
     pub fn new(size: usize, this: Option<Rc<Instance>>) -> Frame {
-        Frame { slots: vec![Value::Unknown; size], this }
+        Frame { slots: vec![Value::Unknown; size], this, contracts: Vec::new() }
     }
 
     /// Puts a value into the slot of a variable.

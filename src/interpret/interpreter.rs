@@ -2,6 +2,7 @@
 
 use super::capability::Capabilities;
 use super::causes::Causes;
+use super::contracts::ContractUse;
 use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
@@ -106,6 +107,8 @@ pub struct Memory {
     pub search_cache: SearchCache,
     /// The causes of commands, with their source lines.
     pub causes: Causes,
+    /// The contracts of behaviours, one for each time that a call stated one, by the numbers that behaviours have them by.
+    pub contracts: Vec<Rc<ContractUse>>,
     /// The exemptions of the user's own files that were judged, each with true if any plan needed it.
     pub exemptions: BTreeMap<Span, bool>,
 }

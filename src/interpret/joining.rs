@@ -6,7 +6,8 @@ use super::planning::Beginning;
 use super::record::Record;
 use super::stop::{Eval, Stop, fault};
 use super::value::Value;
-use crate::plan::{self, OperationError, Plan};
+use crate::behavior::ContractInterval;
+use crate::plan::{self, CauseId, Change, OperationError, Plan};
 use crate::source::{Span, code};
 use std::rc::Rc;
 
@@ -35,12 +36,27 @@ impl Interpreter<'_> {
         let plan = plan::joined(&first.plan, &second.plan).map_err(|unfit| unfitting(&unfit, span))?;
         let causes = first.causes.iter().chain(&second.causes).copied().collect();
         let actions = first.actions + second.actions;
-        let joined = PlanValue::new(first.robot.clone(), first.body.clone(), plan, causes, actions);
+        let renamed = matches!(plan.provenance.history.last(), Some(Change::Joined { renamed, .. }) if !renamed.is_empty());
+        let keeps = Rc::ptr_eq(&first.robot, &second.robot) && !renamed;
+        let (at, before) = (first.plan.body.duration(), first.causes.len() as u32);
+        let later = |use_: &ContractInterval| ContractInterval {
+            from: use_.from + at,
+            to: use_.to + at,
+            cause: CauseId(use_.cause.0 + before),
+            ..*use_
+        };
+        let more = second.contracts().iter().filter(|_| keeps).map(later);
+        let uses = first.contracts().iter().copied().chain(more).collect();
+        let dropped =
+            first.drops_contracts() || second.drops_contracts() || !keeps && !second.contracts().is_empty();
+        let joined = PlanValue::new(first.robot.clone(), first.body.clone(), plan, causes, actions)
+            .with_uses(uses, dropped);
         Ok(Value::Record(Rc::new(Record::Plan(Rc::new(joined)))))
     }
 
     /// Returns the plan that `change` makes of a plan, as a plan of the same robot with the same causes and number of
-    /// actions, not judged yet. `planned`: the plan that is changed.
+    /// actions, not judged yet. `planned`: the plan that is changed; `kept`: the times (s) between which
+    /// the uses of contracts stay, the first of which is the new beginning; `None` where none stays.
     ///
     /// # Errors
     /// A fault at `span` where `change` refuses.
@@ -48,11 +64,23 @@ impl Interpreter<'_> {
         &mut self,
         planned: &Rc<PlanValue>,
         change: impl FnOnce(&Plan) -> Result<Plan, OperationError>,
+        kept: Option<(f64, f64)>,
         span: Span,
     ) -> Eval<Rc<PlanValue>> {
         let plan = change(&planned.plan).map_err(|unfit| unfitting(&unfit, span))?;
         let (robot, body) = (planned.robot.clone(), planned.body.clone());
-        Ok(Rc::new(PlanValue::new(robot, body, plan, planned.causes.clone(), planned.actions)))
+        let within =
+            |use_: &&ContractInterval| kept.is_some_and(|(from, to)| from <= use_.from && use_.to <= to);
+        let begins = kept.map_or(0.0, |(from, _)| from);
+        let moved = |use_: &ContractInterval| ContractInterval {
+            from: use_.from - begins,
+            to: use_.to - begins,
+            ..*use_
+        };
+        let uses: Vec<ContractInterval> = planned.contracts().iter().filter(within).map(moved).collect();
+        let dropped = planned.drops_contracts() || uses.len() < planned.contracts().len();
+        let changed = PlanValue::new(robot, body, plan, planned.causes.clone(), planned.actions);
+        Ok(Rc::new(changed.with_uses(uses, dropped)))
     }
 }
 

@@ -38,6 +38,7 @@ pub mod cells;
 
 mod behavior;
 pub mod causes;
+pub mod contracts;
 pub mod fields;
 mod goals;
 mod joining;

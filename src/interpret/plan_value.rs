@@ -4,6 +4,7 @@ use super::design::{Design, Instance};
 use super::interpreter::Interpreter;
 use super::robot::Robot;
 use super::value::Value;
+use crate::behavior::ContractInterval;
 use crate::geometry::Pose;
 use crate::plan::verify::articulated::{self, ClusterPaths, Detail, Instant};
 use crate::plan::{CauseId, Node, Plan, Settings, Verdict, World, WorldFrom};
@@ -28,6 +29,10 @@ pub struct PlanValue {
     /// The program of the behaviour as it is stated, which has goals where the plan's has actions; `None` for plans that
     /// were not made of a behaviour.
     stated: Option<Arc<Node>>,
+    /// The uses of behaviours with contracts, in the order in which they begin.
+    contracts: Vec<ContractInterval>,
+    /// True if the plan was made of one whose contracts it does not keep.
+    drops_contracts: bool,
     /// The planner's report; `None` for plans that no planner made.
     report: Option<Rc<dyn PlannerReport>>,
     /// The robot as a value, once it was asked for: one and the same at each time.
@@ -119,6 +124,8 @@ impl PlanValue {
             causes,
             actions,
             stated: None,
+            contracts: Vec::new(),
+            drops_contracts: false,
             report: None,
             instance: OnceCell::new(),
             judged: RefCell::default(),
@@ -137,6 +144,22 @@ impl PlanValue {
     /// Returns the plan with the program of the behaviour that it was made of, as it is stated.
     pub fn stated(self, program: Arc<Node>) -> PlanValue {
         PlanValue { stated: Some(program), ..self }
+    }
+
+    /// Returns the plan with uses of behaviours with contracts, in the order in which they begin. `dropped`: true if others
+    /// are not kept.
+    pub fn with_uses(self, contracts: Vec<ContractInterval>, dropped: bool) -> PlanValue {
+        PlanValue { contracts, drops_contracts: dropped, ..self }
+    }
+
+    /// Returns the uses of behaviours with contracts, in the order in which they begin.
+    pub fn contracts(&self) -> &[ContractInterval] {
+        &self.contracts
+    }
+
+    /// Returns true if the plan was made of one whose contracts it does not keep.
+    pub fn drops_contracts(&self) -> bool {
+        self.drops_contracts
     }
 
     /// Returns the program of the behaviour that the plan was made of, as it is stated; `None` if it was made otherwise.

@@ -131,13 +131,15 @@ impl Interpreter<'_> {
         causes: &PlanCauses,
         world: World,
     ) -> (PlanValue, Vec<behavior::Issue>) {
-        let Scheduled { tracks, program, exemptions, nominal, actions, open_turns, issues } = scheduled;
+        let Scheduled { tracks, program, exemptions, contracts, nominal, actions, open_turns, issues } =
+            scheduled;
         let library = tracks.robot.library.clone();
         let tracks = Tracks { obstacles: robot.obstacles.clone(), ..tracks };
         let bare = self.bare_plan("behavior", Body::Tracks(tracks), library, world, causes);
         let mut plan = Plan { program: Some(program), nominal, exemptions, ..bare };
         settle_turns(&mut plan, &open_turns);
-        (PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions), issues)
+        let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), actions);
+        (planned.with_uses(contracts, false), issues)
     }
 
     /// Returns a plan of a motion without a program and without a verdict. `planner`: the name in its provenance.
@@ -279,6 +281,7 @@ impl Interpreter<'_> {
             tracks,
             program: crate::plan::Program { root: Arc::new(Node::Series(Vec::new())) },
             exemptions: Vec::new(),
+            contracts: Vec::new(),
             nominal: false,
             actions: 0,
             open_turns: Vec::new(),
@@ -289,18 +292,29 @@ impl Interpreter<'_> {
     }
 
     /// Returns the verdict on a plan under these settings, and from its start on under `world` if it is given,
-    /// otherwise under the plan's own worlds. A verdict is computed once and kept with the plan. `planned`: the plan.
-    pub fn judge(&mut self, planned: &PlanValue, settings: Settings, world: Option<World>) -> Rc<Verdict> {
+    /// otherwise under the plan's own worlds; the contracts of behaviours are judged with it. A verdict is computed once and
+    /// kept with the plan. `planned`: the plan.
+    ///
+    /// # Errors
+    /// No faults, only [`Stop::Halt`].
+    pub fn judge(
+        &mut self,
+        planned: &PlanValue,
+        settings: Settings,
+        world: Option<World>,
+    ) -> Eval<Rc<Verdict>> {
         let worlds = planned.worlds_in(world);
         let known = |judged: &&Judged| judged.settings == settings && judged.worlds == worlds;
         if let Some(judged) = planned.judged.borrow().iter().find(known) {
-            return judged.verdict.clone();
+            return Ok(judged.verdict.clone());
         }
         crate::interrupt::start_task(format!("verifying {}", planned.robot.name));
         let plan = Plan { settings, worlds: worlds.clone(), ..planned.plan.clone() };
-        let verdict = Rc::new(crate::plan::verify::verify(&plan));
+        let mut verdict = crate::plan::verify::verify(&plan);
+        self.judge_contracts(planned, &plan, &mut verdict)?;
+        let verdict = Rc::new(verdict);
         planned.judged.borrow_mut().push(Judged { settings, worlds, verdict: verdict.clone() });
-        verdict
+        Ok(verdict)
     }
 
     /// Returns the state at a time (s), which is clamped to 0 and the duration of the plan, as a record. `planned`:

@@ -1,5 +1,6 @@
 //! The execution of statements and tests.
 
+use super::contracts::ContractValue;
 use super::eval::Frame;
 use super::host::{Mode, TestResult};
 use super::interpreter::Interpreter;
@@ -36,6 +37,10 @@ impl Interpreter<'_> {
                 self.eval(expr, frame)?;
             }
             StmtKind::Expect { condition, message } => self.expect(condition, message.as_ref(), frame)?,
+            StmtKind::Contract(clause) => {
+                let (slots, this) = (frame.slots.clone(), frame.this.clone());
+                frame.contracts.push(ContractValue { clause: clause.clone(), slots, this });
+            }
             StmtKind::If { condition, then, otherwise } => {
                 let branch = match self.eval(condition, frame)? {
                     Value::Bool(true) => then,

@@ -161,8 +161,8 @@ pub struct BehaviorCall {
     pub behavior: usize,
     /// The arguments, in the order of the parameters; `None` where the default is wanted.
     pub args: Vec<Option<Value>>,
-    /// The user's call that led into the library, if the behaviour is declared there, since causes name it;
-    /// otherwise `None`.
+    /// The user's call that led into the library, if the behaviour is declared there, since causes name it; the call itself if
+    /// the behaviour has contracts, which blame it; otherwise `None`.
     pub caller: Option<Span>,
 }
 

@@ -80,7 +80,7 @@ fn begins(planned: &PlanValue, failure: &Failure) -> Vec<(Span, String)> {
 /// Returns the error code of a failed check.
 fn failure_code(kind: CheckKind) -> Code {
     match kind {
-        CheckKind::Form | CheckKind::Momentum => code::NOT_VERIFIED,
+        CheckKind::Form | CheckKind::Momentum | CheckKind::Contract => code::NOT_VERIFIED,
         CheckKind::Conflict => code::CONFLICT,
         CheckKind::Collision | CheckKind::Deflection => code::COLLISION,
         CheckKind::JointRange | CheckKind::Speed | CheckKind::Acceleration | CheckKind::Rigidity => {
@@ -143,6 +143,10 @@ impl Interpreter<'_> {
         } else {
             format!("{}, at t = {time}", failure.message)
         };
+        if failure.kind == CheckKind::Contract {
+            let diagnostic = self.contract_failure(planned, failure, message);
+            return add_label(diagnostic, span, "while this plan is verified".to_string());
+        }
         let mut diagnostic = Diagnostic::error(failure_code(failure.kind), message);
         let records: Vec<&CauseRecord> =
             failure.blame.iter().map(|id| self.memory.causes.get(planned.causes[id.0 as usize])).collect();

@@ -23,7 +23,8 @@ pub(super) fn hover(analysis: &Analysis, at: usize) -> Option<String> {
                 group => format!("{} {}", group.word(), about.head),
             };
             let of = analysis.checked.program.def(def).name;
-            (format!("{head}\n// of {of}"), about.doc)
+            let contracts: String = about.contracts.iter().map(|clause| format!("\n  {clause}")).collect();
+            (format!("{head}{contracts}\n// of {of}"), about.doc)
         }
     };
     let doc = doc.map_or_else(String::new, |doc| format!("\n\n{}", doc.trim()));

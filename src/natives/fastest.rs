@@ -1,6 +1,7 @@
 //! `fastest`: a plan along its path in least time, as it is called.
 
 use super::Native;
+use crate::behavior::ContractInterval;
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -36,7 +37,13 @@ fn fastest(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(tracks) = body.tracks() else { return Ok(Value::Unknown) };
     let new = retimed(old, tracks.clone(), &|time| report.clock.at(time), settings.reserve);
     let (robot, body) = (planned.robot.clone(), planned.body.clone());
-    let new = PlanValue::new(robot, body, new, planned.causes.clone(), planned.actions);
+    // Behaviours begin and end at the same places of the path.
+    let clock = |time| report.clock.at(time);
+    let later =
+        |use_: &ContractInterval| ContractInterval { from: clock(use_.from), to: clock(use_.to), ..*use_ };
+    let uses = planned.contracts().iter().map(later).collect();
+    let new = PlanValue::new(robot, body, new, planned.causes.clone(), planned.actions)
+        .with_uses(uses, planned.drops_contracts());
     Ok(Value::Record(Rc::new(Record::Plan(Rc::new(new)))))
 }
 

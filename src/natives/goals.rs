@@ -9,7 +9,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{Behavior, PortValue, Value};
-use crate::plan::visit::Graph;
+use crate::plan::visit::{Graph, has_contracts};
 use crate::plan::{
     Action, CauseId, Command, Goal, GoalFrame, GoalKind, LineEnd, Node, Otherwise, Profile, Target,
 };
@@ -199,6 +199,10 @@ fn avoid(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     let budget: usize = call.get("budget")?;
     let seed: WordOr<Auto, usize> = call.get("seed")?;
+    if has_contracts(&behavior.node) {
+        let message = "`avoid` takes only where a behavior ends, and can't keep its contracts";
+        return Err(bad_goal(call, message, "this behavior has contracts, or one in it has"));
+    }
     let graph = Graph::of(&behavior.node);
     let mut joints = BTreeSet::new();
     for node in &graph.nodes {

@@ -153,7 +153,7 @@ fn plan_argument(interpreter: &mut Interpreter, call: &Call, name: &str) -> Eval
 
 fn reverse(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = plan_argument(interpreter, call, "plan")? else { return Ok(Value::Unknown) };
-    let reversed = interpreter.changed(&planned, |plan| Ok(plan::reversed(plan)), call.span)?;
+    let reversed = interpreter.changed(&planned, |plan| Ok(plan::reversed(plan)), None, call.span)?;
     Ok(planned_value(Some(reversed)))
 }
 
@@ -221,7 +221,8 @@ fn plan_slice(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     if !(0.0 <= from && from < to && to <= planned.plan.body.duration()) {
         return Err(call.refuse("times", "this is no stretch of the plan"));
     }
-    let sliced = interpreter.changed(&planned, |plan| plan::sliced(plan, from, to), call.span)?;
+    let sliced =
+        interpreter.changed(&planned, |plan| plan::sliced(plan, from, to), Some((from, to)), call.span)?;
     Ok(planned_value(Some(sliced)))
 }
 
@@ -257,7 +258,7 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let settings = settings(interpreter, call)?;
     let Some(planned) = plan_argument(interpreter, call, "what")? else { return Ok(Value::Unknown) };
     let world: Option<World> = call.get("world")?;
-    let verdict = interpreter.judge(&planned, settings, world);
+    let verdict = interpreter.judge(&planned, settings, world)?;
     interpreter.note_exemptions(&planned, &verdict);
     if let Some(name) = &interpreter.shared.options.verified_pages {
         let number = interpreter.reported.written.len();
@@ -278,7 +279,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         interpreter.reported.plans.push((path, planned.plan.clone()));
         return Ok(Value::Nothing);
     }
-    let verdict = interpreter.judge(&planned, settings, None);
+    let verdict = interpreter.judge(&planned, settings, None)?;
     interpreter.note_exemptions(&planned, &verdict);
     let page = match interpreter.shared.options.pages {
         true => Some(interpreter.draw(

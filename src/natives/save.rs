@@ -83,7 +83,7 @@ fn export(interpreter: &mut Interpreter, call: &Call, format: &PlanFormat, path:
     let mut plan = planned.plan.clone();
     if format.is_motion {
         // A motion that a robot could execute is judged, as `emit` does.
-        let verdict = interpreter.judge(&planned, interpreter.judge_settings(), None);
+        let verdict = interpreter.judge(&planned, interpreter.judge_settings(), None)?;
         interpreter.note_exemptions(&planned, &verdict);
         if !verdict.ok() {
             interpreter.report_failures(&planned, &verdict, at, None);

@@ -79,7 +79,7 @@ fn show(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let Some(planned) = interpreter.plan_of(call.arg("what"), call.at("what"))? else {
         return Ok(Value::Unknown);
     };
-    let verdict = interpreter.judge(&planned, settings, None);
+    let verdict = interpreter.judge(&planned, settings, None)?;
     interpreter.note_exemptions(&planned, &verdict);
     let shown = interpreter.draw(&planned, settings, form, &path, call.at("file"))?;
     if !verdict.ok() {
@@ -173,7 +173,7 @@ impl Interpreter<'_> {
         path: &str,
         at: Span,
     ) -> Eval<String> {
-        let verdict = self.judge(planned, settings, None);
+        let verdict = self.judge(planned, settings, None)?;
         let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
         let bytes = self.drawn(&planned.robot.name, &plan, form);
         write_output(self, at, path, bytes)

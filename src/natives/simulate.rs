@@ -98,7 +98,8 @@ fn simulate(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let runs = study(plan, &settings, &spread, read.runs, read.seed as u64).map_err(refused)?;
     let plain = settings == Settings { step: settings.step, ..Settings::default() };
     // The verdict is not about a program that senses.
-    let verdict = (plain && !plan.nominal).then(|| interpreter.judge(&planned, plan.settings, None));
+    let judged = (plain && !plan.nominal).then(|| interpreter.judge(&planned, plan.settings, None));
+    let verdict = judged.transpose()?;
     let mut notes = vec![halving];
     if plan.nominal && plan.program.is_some() {
         notes.push(

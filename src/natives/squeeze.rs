@@ -184,5 +184,5 @@ impl ReportFields for Report {
 /// Returns the greatest dynamic quantities of a plan, as the judge finds them.
 fn dynamics(interpreter: &mut Interpreter, plan: &PlanValue) -> Dynamics {
     let settings = interpreter.judge_settings();
-    interpreter.judge(plan, settings, None).dynamics.unwrap_or_default()
+    interpreter.judge(plan, settings, None).ok().and_then(|verdict| verdict.dynamics).unwrap_or_default()
 }

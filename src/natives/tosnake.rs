@@ -318,7 +318,7 @@ fn judged(interpreter: &mut Interpreter, call: &Call, planned: PlanValue, option
         return Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))));
     }
     let settings = interpreter.judge_settings();
-    let verdict = interpreter.judge(&planned, settings, None);
+    let verdict = interpreter.judge(&planned, settings, None)?;
     if !verdict.ok() {
         let first = verdict.failures.iter().min_by(|a, b| a.time.total_cmp(&b.time));
         let why = first.map_or_else(|| "it was not judged to its end".to_string(), failure_line);

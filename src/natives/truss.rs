@@ -101,7 +101,7 @@ impl ReportFields for morph::Report {
         ("start_rms", |_, _, report| Value::length(report.start.target_to_surface)),
         ("clearance", |interpreter, plan, _| {
             let settings = interpreter.judge_settings();
-            let verdict = interpreter.judge(plan, settings, None);
+            let Ok(verdict) = interpreter.judge(plan, settings, None) else { return Value::Unknown };
             Value::length(verdict.clearance.as_ref().map_or(f64::INFINITY, |worst| worst.value))
         }),
         ("ended", |_, _, report| Value::text(report.ended.clone())),

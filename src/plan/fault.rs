@@ -111,6 +111,8 @@ pub enum PlanFault {
         /// The name of the built-in that makes such a goal.
         name: &'static str,
     },
+    /// A contract in the program: plans have none.
+    Contract,
     /// A fault inside the track of a joint.
     InTrack {
         /// The joint, by the number in its `JointId`.
@@ -468,6 +470,7 @@ impl fmt::Display for PlanFault {
             PlanFault::Goal { name } => {
                 write!(f, "`{name}` stands in the program as a goal, without its motion")
             }
+            PlanFault::Contract => write!(f, "a contract stands in the program"),
             PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),
             PlanFault::InStage { stage, fault } => write!(f, "in stage `{stage}`: {fault}"),
             PlanFault::After { time, fault } => write!(f, "at {time} s {fault}"),

@@ -74,6 +74,16 @@ pub enum Node {
         /// The index in the plan's causes of the source command that the node comes from.
         cause: CauseId,
     },
+    /// A behaviour over whose own interval a contract is judged; it stands in behaviours only, and planning leaves the
+    /// behaviour in its place.
+    Contract {
+        /// The behaviour that has the contract.
+        body: Arc<Node>,
+        /// The number of the contract among those of the run, for whoever judges it.
+        number: u32,
+        /// The index in the plan's causes of what is to blame: the use of the behaviour, or the clause.
+        cause: CauseId,
+    },
     /// A motion that is stated by its goal; it stands in behaviours only, and planning puts actions in its place.
     Goal(Box<Goal>),
 }

@@ -51,6 +51,9 @@ pub enum CheckKind {
     Rigidity,
     /// The struts of a truss bear its weight.
     StrutLoad,
+    /// Behaviours begin as they require, and end as they ensure. A plan file states no contracts: whoever makes the plan adds
+    /// this check to those of the judge.
+    Contract,
 }
 
 impl CheckKind {
@@ -78,6 +81,7 @@ impl CheckKind {
             CheckKind::Deflection => "deflection",
             CheckKind::Rigidity => "rigidity",
             CheckKind::StrutLoad => "strut load",
+            CheckKind::Contract => "contract",
         }
     }
 }

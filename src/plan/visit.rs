@@ -82,7 +82,9 @@ pub fn extent(root: &Arc<Node>) -> Extent {
                 let steps = steps.saturating_mul(*times).saturating_add(1);
                 Extent { actions: actions.saturating_mul(*times), steps }
             }
-            Node::Exempt { body, .. } => Extent { actions: 0, steps: 1 }.plus(of(body)),
+            Node::Exempt { body, .. } | Node::Contract { body, .. } => {
+                Extent { actions: 0, steps: 1 }.plus(of(body))
+            }
             Node::Phase { body, .. } | Node::Approach { body, .. } | Node::Stretch { body, .. } => {
                 largest = largest.max(of(body));
                 Extent { actions: 0, steps: 1 }
@@ -154,7 +156,8 @@ fn child(node: &Node, i: usize) -> Option<&Arc<Node>> {
         | Node::Phase { body, .. }
         | Node::Approach { body, .. }
         | Node::Stretch { body, .. }
-        | Node::Exempt { body, .. } => Some(body).filter(|_| i == 0),
+        | Node::Exempt { body, .. }
+        | Node::Contract { body, .. } => Some(body).filter(|_| i == 0),
         Node::Goal(goal) => goal.body().filter(|_| i == 0),
         Node::Action(_) => None,
     }
@@ -219,6 +222,39 @@ pub fn with_children(node: &Node, new: impl Fn(&Arc<Node>) -> Arc<Node>) -> Node
         Node::Exempt { body, kind, cause } => {
             Node::Exempt { body: new(body), kind: kind.clone(), cause: *cause }
         }
+        Node::Contract { body, number, cause } => {
+            Node::Contract { body: new(body), number: *number, cause: *cause }
+        }
         Node::Goal(goal) => Node::Goal(Box::new(goal.with_body(new))),
     }
+}
+
+/// Returns true if behaviours under a root have contracts.
+pub fn has_contracts(root: &Arc<Node>) -> bool {
+    Graph::of(root).nodes.iter().any(|node| matches!(***node, Node::Contract { .. }))
+}
+
+/// Returns the same graph, sharing kept, with each behaviour in the place of its contracts. `root`: the root of the graph.
+pub fn without_contracts(root: &Arc<Node>) -> Arc<Node> {
+    if !has_contracts(root) {
+        return root.clone();
+    }
+    let graph = Graph::of(root);
+    let mut done: Vec<Arc<Node>> = Vec::with_capacity(graph.nodes.len());
+    for node in &graph.nodes {
+        let new = |child: &Arc<Node>| done[graph.position(child)].clone();
+        let made = match &***node {
+            Node::Contract { body, .. } => new(body),
+            Node::Action(action) => {
+                let otherwise = match &action.otherwise {
+                    Otherwise::Node(body) => Otherwise::Node(new(body)),
+                    other => other.clone(),
+                };
+                Arc::new(Node::Action(Action { otherwise, ..action.clone() }))
+            }
+            other => Arc::new(with_children(other, new)),
+        };
+        done.push(made);
+    }
+    done.pop().expect("a graph has its root")
 }

@@ -184,8 +184,9 @@ fn type_of(def: &Def) -> Option<DefId> {
 /// Returns the joints, ports, parts, behaviours, fields and methods, a line each.
 fn lines(inside: &[Inside]) -> String {
     let line = |inside: &Inside| {
+        let contracts: String = inside.contracts.iter().map(|clause| format!("    {clause}\n")).collect();
         let doc = inside.doc.as_deref().map(|doc| format!("      {}\n", first_paragraph(doc)));
-        format!("  {}\n{}", head(inside), doc.unwrap_or_default())
+        format!("  {}\n{contracts}{}", head(inside), doc.unwrap_or_default())
     };
     // Parameters are in the signature.
     inside.iter().filter(|inside| inside.group != Group::Parameter).map(line).collect()
@@ -204,7 +205,8 @@ fn head(inside: &Inside) -> String {
 fn member_doc(checked: &Checked, def: &Def, name: &str) -> Option<String> {
     let found = summary::inside(checked, def).into_iter().find(|inside| inside.name.as_str() == name)?;
     let doc = found.doc.as_deref().map(|doc| format!("\n{}\n", doc.trim())).unwrap_or_default();
-    Some(format!("{}, of {}\n{doc}", head(&found), def.name))
+    let contracts: String = found.contracts.iter().map(|clause| format!("  {clause}\n")).collect();
+    Some(format!("{}, of {}\n{contracts}{doc}", head(&found), def.name))
 }
 
 fn first_paragraph(doc: &str) -> String {

@@ -85,6 +85,7 @@ codes! {
     ABORTED = "E0408", "a behaviour that aborted";
     BAD_DOCK = "E0409", "a docking that cannot happen";
     NO_MATCH = "E0410", "plans that do not fit together";
+    CONTRACT_PLACE = "E0411", "a contract where no behaviour begins or ends";
     // E05xx: evaluation and its limits.
     INDEX = "E0501", "an index outside the list";
     DIVISION_BY_ZERO = "E0502", "a division by zero";
@@ -109,6 +110,8 @@ codes! {
     CLOSURE = "E0610", "a closed loop that is torn";
     NOT_VERIFIED = "E0611", "a plan that could not be verified";
     TRAVEL_UNDETERMINED = "E0612", "a travel that friction does not determine";
+    REQUIRED_START = "E0613", "a behaviour that begins where it may not";
+    ENSURED_END = "E0614", "a behaviour that does not bring about what it ensures";
     // E07xx: plan files and output.
     OUTSIDE_OUTPUT = "E0701", "an output path that leads out of the output folder";
     CANNOT_WRITE = "E0702", "a file that cannot be written";

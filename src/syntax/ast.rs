@@ -671,7 +671,7 @@ pub struct Exemption {
     pub span: Span,
 }
 
-/// A requirement on the declared values: `require condition, message`.
+/// A requirement, `require condition, message`, or a statement of what a behaviour brings about, `ensure condition, message`.
 #[derive(Clone, Debug)]
 pub struct Require {
     /// The span of the clause in the source text.
@@ -860,8 +860,10 @@ pub enum StmtKind {
         /// The message if the condition does not hold, a text; `None` if none is written.
         message: Option<Expr>,
     },
-    /// A requirement on the declared values: `require condition, message`.
+    /// A requirement on the declared values, or on the state in which a behaviour begins: `require condition, message`.
     Require(Require),
+    /// A statement of what a behaviour brings about: `ensure condition, message`.
+    Ensure(Require),
     /// A branch: `if condition { ... } else { ... }`.
     If {
         /// The condition, an expression that has to be of type `Bool`.

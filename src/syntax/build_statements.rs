@@ -74,6 +74,10 @@ impl Builder<'_> {
                 let (condition, message, height) = self.condition(node);
                 (StmtKind::Require(Require { span, condition, message }), height)
             }
+            Rule::ensure => {
+                let (condition, message, height) = self.condition(node);
+                (StmtKind::Ensure(Require { span, condition, message }), height)
+            }
             Rule::if_chain => self.if_statement(node),
             Rule::for_loop => self.for_statement(node),
             _ => {

@@ -54,7 +54,7 @@ pub const DECLARING: &[&str] = &[
 ];
 
 /// The keywords that begin a statement; an expression is a statement, too.
-pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for"];
+pub const STATEMENTS: &[&str] = &["let", "expect", "require", "if", "for", "ensure"];
 
 /// The keywords that begin an item or a statement at the top of a file.
 pub(super) const ITEMS_AND_STATEMENTS: &[&str] = &{

@@ -113,6 +113,7 @@ impl Drawer<'_> {
             Node::Exempt { body, kind, .. } => {
                 framed(format!("allows {}", kind.name()), self.piece(body, depth + 1))
             }
+            Node::Contract { body, .. } => self.piece(body, depth + 1),
             Node::Goal(goal) => label(goal.name().into(), SOFT.into()),
         }
     }

@@ -320,6 +320,7 @@ fn statement(s: &Stmt) -> String {
             format!("(expect {}{})", expr(condition), optional(message, "", expr))
         }
         StmtKind::Require(r) => require(r),
+        StmtKind::Ensure(r) => require(r).replacen("require", "ensure", 1),
         StmtKind::If { condition, then, otherwise } => branch(condition, then, otherwise, statement),
         StmtKind::For { binder, iterable, body } => looped(binder, iterable, body, statement),
         StmtKind::Error => "ERROR".into(),

@@ -166,6 +166,9 @@ impl<'a> NodeJson<'a> {
                 let on = names.map_or_else(Vec::new, |names| of_exemption(kind, names));
                 NodeJson::Exempt { body: at(body), kind: kind.clone(), on, cause: *cause }
             }
+            Node::Contract { .. } => {
+                unreachable!("plans have no contracts: they are judged where they stand")
+            }
             Node::Goal(_) => unreachable!("goals became actions when the plan was made"),
         }
     }

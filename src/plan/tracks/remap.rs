@@ -170,9 +170,10 @@ impl Remap {
                 other => with_children(other, new),
             };
             match &mut made {
-                Node::Phase { cause, .. } | Node::Approach { cause, .. } | Node::Stretch { cause, .. } => {
-                    *cause = self.cause(*cause);
-                }
+                Node::Phase { cause, .. }
+                | Node::Approach { cause, .. }
+                | Node::Stretch { cause, .. }
+                | Node::Contract { cause, .. } => *cause = self.cause(*cause),
                 Node::Exempt { kind, cause, .. } => (*kind, *cause) = (self.kind(kind), self.cause(*cause)),
                 Node::Action(_)
                 | Node::Series(_)

@@ -55,6 +55,7 @@ impl Names<'_> {
             Node::Exempt { kind, cause, .. } => self.cause(*cause).and_then(|()| self.exemption(kind)),
             Node::Repeat { until, .. } => self.until(until.as_ref()),
             Node::Series(_) | Node::Parallel(_) => Ok(()),
+            Node::Contract { .. } => Err(PlanFault::Contract),
             Node::Goal(goal) => Err(PlanFault::Goal { name: goal.name() }),
         })
     }

@@ -118,7 +118,7 @@ fn cut_node<'a>(node: &'a Arc<Node>, goals: &mut Vec<&'a Arc<Node>>) -> (Arc<Nod
             }
             (Arc::new(Node::Parallel(cut.into_iter().map(|(new, _)| new).collect())), false)
         }
-        Node::Exempt { body, .. } => {
+        Node::Exempt { body, .. } | Node::Contract { body, .. } => {
             let (new, whole) = cut_node(body, goals);
             if whole { (node.clone(), true) } else { (Arc::new(with_children(node, |_| new.clone())), false) }
         }
@@ -136,7 +136,7 @@ pub(super) fn replaced(node: &Arc<Node>, old: &Arc<Node>, new: &Arc<Node>) -> Ar
         return new.clone();
     }
     match &**node {
-        Node::Series(_) | Node::Parallel(_) | Node::Exempt { .. } => {
+        Node::Series(_) | Node::Parallel(_) | Node::Exempt { .. } | Node::Contract { .. } => {
             let below: Vec<Arc<Node>> = children(node).map(|child| replaced(child, old, new)).collect();
             if children(node).zip(&below).all(|(before, after)| Arc::ptr_eq(before, after)) {
                 return node.clone();

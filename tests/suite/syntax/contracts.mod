@@ -1,0 +1,33 @@
+--- `ensure` begins a statement before a word, a number or a text of its line
+config C {
+  behavior a = {
+    require start.a > 1, "low"
+    ensure end.a > 1, "high"
+    ensure not b
+    go()
+  }
+}
+f(ensure, ensure (1))
+let a = ensure + 1
+ensure(3)
+ensure
+g(1)
+//> (config C (behavior a (block (require (> start.a 1) "low") (ensure (> end.a 1) "high") (ensure (not b)) (call go))))
+//> (call f ensure (call ensure 1))
+//> (let a (+ ensure 1))
+//> (call ensure 3)
+//> ensure
+//> (call g 1)
+
+--- mistakes after `ensure` cost no more than their line
+config C {
+  behavior a = {
+    ensure end.a >
+//                ^ E0001 an expression is missing
+    ensure b c
+//           ^ E0001
+    go()
+  }
+  behavior b = go()
+}
+//> (config C ERROR (behavior b (call go)))
