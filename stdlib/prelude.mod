@@ -454,7 +454,8 @@ extern fn emit(
 /// Draws a plan, a robot, a lattice or a truss, with the verdict stamped on it; a simulation; or a plot.
 ///
 /// The end of the file's name says how. `.html` is a page that plays the plan in any browser, from
-/// one file that loads nothing else. `.png` is a picture at the time `at` from a `side`; +x is ahead.
+/// one file that loads nothing else. `.png` is a picture at the time `at` from a `side`; +x is ahead;
+/// the `look` of a `figure` is for print: on white, without a grid, edges drawn out.
 /// `.svg` is a drawing: a behaviour as its series-parallel graph, a robot as the graph of its
 /// modules, flat panels on hinges as the pattern to cut and fold, true to scale, a lattice or truss
 /// stage by stage.
@@ -482,6 +483,7 @@ extern fn show(
   reserve: Number = 0,
   slip_max: Length?,
   slip: Number = 0.05,
+  look: room | figure = room,
 )
 
 /// Writes something in a format of other programs into the output folder, by the end of the file's name.

@@ -50,7 +50,8 @@ fn plan_file(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallE
     let to = view::page_name(&own);
     let stem = to.strip_suffix(".html").unwrap_or(&to);
     let command = format!("modl show {own}");
-    let input = RenderInput { title: title(&plan, stem), plan: &plan, texts: &[], command: &command };
+    let title = title(&plan, stem);
+    let input = RenderInput { title: &title, plan: &plan, texts: &[], command: &command };
     let page = view::page(&input);
     let written = output::write(&globals.out, &to, page.as_bytes()).map_err(|e| match e {
         WriteError::Outside => CallError(format!("the page of `{name}` would lie outside the output folder")),
@@ -67,10 +68,10 @@ fn plan_file(file: &Path, open: bool, globals: &Globals) -> Result<Ending, CallE
     Ok(if ok { Ending::Fine } else { Ending::Wrong })
 }
 
-/// Returns the title of a page: the robot's name, or the stem of the file.
-fn title<'a>(plan: &'a Plan, stem: &'a str) -> &'a str {
+/// Returns the title of a page: what turns into what, the robot's name, or the stem of the file.
+fn title(plan: &Plan, stem: &str) -> String {
     let name = plan.body.tracks().map(|tracks| tracks.robot.name.as_str());
-    name.filter(|name| !name.is_empty()).unwrap_or(stem)
+    view::title(plan, name.filter(|name| !name.is_empty()).unwrap_or(stem))
 }
 
 /// Opens a page in the system's browser.

@@ -85,6 +85,10 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let bare = interpreter.bare_plan("refold", body, problem.panels.library, World::FREE, &causes);
     let mut plan = Plan { program, ..bare };
     plan.provenance.seed = Some(settings.seed);
+    let words = |name| {
+        interpreter.shared.sources.text(call.at(name)).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    plan.provenance.shapes = Some((words(FROM), words(TO)));
     let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
     planned.remember_verdict(report.verdict.clone());
     let planned = planned.with_report(report);

@@ -5,6 +5,7 @@ use super::plan::{output_path, settings, write_output};
 use super::plot::PlotValue;
 use super::simulate::Simulated;
 use crate::check::typed::DefKind;
+use crate::geometry::Vec3;
 use crate::interpret::argument::{Choice, Positive, parameters};
 use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::LatticeDesign;
@@ -20,10 +21,11 @@ use crate::plan::{
     Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ratio, Run,
     Settings, Stability, Stages, Surroundings, TrussLimits, World,
 };
+use crate::planners::morph::{self, TargetShape};
 use crate::robot::Library;
 use crate::source::{Diagnostic, Span, code};
 use crate::view::plot::Plot;
-use crate::view::{self, RenderInput, Side, SimulationInput, StillOptions};
+use crate::view::{self, Look, RenderInput, Side, SimulationInput, StillOptions};
 use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -42,7 +44,8 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
         side: Side,
         reserve: f64,
         slip_max: Option<f64>,
-        slip: f64
+        slip: f64,
+        look: Look
     ],
     show,
 )];
@@ -136,6 +139,8 @@ pub(super) enum Form {
         time: f64,
         /// The side from which it is seen.
         side: Side,
+        /// Its look.
+        look: Look,
     },
 }
 
@@ -143,7 +148,9 @@ fn form(call: &Call, name: &str) -> Eval<Option<Form>> {
     Ok(match name.rsplit_once('.') {
         Some((_, "html")) => Some(Form::Page),
         Some((_, "svg")) => Some(Form::Svg),
-        Some((_, "png")) => Some(Form::Png { time: call.get("at")?, side: call.get("side")? }),
+        Some((_, "png")) => {
+            Some(Form::Png { time: call.get("at")?, side: call.get("side")?, look: call.get("look")? })
+        }
         _ => None,
     })
 }
@@ -157,6 +164,10 @@ impl Choice for Side {
         ("right", Side::Right),
         ("top", Side::Top),
     ];
+}
+
+impl Choice for Look {
+    const WORDS: &'static [(&'static str, Look)] = &[("room", Look::Room), ("figure", Look::Figure)];
 }
 
 impl Interpreter<'_> {
@@ -175,8 +186,20 @@ impl Interpreter<'_> {
     ) -> Eval<String> {
         let verdict = self.judge(planned, settings, None)?;
         let plan = Plan { settings, verdict: Some(verdict.as_ref().clone()), ..planned.plan.clone() };
-        let bytes = self.drawn(&planned.robot.name, &plan, form);
+        let title = view::title(&plan, &planned.robot.name);
+        let target = planned.report::<morph::Report>().map(|report| &report.target);
+        let bytes = match (form, target) {
+            (Form::Page, Some(TargetShape::Mesh(target))) => self.drawn_with_target(&title, &plan, target),
+            _ => self.drawn(&title, &plan, form),
+        };
         write_output(self, at, path, bytes)
+    }
+
+    /// Returns the page of a plan with the surface that a truss takes on.
+    fn drawn_with_target(&self, title: &str, plan: &Plan, target: &[[Vec3; 3]]) -> Vec<u8> {
+        let texts = self.texts_of(plan);
+        let input = RenderInput { title, plan, texts: &texts, command: &self.shared.options.command };
+        view::target_page(&input, target).into_bytes()
     }
 
     /// Draws every configuration, lattice and truss of the project's own files, with its defaults, for a
@@ -221,10 +244,10 @@ impl Interpreter<'_> {
         match form {
             Form::Page => view::page(&input).into_bytes(),
             Form::Svg => view::svg(&input).into_bytes(),
-            Form::Png { time, side } => {
+            Form::Png { time, side, look } => {
                 let own = StillOptions::default();
                 let (width, height) = self.shared.options.picture.unwrap_or((own.width, own.height));
-                view::png(&input, &StillOptions { time, side, width, height })
+                view::png(&input, &StillOptions { time, side, width, height, look })
             }
         }
     }

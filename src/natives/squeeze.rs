@@ -88,7 +88,7 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     crate::interrupt::start_task(format!("squeezing {} to {}", design.name, goal.name));
     let solution = squeeze::plan(&problem, &settings, &mut RequestedProgress)
         .map_err(|refusal| refused(&refusal, call))?;
-    Ok(planned(interpreter, call, design, problem.cell, solution))
+    Ok(planned(interpreter, call, (design, &goal.name), problem.cell, solution))
 }
 
 fn lattice(design: &Design) -> Option<(&LatticeDesign, &Cell)> {
@@ -100,7 +100,7 @@ fn lattice(design: &Design) -> Option<(&LatticeDesign, &Cell)> {
 fn planned(
     interpreter: &mut Interpreter,
     call: &Call,
-    design: Rc<Design>,
+    (design, goal): (Rc<Design>, &str),
     cell: Cell,
     solution: Solution<Report>,
 ) -> Value {
@@ -108,7 +108,8 @@ fn planned(
     let library = Arc::new(Library { cells: vec![cell], ..Library::default() });
     let planner = format!("squeeze ({})", solution.report.method.name());
     // The paper's world.
-    let plan = interpreter.bare_plan(&planner, solution.body, library, World::FREE, &causes);
+    let mut plan = interpreter.bare_plan(&planner, solution.body, library, World::FREE, &causes);
+    plan.provenance.shapes = Some((design.name.to_string(), goal.to_string()));
     let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(solution.report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }

@@ -272,6 +272,7 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
     })?;
     let mut plan = options.plan(interpreter, "reconfigure", (body, program), &from.robot, &causes);
     plan.provenance.history = report.history;
+    plan.provenance.shapes = Some((from.design.name.to_string(), to.design.name.to_string()));
     // Either half has a cause of its own; both are this call.
     plan.causes.extend_from_within(..);
     let ids = causes.ids.repeat(2);

@@ -25,6 +25,9 @@ use crate::units::{Dimension, quantity};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The most characters of a target's words in the title of a plan.
+const TARGET_WORDS_MAX: usize = 40;
+
 /// The distance that nodes may slide over the ground, summed over all, m, where all that are on it are held.
 const SLIP_MAX: f64 = 1.0;
 
@@ -163,7 +166,11 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             );
         }
     }
-    Ok(planned(interpreter, call, design, "morph", World::FREE, (solution, Some(settings.seed))))
+    // The target is a surface without a name: the words of the call are one.
+    let words = interpreter.shared.sources.text(call.at("target")).split_whitespace();
+    let goal: String = words.collect::<Vec<_>>().join(" ").chars().take(TARGET_WORDS_MAX).collect();
+    let shapes = Some((design.name.to_string(), goal));
+    Ok(planned(interpreter, call, (design, shapes), ("morph", World::FREE), (solution, Some(settings.seed))))
 }
 
 /// Runs `locomote`; warns of a plan that does not reach the end of the path.
@@ -224,7 +231,7 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         }
     }
     let world = World { dynamics: DynamicsModel::Statics, ..World::default() };
-    Ok(planned(interpreter, call, design, "locomote", world, (solution, None)))
+    Ok(planned(interpreter, call, (design, None), ("locomote", world), (solution, None)))
 }
 
 /// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is not a truss, or its
@@ -361,9 +368,8 @@ fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
 fn planned<R: PlannerReport>(
     interpreter: &mut Interpreter,
     call: &Call,
-    design: Rc<Design>,
-    planner: &str,
-    world: World,
+    (design, shapes): (Rc<Design>, Option<(String, String)>),
+    (planner, world): (&str, World),
     (solution, seed): (Solution<R>, Option<u64>),
 ) -> Value {
     let causes = interpreter.planner_causes(call.span);
@@ -372,6 +378,7 @@ fn planned<R: PlannerReport>(
     let Solution { body, report, .. } = solution;
     let mut plan = interpreter.bare_plan(planner, body, library, world, &causes);
     plan.provenance.seed = seed.or(plan.provenance.seed);
+    plan.provenance.shapes = shapes;
     let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))
 }

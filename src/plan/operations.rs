@@ -31,6 +31,7 @@ pub fn reversed(plan: &Plan) -> Plan {
         ..plan.clone()
     };
     stand(&mut new, plan, duration);
+    new.provenance.shapes = new.provenance.shapes.map(|(from, to)| (to, from));
     record(&mut new, Change::Reversed);
     derive_program(&mut new);
     new

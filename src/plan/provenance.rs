@@ -12,6 +12,10 @@ pub struct Provenance {
     pub planner: String,
     /// The name and the SHA-256 (hexadecimal) of every source text, ascending by name.
     pub sources: Vec<(String, String)>,
+    /// The names of what the robot is at the start and what it becomes, of a plan that turns one shape into another;
+    /// `None` for other plans.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<(String, String)>,
     /// The seed of the random numbers; `None` if the planner draws none.
     pub seed: Option<u64>,
     /// The limit that was set for the search, in the steps that the planner counts; `None` if none was.

@@ -1,6 +1,7 @@
 //! The visible bodies of a plan at one time: coloured triangle meshes in the world frame.
 
-use super::colour::{AROUND, FAILED, PALETTE, Rgb, groups};
+use super::colour::{AROUND, FAILED, METAL, NODE, PALETTE, Rgb, groups};
+use super::fittings::fittings;
 use super::input::RenderInput;
 use super::mesh::Mesh;
 use super::primitives::along;
@@ -14,15 +15,36 @@ use crate::robot::{Kinematics, Library};
 /// The most cells in one picture; of a larger lattice every second, third, ... cell is drawn.
 const CELLS_MAX: usize = 20_000;
 
+/// The most cells whose faces have plates.
+const CELLS_PLATED_MAX: usize = 2_000;
+/// The width and height of the plates on the faces of a cell, as parts of its size, and the shade of their colour.
+const PLATE_WIDTH: f64 = 0.72;
+const PLATE_HEIGHT: f64 = 0.985;
+const PLATE_SHADE: usize = 5;
+
 /// A triangle mesh in the world frame, in metres, with its colour.
 pub(super) struct Drawn {
     /// The mesh of the body in the world frame, in metres.
     pub mesh: Mesh,
     /// The colour of all faces of the body.
     pub colour: Rgb,
+    /// True for bare metal, which shines.
+    pub metal: bool,
 }
 
-/// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot, then obstacles; the cells of
+impl Drawn {
+    /// Returns a body of a colour.
+    fn painted(mesh: Mesh, colour: Rgb) -> Drawn {
+        Drawn { mesh, colour, metal: false }
+    }
+
+    /// Returns a body of bare metal.
+    fn bare(mesh: Mesh) -> Drawn {
+        Drawn { mesh, colour: METAL, metal: true }
+    }
+}
+
+/// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot with their fittings, then obstacles; the cells of
 /// a lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings.
 pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
     let plan = input.plan;
@@ -39,23 +61,30 @@ pub(super) fn robot(input: &RenderInput, tracks: &Tracks, time: f64, poses: &[Po
     let group = groups(&tracks.robot);
     let failed = findings::failed_modules(input.plan, time);
     let mut drawn = Vec::new();
-    let meshes: Vec<Vec<Mesh>> = tracks
-        .robot
-        .library
+    let library = &tracks.robot.library;
+    let meshes: Vec<Vec<(Mesh, Mesh)>> = library
         .modules
         .iter()
-        .map(|kind| kind.links.iter().map(|link| Mesh::of(&link.shape)).collect())
+        .map(|kind| {
+            let of = |link: usize| {
+                (Mesh::rounded(&kind.links[link].shape), Mesh::rounded(&fittings(library, kind, link)))
+            };
+            (0..kind.links.len()).map(of).collect()
+        })
         .collect();
     let mut link = 0;
     for (module, instance) in tracks.robot.modules.iter().enumerate() {
         let own = if failed.contains(&module) { FAILED } else { PALETTE[group[module] % PALETTE.len()] };
-        for (index, mesh) in meshes[instance.kind].iter().enumerate() {
-            drawn.push(Drawn { mesh: mesh.moved(&poses[link]), colour: own.shaded(index) });
+        for (index, (mesh, fitted)) in meshes[instance.kind].iter().enumerate() {
+            drawn.push(Drawn::painted(mesh.moved(&poses[link]), own.shaded(index)));
+            if !fitted.triangles.is_empty() {
+                drawn.push(Drawn::bare(fitted.moved(&poses[link])));
+            }
             link += 1;
         }
     }
     let obstacles = tracks.obstacles.iter();
-    drawn.extend(obstacles.map(|o| Drawn { mesh: Mesh::of(&o.shapes), colour: AROUND }));
+    drawn.extend(obstacles.map(|o| Drawn::painted(Mesh::rounded(&o.shapes), AROUND)));
     drawn
 }
 
@@ -80,14 +109,23 @@ fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
     let cells = stages.state(time);
     let low = |cell: &CellBox| cell.center[2] - cell.size[2] / 2.0;
     let floor = cells.iter().map(low).fold(f64::INFINITY, f64::min);
+    let stride = cells.len().div_ceil(CELLS_MAX).max(1);
+    let plated = cells.len() <= CELLS_PLATED_MAX;
     let cube = |cell: &CellBox| {
-        let mut mesh = Mesh::default();
-        let at = (Vec3::from(cell.center) - Vec3::new(0.0, 0.0, floor)) * size;
-        mesh.add_box(&shifted(at), &(Vec3::from(cell.size) * (0.97 * size)));
-        let full = cell.size.iter().product();
-        Drawn { mesh, colour: Rgb::ramp(full) }
+        let at = shifted((Vec3::from(cell.center) - Vec3::new(0.0, 0.0, floor)) * size);
+        let whole = Vec3::from(cell.size) * size;
+        let colour = Rgb::ramp(cell.size.iter().product());
+        let mut body = Mesh::default();
+        body.rounded_box(&at, &(whole * 0.97));
+        let mut plates = Mesh::default();
+        for axis in (0..3).filter(|_| plated) {
+            let mut plate = whole * PLATE_WIDTH;
+            plate[axis] = whole[axis] * PLATE_HEIGHT;
+            plates.rounded_box(&at, &plate);
+        }
+        [Drawn::painted(body, colour), Drawn::painted(plates, colour.shaded(PLATE_SHADE))]
     };
-    cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).map(cube).collect()
+    cells.iter().step_by(stride).flat_map(cube).filter(|drawn| !drawn.mesh.triangles.is_empty()).collect()
 }
 
 /// Returns the struts of a truss as cylinders and its nodes as balls.
@@ -98,18 +136,25 @@ fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
     let thick = 0.03 * mean;
     let mut drawn = Vec::new();
     for (&(a, b), length) in paths.struts.iter().zip(&lengths) {
-        let mut mesh = Mesh::default();
         let middle = shifted((nodes[a] + nodes[b]) / 2.0) * along(&(nodes[b] - nodes[a]));
-        mesh.tube(&middle, thick / 2.0, *length);
-        drawn.push(Drawn { mesh, colour: PALETTE[0] });
+        let part = |mesh: &mut Mesh, at: f64, radius: f64, of: f64| {
+            let place = middle * shifted(Vec3::new(0.0, 0.0, at * length));
+            mesh.rounded_tube(&place, radius * thick, of * length);
+        };
+        let (mut tube, mut rod) = (Mesh::default(), Mesh::default());
+        part(&mut tube, -0.21, 0.5, 0.5);
+        part(&mut rod, 0.0, 0.28, 0.96);
+        part(&mut rod, 0.03, 0.62, 0.03);
+        drawn.push(Drawn::painted(tube, PALETTE[0]));
+        drawn.push(Drawn::bare(rod));
     }
     for node in &nodes {
         let mut mesh = Mesh::default();
         mesh.ball(&shifted(*node), 1.3 * thick);
-        drawn.push(Drawn { mesh, colour: PALETTE[7] });
+        drawn.push(Drawn::painted(mesh, NODE));
     }
     for (_, shapes) in surroundings::solids(paths) {
-        drawn.push(Drawn { mesh: Mesh::of(&shapes), colour: AROUND });
+        drawn.push(Drawn::painted(Mesh::rounded(&shapes), AROUND));
     }
     drawn
 }

@@ -8,24 +8,30 @@ pub(super) struct Rgb(pub [f64; 3]);
 
 /// The colours of groups of modules, sRGB: group `i`, from 0, has the colour at `i` modulo the length of the list.
 pub(super) const PALETTE: [Rgb; 8] = [
-    hex(0x3865d4),
-    hex(0xf5b116),
-    hex(0x2aa264),
-    hex(0xb76086),
-    hex(0x7bd3f4),
-    hex(0xc4bb58),
-    hex(0x8b84bf),
-    hex(0xa0c7aa),
+    hex(0x4c75ae),
+    hex(0xdaa43d),
+    hex(0x519277),
+    hex(0xa06182),
+    hex(0xa3c8de),
+    hex(0xcabe87),
+    hex(0x6b6c95),
+    hex(0x9cb6a1),
 ];
 
 /// The colour of modules that a failure names.
-pub(super) const FAILED: Rgb = hex(0xd9480f);
+pub(super) const FAILED: Rgb = hex(0xcf4520);
 
 /// The colour of the surroundings: obstacles, and ground that is not flat.
-pub(super) const AROUND: Rgb = hex(0xb4b8b2);
+pub(super) const AROUND: Rgb = hex(0xb9bbb5);
+
+/// The colour of bare metal: docks, hinges, rods.
+pub(super) const METAL: Rgb = hex(0x6b737a);
+
+/// The colour of the nodes of a truss.
+pub(super) const NODE: Rgb = hex(0x59626c);
 
 /// A colour scale from cold to warm (after cividis).
-const RAMP: [Rgb; 5] = [hex(0x1c4a86), hex(0x4f7196), hex(0x7f8c8d), hex(0xbca94f), hex(0xfddc3b)];
+const RAMP: [Rgb; 5] = [hex(0x234f85), hex(0x537298), hex(0x828d8c), hex(0xb8a65c), hex(0xecd262)];
 
 /// The brightness offset of each link of a module, by which its links are distinguished.
 const SHADES: [f64; 8] = [0.0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];

@@ -1,14 +1,15 @@
 //! The data of a plan that a page holds, as JSON.
 
 use super::input::RenderInput;
-use super::number::number;
+use super::number::{list, number};
 use super::solids::Meshes;
 use super::{findings, ground_pose, lattice, robot, surroundings, truss};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::articulated::{CONTACTS_MAX, ClusterPaths, Moment, clearances, history};
 use crate::plan::{Body, Ground, ObjectiveValue, Plan, file, headline};
 use crate::units::{self, Dimension, quantity};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The most bytes of source texts in one page; if there are more, no text is included.
 const TEXTS_MAX: usize = 400_000;
@@ -33,6 +34,27 @@ pub(super) fn data(input: &RenderInput) -> Value {
     data["stand"] = ground_pose::supports(&moments).into();
     data["contacts"] = contacts.into();
     data["loads"] = ground_pose::loads(&moments);
+    data
+}
+
+/// Returns the same with the surface that a truss takes on, given by the corners of its triangles, m, in the world's frame.
+pub(super) fn with_target(input: &RenderInput, target: &[[Vec3; 3]]) -> Value {
+    let mut data = data(input);
+    let mut known = BTreeMap::new();
+    let mut points = Vec::new();
+    let triangles = target.iter().flatten().map(|p| {
+        *known.entry([p.x, p.y, p.z].map(f64::to_bits)).or_insert_with(|| {
+            points.extend([p.x, p.y, p.z]);
+            points.len() / 3 - 1
+        })
+    });
+    let triangles: Vec<usize> = triangles.collect();
+    let radius = target.iter().flatten().map(Vec3::norm).fold(0.0, f64::max);
+    let mesh = json!({ "points": list(points), "triangles": triangles, "radius": number(radius) });
+    if let Some(meshes) = data["meshes"].as_array_mut() {
+        meshes.push(mesh);
+        data["target"] = json!(meshes.len() - 1);
+    }
     data
 }
 
@@ -76,6 +98,7 @@ fn motion(input: &RenderInput, moments: &[Moment], end: f64, notes: &mut Vec<Str
         "end": number(end),
         "floor": 0,
         "ground": surroundings::floor(plan),
+        "goal": plan.provenance.shapes.is_some(),
         "verdict": findings::verdict(plan),
         "causes": findings::causes(&plan.causes),
         "sources": sources(input.texts),

@@ -2,6 +2,12 @@
 
 use crate::plan::Plan;
 
+/// Returns the title of a plan of a robot with this name: the name, or what turns into what, `Em → Ow`.
+pub fn title(plan: &Plan, name: &str) -> String {
+    let shapes = plan.provenance.shapes.as_ref();
+    shapes.map_or_else(|| name.to_owned(), |(from, to)| format!("{from} → {to}"))
+}
+
 /// The input of all renderers: a plan with the texts that are shown around it.
 #[derive(Clone, Copy, Debug)]
 pub struct RenderInput<'a> {

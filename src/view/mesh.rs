@@ -12,6 +12,9 @@ const ROUND: usize = 40;
 /// Adjacent faces whose normals have a greater cosine than this are shaded smoothly: 32 degrees.
 const SMOOTH: f64 = 0.848;
 
+/// The radius of the edges of boxes and cylinders in pictures, as a part of their least side.
+const ROUNDING: f64 = 0.085;
+
 /// A triangle mesh with its sharp edges; lengths in metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
@@ -33,6 +36,90 @@ impl Mesh {
             Primitive::Surface { points, triangles } => mesh.surface(X, points, triangles),
         });
         mesh
+    }
+
+    /// Returns the mesh of the shapes of a link, in the link's frame, as pictures show it: the edges of boxes and cylinders
+    /// are rounded.
+    pub(super) fn rounded(shapes: &[Placed]) -> Mesh {
+        let mut mesh = Mesh::default();
+        primitives(shapes, &mut |X, piece| match piece {
+            Primitive::Box { size } => mesh.rounded_box(X, &size),
+            Primitive::Tube { radius, length } => mesh.rounded_tube(X, radius, length),
+            Primitive::Ball { radius } => mesh.ball(X, radius),
+            Primitive::Surface { points, triangles } => mesh.surface(X, points, triangles),
+        });
+        mesh
+    }
+
+    /// Adds a box with rounded edges: each corner is one of three faces, drawn in from the others, and strips and corners
+    /// lie between them.
+    pub(super) fn rounded_box(&mut self, X: &Pose, size: &Vec3) {
+        let radius = ROUNDING * size.min();
+        let corner = |signs: [f64; 3], face: usize| {
+            let at = |k: usize| signs[k] * (size[k] / 2.0 - if k == face { 0.0 } else { radius });
+            let mut normal = Vec3::zeros();
+            normal[face] = signs[face];
+            (Vec3::new(at(0), at(1), at(2)), normal)
+        };
+        for axis in 0..3 {
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let signs = |a: f64, b: f64, c: f64| {
+                let mut signs = [0.0; 3];
+                (signs[axis], signs[u], signs[v]) = (a, b, c);
+                signs
+            };
+            for side in [-1.0, 1.0] {
+                let ring = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                self.fan(X, &ring.map(|(b, c)| corner(signs(side, b, c), axis)));
+                for other in [-1.0, 1.0] {
+                    let ends = [signs(-1.0, side, other), signs(1.0, side, other)];
+                    let strip = [(0, u), (1, u), (1, v), (0, v)].map(|(end, face)| corner(ends[end], face));
+                    self.fan(X, &strip);
+                    let middle =
+                        |a: usize, b: usize| X.transform_point(&((strip[a].0 + strip[b].0) / 2.0).into());
+                    self.edges.push([middle(0, 3).coords, middle(1, 2).coords]);
+                }
+            }
+        }
+        for i in 0..8 {
+            let signs = [0, 1, 2].map(|k| if i >> k & 1 == 1 { 1.0 } else { -1.0 });
+            self.fan(X, &[0, 1, 2].map(|face| corner(signs, face)));
+        }
+    }
+
+    /// Adds a cylinder along z with rounded rims, centred at the origin of frame `X`; radius and length in metres.
+    pub(super) fn rounded_tube(&mut self, X: &Pose, radius: f64, length: f64) {
+        let round = ROUNDING * f64::min(2.0 * radius, length);
+        let out = |i: usize| {
+            let (s, c) = libm::sincos(TAU * (i % ROUND) as f64 / ROUND as f64);
+            Vec3::new(c, s, 0.0)
+        };
+        let side = |i: usize, z: f64| (out(i) * radius + Vec3::z() * (z * (length / 2.0 - round)), out(i));
+        let lid =
+            |i: usize, z: f64| (out(i) * (radius - round) + Vec3::z() * (z * length / 2.0), Vec3::z() * z);
+        for i in 0..ROUND {
+            self.fan(X, &[side(i, -1.0), side(i + 1, -1.0), side(i + 1, 1.0), side(i, 1.0)]);
+            for z in [-1.0, 1.0] {
+                let rim = [side(i, z), side(i + 1, z), lid(i + 1, z), lid(i, z)];
+                self.fan(X, &rim);
+                self.fan(X, &[(Vec3::z() * (z * length / 2.0), Vec3::z() * z), lid(i, z), lid(i + 1, z)]);
+                let middle = |a: usize, b: usize| X.transform_point(&((rim[a].0 + rim[b].0) / 2.0).into());
+                self.edges.push([middle(0, 3).coords, middle(1, 2).coords]);
+            }
+        }
+    }
+
+    /// Adds a convex polygon, given by its corners and the normals there in frame `X`, turned so that it faces along them.
+    fn fan(&mut self, X: &Pose, ring: &[(Vec3, Vec3)]) {
+        let points: Vec<Vec3> = ring.iter().map(|(p, _)| X.transform_point(&(*p).into()).coords).collect();
+        let normals: Vec<Vec3> = ring.iter().map(|(_, n)| X.rotation * n).collect();
+        for i in 2..ring.len() {
+            let [a, b, c] = [0, i - 1, i];
+            let faces = (points[b] - points[a]).cross(&(points[c] - points[a]));
+            let order =
+                if faces.dot(&(normals[a] + normals[b] + normals[c])) < 0.0 { [a, c, b] } else { [a, b, c] };
+            self.triangles.push((order.map(|k| points[k]), order.map(|k| normals[k])));
+        }
     }
 
     /// Adds a box centred at the origin of frame `X`; `size` holds its edge lengths in metres.
@@ -72,7 +159,7 @@ impl Mesh {
 
     /// Adds a ball around the origin of frame `X`; radius in metres.
     pub(super) fn ball(&mut self, X: &Pose, radius: f64) {
-        let (around, down) = (ROUND / 2, ROUND / 4);
+        let (around, down) = (ROUND, ROUND / 2);
         let point = |i: usize, j: usize| {
             let (s, c) = libm::sincos(TAU * i as f64 / around as f64);
             let (sin, cos) = libm::sincos(PI * j as f64 / down as f64);

@@ -17,6 +17,7 @@ mod tolerances;
 
 mod primitives;
 
+mod fittings;
 mod ground_pose;
 mod link_paths;
 mod models;
@@ -26,7 +27,10 @@ mod solids;
 mod lattice;
 mod truss;
 
+mod framing;
+mod light;
 mod picture;
+mod scene;
 
 mod bodies;
 mod colour;
@@ -46,11 +50,11 @@ mod program;
 
 pub mod plot;
 
-pub use input::RenderInput;
+pub use input::{RenderInput, title};
 pub use link_paths::LinkPaths;
 pub use models::{Triangle, link_colours, triangles};
-pub use page::{page, page_name, simulation_page};
-pub use picture::{Side, StillOptions, frames, indexed_png, png};
+pub use page::{page, page_name, simulation_page, target_page};
+pub use picture::{Look, Side, StillOptions, frames, indexed_png, png};
 pub use primitives::{Primitive, primitives};
 pub use simulation::SimulationInput;
 pub use svg::svg;

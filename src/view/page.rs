@@ -3,16 +3,16 @@
 use super::data;
 use super::input::RenderInput;
 use super::markup::escaped;
-use super::picture::StillOptions;
-use super::picture::small_png;
+use super::picture::{Look, StillOptions, small_png};
 use super::simulation::{self, SimulationInput};
+use crate::geometry::Vec3;
 use serde_json::Value;
 
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 
 /// The scripts in order of dependency.
-const SCRIPTS: [&str; 14] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("page/math.js"),
     include_str!("page/motion.js"),
     include_str!("page/shapes.js"),
@@ -25,6 +25,7 @@ const SCRIPTS: [&str; 14] = [
     include_str!("page/timeline.js"),
     include_str!("page/curves.js"),
     include_str!("page/panel.js"),
+    include_str!("page/overlay.js"),
     include_str!("page/scene.js"),
     include_str!("page/main.js"),
 ];
@@ -37,13 +38,19 @@ const SIMULATION_LINE: &str = "//: ";
 
 /// The options of the still picture that is shown where scripts cannot run.
 const STILL: StillOptions =
-    StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300 };
+    StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300, look: Look::Room };
 
 /// Returns the page that plays a plan as HTML, which loads nothing from elsewhere. No text of the plan can become
 /// markup: the data is JSON in which `<`, `>` and `&` are written as escapes, and the scripts put it on the page as
 /// text, never as markup.
 pub fn page(input: &RenderInput) -> String {
     whole(input, &data::data(input), &lean(&SCRIPTS.concat()))
+}
+
+/// Returns the page that plays a plan of a truss, with the surface that it takes on as a ghost: the corners of its triangles,
+/// m, in the world's frame.
+pub fn target_page(input: &RenderInput, target: &[[Vec3; 3]]) -> String {
+    whole(input, &data::with_target(input, target), &lean(&SCRIPTS.concat()))
 }
 
 /// Returns the page that plays a simulation of a plan as HTML, with the plan as a ghost beside it. Its texts

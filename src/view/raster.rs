@@ -1,6 +1,5 @@
 //! A software rasteriser: triangles and lines into pixels with a depth buffer, by edge functions.
 
-use super::colour::Rgb;
 use crate::geometry::Vec3;
 use std::ops::Range;
 
@@ -47,6 +46,8 @@ pub(super) struct Canvas {
     pub depths: Vec<f32>,
     /// The index of the triangle seen at each pixel, in the order of `colours`; of no meaning where nothing is drawn.
     seen: Vec<u32>,
+    /// True for the pixels that [`Canvas::mark`] marked, in the order of `colours`.
+    marked: Vec<bool>,
 }
 
 /// A point projected into a picture: x and y in pixels, and its depth.
@@ -189,6 +190,7 @@ impl Canvas {
             colours: Vec::new(),
             depths: vec![f32::NEG_INFINITY; pixels],
             seen: vec![0; pixels],
+            marked: vec![false; pixels],
         }
     }
 
@@ -217,12 +219,14 @@ impl Canvas {
     }
 
     /// Colours all pixels, after [`Canvas::fill`] with the same triangles: `shade` returns the colour, sRGB encoded, where
-    /// one is seen, by its index and the weights of its corners there, `behind` where none is, by column and row.
+    /// one is seen, by its index, the weights of its corners there, column and row, `behind` where none is, by column and
+    /// row. Marked pixels keep the part `edge` of their brightness.
     pub(super) fn shade(
         &mut self,
         facets: &[Facet],
-        shade: &dyn Fn(usize, [f64; 3]) -> [f32; 3],
+        shade: &dyn Fn(usize, [f64; 3], (usize, usize)) -> [f32; 3],
         behind: &dyn Fn(usize, usize) -> [f32; 3],
+        edge: f32,
     ) {
         self.colours = Vec::with_capacity(self.depths.len());
         for (y, x) in self.rows.clone().flat_map(|y| (0..self.width).map(move |x| (y, x))) {
@@ -231,16 +235,18 @@ impl Canvas {
             let drawn = self.depths[at] > f32::NEG_INFINITY;
             let coordinates = drawn.then(|| facets[index].coordinates(x, y)).flatten();
             self.colours.push(match coordinates {
-                Some(coordinates) => shade(index, facets[index].weights(coordinates)),
+                Some(coordinates) => {
+                    let kept = if self.marked[at] { edge } else { 1.0 };
+                    shade(index, facets[index].weights(coordinates), (x, y)).map(|c| c * kept)
+                }
                 None => behind(x, y),
             });
         }
     }
 
-    /// Rasterises lines, given by their ends in the world, of a width in pixels. A line with an end behind the near
-    /// plane is left out, and so is what lies before the background.
-    pub(super) fn lines(&mut self, lines: &[[Vec3; 2]], camera: &Camera, width: usize, colour: Rgb) {
-        let colour = colour.0.map(|c| c as f32);
+    /// Marks the pixels of lines, given by their ends in the world, of a width in pixels, where they are not hidden. A line
+    /// with an end behind the near plane is left out, and so is what lies before the background.
+    pub(super) fn mark(&mut self, lines: &[[Vec3; 2]], camera: &Camera, width: usize) {
         for [p, q] in lines {
             let (Some(a), Some(b)) =
                 (camera.project(p, self.width, self.height), camera.project(q, self.width, self.height))
@@ -258,13 +264,13 @@ impl Canvas {
                 let mix = |from: f64, to: f64| from + (to - from) * u;
                 let depth = mix(a.depth, b.depth) * LINE_LIFT;
                 let (x, y) = (mix(a.x, b.x) - width as f64 / 2.0, mix(a.y, b.y) - width as f64 / 2.0);
-                self.dot(libm::round(x), libm::round(y), width, depth as f32, colour);
+                self.dot(libm::round(x), libm::round(y), width, depth as f32);
             }
         }
     }
 
-    /// Writes a square of pixels where it is not hidden.
-    fn dot(&mut self, x: f64, y: f64, width: usize, depth: f32, colour: [f32; 3]) {
+    /// Marks a square of pixels where it is not hidden.
+    fn dot(&mut self, x: f64, y: f64, width: usize, depth: f32) {
         for (dx, dy) in (0..width).flat_map(|dx| (0..width).map(move |dy| (dx as f64, dy as f64))) {
             let (x, y) = (x + dx, y + dy);
             let rows = self.rows.start as f64..self.rows.end as f64;
@@ -273,7 +279,7 @@ impl Canvas {
             }
             let at = self.place(x as usize, y as usize);
             if self.depths[at] > f32::NEG_INFINITY && depth >= self.depths[at] {
-                self.colours[at] = colour;
+                self.marked[at] = true;
             }
         }
     }

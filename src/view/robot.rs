@@ -1,12 +1,13 @@
 //! The data of an articulated robot in a page: its modules, the steps of its kinematics, its tracks.
 
+use super::fittings::fittings;
 use super::ground_pose;
 use super::number::{list, number, rotation, vector};
 use super::solids::{Meshes, solids};
 use crate::geometry::Pose;
 use crate::plan::verify::articulated::ClusterPath;
 use crate::plan::{DockingKind, LastingTrees, Segment, Track, Tracks, polynomial};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, ModuleType};
+use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Library, ModuleType};
 use crate::robot::{Motion, Step};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -32,7 +33,7 @@ pub(super) fn body(
     let trees = trees(tracks, clusters, &mut forms);
     let mut body = json!({
         "form": "tracks",
-        "kinds": robot.library.modules.iter().map(|kind| module_type(kind, meshes)).collect::<Vec<_>>(),
+        "kinds": robot.library.modules.iter().map(|kind| module_type(&robot.library, kind, meshes)).collect::<Vec<_>>(),
         "modules": robot.modules.iter().map(|m| json!([m.name, m.kind])).collect::<Vec<_>>(),
         "hinges": hinges(robot),
         "bonds": (0..robot.bonds.len()).map(|bond| robot.bond_name(bond)).collect::<Vec<_>>(),
@@ -54,11 +55,12 @@ pub(super) fn body(
     body
 }
 
-/// Returns a module type: its links with their shapes, and its joints.
-fn module_type(kind: &ModuleType, meshes: &mut Meshes) -> Value {
-    let links = kind.links.iter().map(|link| {
+/// Returns a module type: its links with their shapes and fittings, and its joints.
+fn module_type(library: &Library, kind: &ModuleType, meshes: &mut Meshes) -> Value {
+    let links = kind.links.iter().enumerate().map(|(i, link)| {
         let judged = if link.collides == link.shape { Value::Null } else { solids(&link.collides, meshes) };
-        json!({ "name": link.name, "solids": solids(&link.shape, meshes), "collides": judged })
+        let fitted = solids(&fittings(library, kind, i), meshes);
+        json!({ "name": link.name, "solids": solids(&link.shape, meshes), "fittings": fitted, "collides": judged })
     });
     let joints = kind.joints.iter().map(|joint| {
         let still = joint.kind == JointKind::Fixed;

@@ -93,6 +93,7 @@ async function checked(browser, one) {
   if (one.curves.length) await views.curves(page, one.curves, fault);
   if (one.lit.length) await views.source(page, one.lit, fault);
   await views.data(page, one.data, fault);
+  await views.sides(page, fault);
   if (one.failure) await views.failure(page, one.failure, fault);
   if (one.measured) [figures.script_ms, figures.frame_ms] = await measure(page);
   await context.close();

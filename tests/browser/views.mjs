@@ -9,7 +9,7 @@ export async function toggles(page, wanted, fault) {
   const names = await page.locator("[data-toggle]").evaluateAll(boxes => boxes.map(box => box.dataset.toggle));
   for (const name of wanted) if (!names.includes(name)) fault(`there is no switch for ${name}: ${names}`);
   // What lies under the robot or has not moved yet can't be seen to change.
-  const seen = names.filter(name => !["follow", "trail", "shadow", "start", "goal"].includes(name) || wanted.includes(name));
+  const seen = names.filter(name => !["follow", "trail", "start", "goal"].includes(name) || wanted.includes(name));
   // Each switch ends where it began, or is complained of.
   const before = await picture(page);
   for (const name of seen) {
@@ -19,7 +19,7 @@ export async function toggles(page, wanted, fault) {
     await flip();
     if ((await picture(page)).sum !== before.sum) fault(`the switch for ${name} does not go back`);
   }
-  const key = { mass: "m", contacts: "k", goal: "g", start: "s", collides: "j", nominal: "n", forces: "k", paths: "r" };
+  const key = { grid: "i", target: "a", mass: "m", contacts: "k", goal: "g", start: "s", collides: "j", nominal: "n", forces: "k", paths: "r" };
   for (const name of wanted.filter(name => key[name])) {
     const on = () => page.locator(`[data-toggle="${name}"]`).isChecked();
     const before = await on();
@@ -77,7 +77,9 @@ export async function curves(page, wanted, fault) {
   const box = await canvas.boundingBox();
   const { end, duration } = await page.evaluate(() => window.modl.plan);
   const before = (await picture(page, 0), await drawn());
-  await page.mouse.click(box.x + box.width * 0.5 * (end / duration), box.y + box.height / 2);
+  // Numbers stand to the left of the plots, which have the scale of the line of time.
+  const track = await page.locator("#track").boundingBox();
+  await page.mouse.click(track.x + track.width * 0.5 * (end / duration), box.y + box.height / 2);
   if (Math.abs(await time(page) - end / 2) > end * 0.02) fault("a click in the curves is no time");
   await picture(page);
   if (await drawn() === before) fault("the curves have no cursor");
@@ -136,4 +138,59 @@ export async function failure(page, wanted, fault) {
     return Math.abs(at[0] - parseFloat(box.style.left));
   });
   if (!(off < 2)) fault(`what is pointed at is ${off} pixels from where they meet`);
+}
+
+/** The sides of the cube, the distance between two points, and a figure for print. */
+export async function sides(page, fault) {
+  const look = () => page.evaluate(() => [window.modl.camera.goal.yaw, window.modl.camera.goal.pitch]);
+  for (const [name, yaw] of [["front", 0], ["left", Math.PI / 2], ["back", Math.PI], ["right", -Math.PI / 2]]) {
+    await page.locator("#cube button", { hasText: name }).dispatchEvent("click");
+    const [found, pitch] = await look();
+    const off = Math.abs(Math.atan2(Math.sin(found - yaw), Math.cos(found - yaw)));
+    if (off > 1e-6 || Math.abs(pitch) > 0.2) fault(`the ${name} is looked at from ${found}, ${pitch}`);
+  }
+  await page.locator("#cube button", { hasText: "top" }).dispatchEvent("click");
+  if ((await look())[1] < 1.4) fault("the top is not looked at from above");
+  await page.keyboard.press("h");
+  await measures(page, fault);
+  const before = await picture(page);
+  await page.keyboard.press("b");
+  const white = await page.evaluate(() => {
+    const gl = document.getElementById("view").getContext("webgl2");
+    window.modl.redraw();
+    const pixel = new Uint8Array(4);
+    gl.readPixels(0, gl.drawingBufferHeight - 1, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return pixel.join();
+  });
+  if (white !== "255,255,255,255") fault("a figure is not on white: " + white);
+  if (await page.locator("#head").isVisible()) fault("words stand over a figure");
+  await page.keyboard.press("b");
+  if ((await picture(page)).sum !== before.sum) fault("a figure does not go back");
+}
+
+/** A distance that is measured is the one between the points of the bodies that are clicked. */
+async function measures(page, fault) {
+  await page.keyboard.press("x");
+  const size = await page.evaluate(() => {
+    const { modl } = window;
+    const [X, view] = [modl.places(modl.state.t), document.getElementById("view")];
+    const rect = view.getBoundingClientRect();
+    const hits = [];
+    for (let i = 0; i < X.length; i += 16) {
+      const at = modl.onScreen([X[i], X[i + 1], X[i + 2]]);
+      if (!at || modl.pick(at[0] / view.clientWidth, at[1] / view.clientHeight) < 0) continue;
+      hits.push(at);
+    }
+    for (const [x, y] of [hits[0], hits[hits.length - 1]]) modl.measure.click(x / rect.width, y / rect.height);
+    modl.redraw();
+    const [a, b] = modl.measure.points;
+    const seen = [a, b].map(modl.onScreen);
+    const off = Math.max(...seen.map((p, i) => Math.hypot(p[0] - [hits[0], hits[hits.length - 1]][i][0], p[1] - [hits[0], hits[hits.length - 1]][i][1])));
+    return { length: Math.hypot(...a.map((c, k) => c - b[k])), off, words: document.getElementById("measured").textContent };
+  });
+  if (!(size.off < 1)) fault(`a point that is clicked is ${size.off} pixels from the one that is measured`);
+  const told = parseFloat(size.words) * (/^[^(]* mm/.test(size.words) ? 1e-3 : 1);
+  if (Math.abs(told - size.length) > 6e-4) fault(`a distance of ${size.length} m is told as ${size.words}`);
+  await page.keyboard.press("Escape");
+  if (await page.locator("#measured").isVisible()) fault("a distance stays");
 }

@@ -8,11 +8,12 @@ use crate::support::robots::{H, LEFT, TILT, chain, walk4};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use modl::plan::{Body, Plan};
 use modl::robot::Kinematics;
-use modl::view::{RenderInput, Side, StillOptions, page, png, svg};
+use modl::view::{Look, RenderInput, Side, StillOptions, page, png, svg};
 use serde_json::Value;
+use std::collections::BTreeSet;
 
 /// Most bytes of a page without its plan.
-const PAGE_BYTES_MAX: usize = 120_000;
+const PAGE_BYTES_MAX: usize = 160_000;
 
 const HOSTILE: &str = "</script><img src=x onerror=alert(1)>\"'&\u{202e}\u{0}\u{1}";
 
@@ -170,7 +171,9 @@ fn pixels(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
 fn a_picture_shows_the_robot_from_the_side_asked_for() {
     let plan = rover();
     let input = RenderInput { title: "rover", plan: &plan, texts: &[], command: "" };
-    let still = |time, side| png(&input, &StillOptions { time, side, width: 160, height: 100 });
+    let still = |time, side| {
+        png(&input, &StillOptions { time, side, width: 160, height: 100, ..StillOptions::default() })
+    };
     let (corner, top) = (still(0.0, Side::Corner), still(0.0, Side::Top));
     assert!(corner == still(0.0, Side::Corner), "the same bytes again");
     assert!(corner != top);
@@ -185,6 +188,115 @@ fn a_picture_shows_the_robot_from_the_side_asked_for() {
     let wide = |side| pixels(&still(0.0, side)).2.iter().filter(|p| blue(p)).count() as f64;
     let (left, right) = (wide(Side::Left), wide(Side::Right));
     assert!((left / right - 1.0).abs() < 0.05, "{left} {right}");
+}
+
+/// The pixels of a picture for print that are not grey: the robot; shadows on the white ground are.
+fn coloured(plan: &Plan, side: Side, (width, height): (usize, usize)) -> Vec<(usize, usize)> {
+    let input = RenderInput { title: "", plan, texts: &[], command: "" };
+    let options = StillOptions { side, width, height, look: Look::Figure, ..StillOptions::default() };
+    let (_, _, found) = pixels(&png(&input, &options));
+    let chroma = |[r, g, b]: [u8; 3]| r.max(g).max(b) - r.min(g).min(b);
+    let places = (0..width * height).filter(|i| chroma(found[*i]) > 40);
+    places.map(|i| (i % width, i / width)).collect()
+}
+
+#[test]
+fn a_picture_is_filled_and_cuts_nothing_off() {
+    let long = plan_of(plan(chain(12), wait(1.0)).expect("it can be scheduled"));
+    for (plan, size) in [(rover(), (120, 80)), (long.clone(), (120, 80)), (long, (80, 120))] {
+        for side in [Side::Corner, Side::Front, Side::Back, Side::Left, Side::Right, Side::Top] {
+            let found = coloured(&plan, side, size);
+            let range = |pick: fn(&(usize, usize)) -> usize| {
+                let values = || found.iter().map(pick);
+                (values().min().expect("it is seen"), values().max().expect("it is seen"))
+            };
+            let ((left, right), (top, bottom)) = (range(|p| p.0), range(|p| p.1));
+            let inside = left > 0 && top > 0 && right + 1 < size.0 && bottom + 1 < size.1;
+            let fill = f64::max((right - left) as f64 / size.0 as f64, (bottom - top) as f64 / size.1 as f64);
+            assert!(inside && fill > 0.75, "{side:?} of {size:?}: {left}..{right}, {top}..{bottom}");
+        }
+    }
+}
+
+#[test]
+fn docks_are_drawn_at_the_ports_and_nowhere_else() {
+    let sandbox = Sandbox::new(&[("snake.mod", b"use std.rofi.Snake\nshow(Snake(n: 2), \"snake.html\")\n")]);
+    sandbox.run(&["run", "snake.mod"]);
+    let page = std::fs::read_to_string(sandbox.path("out/snake.html")).expect("written");
+    let data = data(&page);
+    let links = data["body"]["kinds"][0]["links"].as_array().expect("a list");
+    let count = |link: usize| links[link]["fittings"].as_array().expect("a list").len();
+    // A shoe has three docks of a disc and four pins; between the bodies is a shaft.
+    assert_eq!([count(0), count(1), count(2), count(3)], [15, 1, 0, 15]);
+    let disc = &links[0]["fittings"][0];
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let end = number(&disc["p"][0]) + number(&disc["s"][2]) / 2.0;
+    assert!((end - 0.05).abs() < 1e-3, "it ends at the port, half a pitch from the middle: {end}");
+    let shaft = &links[1]["fittings"][0];
+    assert!((number(&shaft["p"][2]) - 0.05).abs() < 1e-6, "half way between the two bodies");
+}
+
+#[test]
+fn what_becomes_what_is_the_title_and_the_goal_is_drawn() {
+    let program = "use std.crystal.ExpandingCube
+use std.truss.PneumaticReel
+use std.shapes.cube
+lattice Em of ExpandingCube = row(4)
+lattice Ow of ExpandingCube = block(2, 2)
+truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 2, interior: false)
+let way = squeeze(Em, Ow)
+emit(way, \"way.plan.json\")
+emit(reverse(way), \"back.plan.json\")
+show(morph(Pyramid, cube(edge: 1500mm), budget: 3), \"made.html\")
+";
+    let sandbox = Sandbox::new(&[("way.mod", program.as_bytes())]);
+    let ran = sandbox.run(&["run", "way.mod"]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for (file, title) in [("way", "Em \u{2192} Ow"), ("back", "Ow \u{2192} Em")] {
+        let ran = sandbox.run(&["show", &format!("out/{file}.plan.json")]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let page = std::fs::read_to_string(sandbox.path(&format!("out/{file}.html"))).expect("written");
+        assert!(page.contains(&format!("<title>{title}</title>")), "{file}");
+        assert_eq!(data(&page)["goal"], true);
+    }
+    let page = std::fs::read_to_string(sandbox.path("out/made.html")).expect("written");
+    let data = data(&page);
+    assert_eq!(data["title"], "Pyramid \u{2192} cube(edge: 1500mm)");
+    // The eight corners of a cube of this edge.
+    let index = data["target"].as_u64().expect("a target") as usize;
+    let points = data["meshes"][index]["points"].as_array().expect("a list");
+    let points: Vec<f64> = points.iter().map(|x| x.as_f64().expect("a number")).collect();
+    assert_eq!(points.len(), 24);
+    let corner = |i: usize| Vec3::new(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    let apart = (1..8).map(|i| (corner(i) - corner(0)).norm());
+    let longest = apart.fold(0.0, f64::max);
+    assert!((longest - 1.5 * 3.0_f64.sqrt()).abs() < 1e-5, "{longest}");
+}
+
+#[test]
+fn the_page_colours_the_words_of_the_grammar() {
+    let page = shown("rover", &rover());
+    let list = page
+        .split_once("const KEYWORDS = new Set((")
+        .expect("a list")
+        .1
+        .split_once(").split")
+        .expect("its end")
+        .0;
+    let quoted =
+        |text: &str| -> Vec<String> { text.split('"').skip(1).step_by(2).map(str::to_owned).collect() };
+    let coloured: BTreeSet<String> = quoted(list)
+        .iter()
+        .flat_map(|part| part.split(' '))
+        .filter(|w| !w.is_empty())
+        .map(str::to_owned)
+        .collect();
+    let grammar = include_str!("../../grammar/modl.pest");
+    let code: String = grammar.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+    let word = |text: &String| text.len() > 1 && text.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+    let escaped = code.replace("\\\"", "");
+    let of_grammar: BTreeSet<String> = quoted(&escaped).into_iter().filter(word).collect();
+    assert_eq!(coloured, of_grammar);
 }
 
 fn drawing(plan: &Plan) -> String {

@@ -4,7 +4,7 @@
 use super::fit::{Distance, Weights, fit};
 use super::surface;
 use super::target::Target;
-use crate::geometry::Vec3;
+use crate::geometry::{Pose, Vec3};
 use crate::optimize::random::SplitMix64;
 use crate::planners::Progress;
 use crate::planners::truss::motion::TimeLaw;
@@ -95,6 +95,8 @@ pub struct Descent {
     pub start: Distance,
     /// The distances between surface and target after the last of `steps`.
     pub distance: Distance,
+    /// The pose of the target's own frame in the world's, as it was moved (`X_WT`).
+    pub target: Pose,
     /// The reason why the search ended, which may have been some steps after the last of `steps`.
     pub end: End,
 }
@@ -123,6 +125,7 @@ pub fn descend(
     let middle = start.iter().sum::<Vec3>() / start.len() as f64;
     let centroid = target.centroid();
     let placed = |turn: &UnitQuaternion<f64>| target.moved(|p| turn * (p - centroid) + middle);
+    let pose = |turn: &UnitQuaternion<f64>| Pose::from_parts((middle - turn * centroid).into(), *turn);
     // Screen the given orientation and random ones, and keep the best.
     let mut best = (f64::INFINITY, UnitQuaternion::identity());
     if settings.orientations > 0 {
@@ -136,11 +139,12 @@ pub fn descend(
                 best = (tried.distance.both(), turn);
             }
             if tried.end == End::Cancelled {
-                return Ok(tried);
+                return Ok(Descent { target: pose(&turn), ..tried });
             }
         }
     }
-    Ok(descend_to(truss, start, &faces, &placed(&best.1), settings, &mut monitor))
+    let found = descend_to(truss, start, &faces, &placed(&best.1), settings, &mut monitor);
+    Ok(Descent { target: pose(&best.1), ..found })
 }
 
 /// The observer, with the least distance (root mean square, m) seen in all descents.
@@ -228,7 +232,7 @@ fn descend_to(
         }
     };
     steps.truncate(best.0);
-    Descent { steps, start: first, distance: best.1, end }
+    Descent { steps, start: first, distance: best.1, target: Pose::identity(), end }
 }
 
 /// Returns a uniformly random rotation (Shoemake, "Uniform random rotations", Graphics Gems III).

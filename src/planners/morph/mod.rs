@@ -45,8 +45,8 @@ pub use target::Target;
 use super::truss::motion::{Move, node_paths};
 use super::truss::problem::{InvalidTruss, TrussProblem};
 use super::{Progress, Solution};
-use crate::geometry::Vec3;
 use crate::geometry::soundness::{EXTENT_MAX, in_reach};
+use crate::geometry::{Pose, Vec3};
 use crate::plan::Body;
 use std::fmt;
 
@@ -63,12 +63,26 @@ pub struct Problem {
 }
 
 /// A shape that a truss has to take on, given as a surface or as points.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum TargetShape {
     /// A surface, given by the corners of its triangles, m.
     Mesh(Vec<[Vec3; 3]>),
     /// A cloud of points on a surface, m, of equal weight.
     Cloud(Vec<Vec3>),
+}
+
+impl TargetShape {
+    /// Returns the shape transformed by `X`: one in frame T for `X_WT` becomes one in frame W.
+    #[allow(non_snake_case)]
+    fn moved(&self, X: &Pose) -> TargetShape {
+        let at = |p: &Vec3| X.transform_point(&(*p).into()).coords;
+        match self {
+            TargetShape::Mesh(triangles) => {
+                TargetShape::Mesh(triangles.iter().map(|t| t.each_ref().map(at)).collect())
+            }
+            TargetShape::Cloud(points) => TargetShape::Cloud(points.iter().map(at).collect()),
+        }
+    }
 }
 
 /// The figures of a morph: the fit at its start and at its end, and why it ended.
@@ -78,6 +92,8 @@ pub struct Report {
     pub distance: Distance,
     /// The distances between the outer surface and the target at the start, with the target in its final orientation.
     pub start: Distance,
+    /// The target where the truss takes it on, in the world's frame.
+    pub target: TargetShape,
     /// The reason why the motion ends; unless it is [`End::Done`], short of the tolerance.
     pub end: End,
     /// The reason why the motion ends in words, for a message.
@@ -151,7 +167,8 @@ pub fn plan(
     };
     let moves: Vec<Move> = found.steps.into_iter().map(Move::Linear).collect();
     let paths = node_paths(&problem.truss, &truss, start, &moves, settings.time_law, false);
-    let report = Report { distance: found.distance, start: found.start, end: found.end, ended };
+    let target = problem.target.moved(&found.target);
+    let report = Report { distance: found.distance, start: found.start, target, end: found.end, ended };
     Ok(Solution { body: Body::NodePaths(paths), program: None, report })
 }
 

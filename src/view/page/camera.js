@@ -1,11 +1,16 @@
 // The eye: goes round a point, nearer and farther, by mouse, touch and keys.
 
-const FOVY = (38 * Math.PI) / 180;
+const FOVY = (32 * Math.PI) / 180;
+/** The sides to look from: yaw and pitch. +x of the world is the front. */
+const SIDES = {
+  corner: [-0.9, 0.42], front: [0, 0.05], back: [Math.PI, 0.05], left: [Math.PI / 2, 0.05], right: [-Math.PI / 2, 0.05],
+  top: [-Math.PI / 2, 1.5], below: [-Math.PI / 2, -1.5],
+};
 
 function cameraOf(canvas, calm, changed) {
   const goal = { yaw: -0.9, pitch: 0.42, distance: 1, target: [0, 0, 0] };
   const now = { ...goal };
-  const camera = { matrix: null, eye: [0, 0, 0], target: [0, 0, 0], distance: 1, reach: 0, goal, follow: true, atEnd: false, framed: "first" };
+  const camera = { matrix: null, eye: [0, 0, 0], target: [0, 0, 0], distance: 1, reach: 0, goal, follow: true, atEnd: false, lowest: -0.2, framed: "first" };
   const pointers = new Map();
   let moved = 0;
 
@@ -23,6 +28,7 @@ function cameraOf(canvas, calm, changed) {
     camera.eye = add(now.target, scaled(axesOf(now.yaw, now.pitch).away, distance));
     camera.target = now.target;
     camera.distance = distance;
+    [camera.yaw, camera.pitch] = [now.yaw, now.pitch];
     const view = lookAt(camera.eye, now.target, [0, 0, 1]);
     camera.matrix = times(perspective(FOVY, camera.aspect(), distance * 0.05, distance * 40 + camera.reach), view);
     return far > 1e-4;
@@ -33,17 +39,28 @@ function cameraOf(canvas, calm, changed) {
   camera.aspect = () => canvas.width / Math.max(canvas.height, 1);
 
   /** Everything in the picture, now and later, from the side it is looked at. */
-  camera.fit = framing => {
-    goal.target = framing.now().middle;
-    goal.distance = framing.distance(goal.yaw, goal.pitch, camera.aspect());
+  camera.fit = (framing, still) => {
+    const tall = Math.max(canvas.clientHeight, 1);
+    const rims = [Math.min(58 / tall, 0.16), Math.min(34 / tall, 0.1)];
+    const { distance, aside } = framing.filling(goal.yaw, goal.pitch, camera.aspect(), rims, still);
+    goal.target = add(framing.now().middle, aside);
+    goal.distance = distance;
     camera.framed = "whole";
     camera.atEnd = false;
   };
 
+  /** Turns to a side, the shorter way. */
+  camera.side = name => {
+    const [yaw, pitch] = SIDES[name];
+    goal.yaw += ((yaw - goal.yaw + 3 * Math.PI) % (2 * Math.PI) + 2 * Math.PI) % (2 * Math.PI) - Math.PI;
+    goal.pitch = pitch;
+    changed();
+  };
+
   /** The first look: from a corner, or along a row from its end, so that the near modules are seen. */
-  camera.begin = framing => {
+  camera.begin = (framing, still) => {
     const { thread } = framing;
-    if (!thread) camera.fit(framing);
+    if (!thread) camera.fit(framing, still);
     camera.framed = "first";
     if (!thread) return;
     camera.atEnd = true;
@@ -59,7 +76,7 @@ function cameraOf(canvas, calm, changed) {
   camera.orbit = (dx, dy) => {
     camera.framed = null;
     goal.yaw -= dx;
-    goal.pitch = clamp(goal.pitch + dy, -0.2, 1.55);
+    goal.pitch = clamp(goal.pitch + dy, camera.lowest, 1.55);
     changed();
   };
   camera.pan = (dx, dy) => {

@@ -5,6 +5,9 @@
 const DETAILS = [{ from: 100, round: 40 }, { from: 28, round: 16 }, { from: 0, round: 8 }];
 /** A module smaller than this is drawn as one box, in pixels. */
 const SPECK = 6;
+/** The shade of fittings, which are of metal whatever the colour of their module. */
+const METAL = 9;
+const METAL_COLOUR = [0.42, 0.45, 0.48];
 const BOX = 0;
 const MESHES = 3;
 /** Numbers of an instance: its three sides and its place in the world by rows [side, coordinate of the
@@ -18,7 +21,7 @@ function instancesOf(gl, meshes, plan, motion, solids) {
   const own = new Float32Array(SOLID * solids.length);
   const fill = (target, i, { p, q, s }) => target.set([...[0, 1, 2].flatMap(k => turned(q, [0, 1, 2].map(r => (r === k ? s[k] : 0)))), ...p], SOLID * i);
   solids.forEach((solid, i) => fill(own, i, solid));
-  const shades = solids.map(({ shade }) => SHADES[shade % SHADES.length]);
+  const shades = solids.map(({ shade, metal }) => (metal ? METAL : SHADES[shade % SHADES.length]));
   const modules = modulesOf(plan, motion, solids);
   const specks = new Float32Array(SOLID * modules.length);
   let known = false;
@@ -31,6 +34,7 @@ function instancesOf(gl, meshes, plan, motion, solids) {
   const all = [...[...batches.values()].flat(), far];
   const levelsOf = solids.map(({ shape }) => batches.get(shape));
   const wide = solids.map(({ s }) => Math.max(s[0], s[1]));
+  const least = solids.map(({ least }) => least || 0);
 
   /** Chooses for a camera: poses X, view matrix, pixels of a metre at a distance of one; of `within`
       only what is in its picture. */
@@ -54,6 +58,7 @@ function instancesOf(gl, meshes, plan, motion, solids) {
         const frame = frameOf(X, body);
         const seen = (Math.max(X[POSE * body + 8], X[POSE * body + 9]) * pixels) / away;
         for (let j = first; j < after; j++) {
+          if (wide[j] * seen < least[j]) continue;
           const levels = levelsOf[j];
           let level = 0;
           while (level + 1 < levels.length && wide[j] * seen < DETAILS[level].from) level++;
@@ -149,8 +154,8 @@ function batchOf(gl, mesh, capacity, closed, edged) {
   gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
   gl.bufferData(gl.ARRAY_BUFFER, data.byteLength, gl.DYNAMIC_DRAW);
   const each = [4, 4, 4, 4, 1].map((size, k) => [2 + k, buffer, size, 4 * INSTANCE, 16 * k, 1]);
-  const faces = arrayOf(gl, [[0, mesh.faces, 3, 24, 0, 0], [1, mesh.faces, 3, 24, 12, 0], ...each], mesh.index);
-  const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 12, 0, 0], ...each]) : null;
+  const faces = arrayOf(gl, [[0, mesh.faces, 3, 36, 0, 0], [1, mesh.faces, 3, 36, 12, 0], [7, mesh.faces, 3, 36, 24, 0], ...each], mesh.index);
+  const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 24, 0, 0], [7, mesh.lines, 3, 24, 12, 0], ...each]) : null;
   return {
     count: 0,
     /** A solid as its body stands. Parts of one module are told apart by brightness, not by hue. */
@@ -164,6 +169,7 @@ function batchOf(gl, mesh, capacity, closed, edged) {
           else data[to + 4 * r + 3] = value + m[9 + r];
         }
       }
+      if (shade === METAL) return data.set([...METAL_COLOUR, -1, body], to + 12);
       const grey = 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2];
       for (let k = 0; k < 3; k++) data[to + 12 + k] = shade ? mix(colour[k], grey, 0.45) * (1 + 0.55 * shade) : colour[k];
       data[to + 15] = colour[3];

@@ -5,23 +5,25 @@ const THREAD = 9;
 /** Times at which everything has to be in the picture: so many, fewer where there is much to look at. */
 const LOOKS_MAX = 12;
 const LOOKED_MAX = 20000;
-/** Part of the picture that is filled: words stand at its rim. */
-const FILLED = 0.84;
+/** Part of the picture that is filled, beside the words at its upper and lower rim. */
+const FILLED = 0.93;
+/** Corners of what is looked at at one time; of more, one in so many. */
+const CORNERS_MAX = 4000;
 
 function framingOf(plan, motion, X) {
-  /** Middle, half the size and the corners of a box around everything that was placed in X. */
-  function now() {
+  const boxes = boxesOf(plan, motion);
+
+  /** Middle, half the size and the corners of a box around everything that was placed in X; `see` is told each corner of
+      the box around each body. */
+  function now(see) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
-    for (const solid of motion.solids) {
-      if (solid.endless) continue;
-      const i = POSE * solid.body;
-      const q = [X[i + 4], X[i + 5], X[i + 6], X[i + 7]];
-      const c = add([X[i], X[i + 1], X[i + 2]], turned(q, solid.p.map((x, k) => x * X[i + 8 + k])));
-      const reach = 0.8 * (solid.shape > 2 ? plan.meshes[solid.shape - 3].radius : norm(solid.s.map((x, k) => x * X[i + 8 + k])) / 2);
-      for (let k = 0; k < 3; k++) {
-        low[k] = Math.min(low[k], c[k] - reach);
-        high[k] = Math.max(high[k], c[k] + reach);
+    for (const { body, corners } of boxes) {
+      const { m } = frameOf(X, body);
+      for (const [x, y, z] of corners) {
+        const p = [0, 1, 2].map(k => m[k] * x + m[3 + k] * y + m[6 + k] * z + m[9 + k]);
+        for (let k = 0; k < 3; k++) (low[k] = Math.min(low[k], p[k])), (high[k] = Math.max(high[k], p[k]));
+        if (see) see(p);
       }
     }
     return { low, high, middle: scaled(add(low, high), 0.5), radius: Math.max(norm(sub(high, low)) / 2, 1e-3) };
@@ -54,7 +56,10 @@ function framingOf(plan, motion, X) {
   const times = clamp(Math.floor(LOOKED_MAX / motion.solids.length), 3, LOOKS_MAX);
   for (let i = 0; i <= times; i++) {
     motion.place((plan.end * i) / times, X);
-    looks.push(now());
+    const seen = [];
+    const look = now(p => seen.push(p));
+    const stride = Math.ceil(seen.length / CORNERS_MAX);
+    looks.push({ ...look, corners: seen.filter((_, i) => i % stride === 0).map(p => sub(p, look.middle)) });
     threads.push(thread(looks[i]));
   }
 
@@ -63,25 +68,62 @@ function framingOf(plan, motion, X) {
 
   return {
     now,
-    /** The greatest size that there is over time. */
+    /** The greatest size that there is over time, and the lowest place. */
     radius: Math.max(...looks.map(look => look.radius)),
+    lowest: Math.min(...looks.map(look => look.low[2])),
     thread: threads.every(stays) ? threads[0] : null,
     /** Where a camera that follows looks, of what was found now: the row's end, or the middle. */
     followed: (end, found) => (end && (thread(found) || {}).end) || found.middle,
-    /** How far away a camera of this direction has to be for all that it follows to be in the picture. */
-    distance(yaw, pitch, aspect, only) {
+    /** How far away a camera of this direction has to be for a box to be in the picture. */
+    distance(yaw, pitch, aspect, { low, high, middle }) {
       const { away, right, up } = axesOf(yaw, pitch);
-      const tall = FILLED * Math.tan(FOVY / 2);
-      const wide = tall * aspect;
+      const tall = 0.84 * Math.tan(FOVY / 2);
       let most = 0;
-      for (const { low, high, middle } of only ? [only] : looks)
-        for (let i = 0; i < 8; i++) {
-          const d = [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k] - middle[k]);
-          most = Math.max(most, dot(d, away) + Math.max(Math.abs(dot(d, right)) / wide, Math.abs(dot(d, up)) / tall));
-        }
+      for (let i = 0; i < 8; i++) {
+        const d = [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k] - middle[k]);
+        most = Math.max(most, dot(d, away) + Math.max(Math.abs(dot(d, right)) / (tall * aspect), Math.abs(dot(d, up)) / tall));
+      }
       return Math.max(most, 1e-3);
     },
+    /** The distance of a camera of this direction and the place beside the middle that it looks at, with which all that it
+        follows fills the picture between its rims (parts of its height); `still`: what it does not follow, as corners
+        beside the middle. */
+    filling(yaw, pitch, aspect, [over, under], still = []) {
+      const { away, right, up } = axesOf(yaw, pitch);
+      const half = Math.tan(FOVY / 2);
+      const points = [...looks.flatMap(look => look.corners), ...still].map(d => [dot(d, right), dot(d, up), dot(d, away)]);
+      const deepest = Math.max(...points.map(p => p[2]));
+      let [x, y, distance] = [0, 0, deepest + 4 * Math.max(...looks.map(look => look.radius))];
+      const [tall, wide] = [FILLED * half * (1 - over - under), FILLED * half * aspect];
+      for (let i = 0; i < 12; i++) {
+        let [left, most, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
+        for (const [u, v, w] of points) {
+          const gap = Math.max(distance - w, 0.02 * distance);
+          (left = Math.min(left, (u - x) / gap)), (most = Math.max(most, (u - x) / gap));
+          (low = Math.min(low, (v - y) / gap)), (high = Math.max(high, (v - y) / gap));
+        }
+        const grown = Math.max((most - left) / 2 / wide, (high - low) / 2 / tall, 1e-6);
+        x += ((left + most) / 2) * distance;
+        y += ((low + high) / 2) * distance;
+        distance = Math.max(deepest + 0.05 * (distance - deepest), deepest + (distance - deepest) * clamp(grown, 0.4, 2.5));
+      }
+      // The middle between the rims is not that of the picture.
+      y += (over - under) * half * distance;
+      return { distance: Math.max(distance, 1e-3), aside: add(scaled(right, x), scaled(up, y)) };
+    },
   };
+}
+
+/** A box around the solids of each body, in its own frame. */
+function boxesOf(plan, motion) {
+  const known = new Map();
+  for (const solid of motion.solids) {
+    if (solid.endless || solid.metal) continue;
+    if (!known.has(solid.body)) known.set(solid.body, { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] });
+    for (const corner of cornersOf(plan, solid)) widen(known.get(solid.body), add(solid.p, turned(solid.q, corner)));
+  }
+  const corner = ({ low, high }, i) => [0, 1, 2].map(k => (i >> k & 1 ? high : low)[k]);
+  return [...known].map(([body, box]) => ({ body, corners: [0, 1, 2, 3, 4, 5, 6, 7].map(i => corner(box, i)) }));
 }
 
 /** From a target towards a camera, and the directions right and up in its picture. */

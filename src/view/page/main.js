@@ -9,25 +9,34 @@ const CALLOUTS = { collision: "they meet here", stability: "it falls here", torq
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 /** Longer than this nobody waits, s. */
 const WATCHED_MAX = 120;
+/** So long after it was turned the picture counts as moving, ms. */
+const TURNED_FOR = 160;
+/** So long a picture at rest gets better, ms, but so often at least. */
+const REFINED_FOR = 5000;
+const ROUNDS_LEAST = 5;
+/** Parts in the legend over the picture; all of them stand beside it. */
+const LEGEND_MAX = 8;
 
 function main() {
   const motion = motionOf(plan);
-  const options = { shadow: true, edges: true, start: false, goal: false, collides: false, contacts: false, mass: plan.verdict.stamp === "failed", trail: true, follow: true };
-  const state = { t: 0, playing: false, speed: 1, loop: false, hovered: null, chosen: null, dirty: true, theme: null };
+  const options = { shadow: true, edges: true, grid: true, start: false, goal: Boolean(plan.goal) && !motion.target, target: true, collides: false, contacts: false, mass: plan.verdict.stamp === "failed", trail: true, follow: true };
+  const state = { t: 0, playing: false, speed: 1, loop: false, hovered: null, chosen: null, dirty: true, theme: null, round: 0, more: false, moved: 0 };
   const colourings = colouringsOf(plan, motion);
   let colouring = colourings[0];
   const canvas = $("view");
   const events = eventsOf(plan, motion);
   const stats = { calls: 0, frame: 0, frames: 0, first: null };
   const touch = () => (state.dirty = true);
+  /** Where the robot is in the end, as corners, for a picture that its ghost is in; told once the framing is known. */
+  let goalCorners = [];
 
   //: Object.assign(options, { nominal: true, forces: true, paths: true });
   const toggles = [
     //: ...simulationToggles(plan, motion),
     ["mass", plan.ground ? "Centre of mass and support" : "Centre of mass", "m", plan.stand.length > 0], ["contacts", "Contacts with the ground", "k", plan.contacts.some(c => c[1].length)], ["start", "Ghost of the start", "s", plan.duration > 0],
-    ["goal", "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
+    ["goal", plan.goal ? "Ghost of the goal" : "Ghost of the end", "g", plan.duration > 0], ["collides", "Shapes that are judged", "j", Boolean(motion.collides)],
     ["trail", "Way of the base", "w", (plan.body.base || []).length > 1], ["follow", "Follow the robot", "o", true],
-    ["edges", "Edges", "e", true], ["shadow", "Shadows", "", true],
+    ["target", "The target", "a", Boolean(motion.target)], ["edges", "Edges", "e", true], ["grid", "Grid and axes", "i", true], ["shadow", "Shadows", "", true],
   ].filter(([, , , there]) => there).map(([name, title, key]) => ({ name, title, key }));
 
   const player = {
@@ -59,7 +68,8 @@ function main() {
   } catch (error) {
     showStill(error);
   }
-  const camera = cameraOf(canvas, () => calmWish.matches, touch);
+  const camera = cameraOf(canvas, () => calmWish.matches, () => ((state.moved = performance.now()), touch()));
+  camera.lowest = plan.ground ? -0.2 : -1.55;
   const timeline = timelineOf(plan, motion, events, player.seek);
   const curves = curvesOf(plan, motion, player.seek);
   const panel = panelOf(plan, player);
@@ -67,6 +77,29 @@ function main() {
   const X = new Float32Array(POSE * motion.bodies);
   const framing = framingOf(plan, motion, X);
   camera.reach = 6 * framing.radius;
+  if (options.goal && plan.duration > 0) {
+    motion.place(0, X);
+    const { middle } = framing.now();
+    motion.place(plan.end, X);
+    framing.now(p => goalCorners.push(sub(p, middle)));
+    const stride = Math.ceil(goalCorners.length / CORNERS_MAX);
+    goalCorners = goalCorners.filter((_, i) => i % stride === 0);
+  }
+  const cube = cubeOf(name => {
+    camera.side(name);
+    fit();
+  });
+  const scale = scaleBar(() => options.grid);
+  const measure = measureOf((x, y) => {
+    const depth = renderer && scene_ ? renderer.pick(scene_, X, x, y, true) : -1;
+    if (depth >= 0) return unprojected(camera.matrix, x, y, depth);
+    // What is beside the robot is on the ground.
+    const d = sub(unprojected(camera.matrix, x, y, 0.5), camera.eye);
+    const [a, b] = plan.slope || [0, 0];
+    const rate = d[2] - a * d[0] - b * d[1];
+    const u = (plan.floor - camera.eye[2] + a * camera.eye[0] + b * camera.eye[1]) / rate;
+    return plan.ground && u > 0 ? add(camera.eye, scaled(d, u)) : null;
+  }, touch);
   const ghosts = [false, false];
   //: ghosts.push(true);
   //: const nominal = new Float32Array(POSE * motion.bodies);
@@ -84,7 +117,7 @@ function main() {
     ghosts[i] = true;
     const ghost = new Float32Array(POSE * motion.bodies);
     motion.place(i ? plan.end : 0, ghost);
-    paint(plan, motion, { colour: () => rgb(i ? "#2f7fc1" : "#7d8791") }, ghost, 0, null, null, false);
+    paint(plan, motion, { colour: () => rgb(i ? "#3f7fb5" : "#7d8791") }, ghost, 0, null, null, false);
     renderer.ghosts[i] = ghost;
   }
 
@@ -92,18 +125,28 @@ function main() {
   function fit(first, jump) {
     motion.place(state.t, X);
     camera.follow = options.follow;
-    if (first) camera.begin(framing);
-    else camera.fit(framing);
+    const still = options.goal ? goalCorners : [];
+    if (first) camera.begin(framing, still);
+    else camera.fit(framing, still);
     if (jump) camera.jump();
     touch();
   }
 
-  function theme(dark) {
+  /** Light or dark; a figure for a paper is black on white, without what stands around the picture. */
+  function theme(dark, figure = false) {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
-    state.theme = dark
-      ? { dark, above: rgb("#1a2029"), below: rgb("#262e38"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c"), contact: rgb("#ffd24a"), paper: rgb("#14181e") }
-      : { dark, above: rgb("#e7eaec"), below: rgb("#f6f4ef"), ink: rgb("#20303c"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: rgb("#fffefb") };
-    state.lineInk = dark ? rgb("#e6e8ea") : rgb("#20303c");
+    document.body.classList.toggle("figure", figure);
+    $("figure").setAttribute("aria-pressed", figure);
+    const axes = dark ? { axisX: rgb("#e07a5f"), axisY: rgb("#7fb8d8"), accent: rgb("#6cb6ee") } : { axisX: rgb("#b4532f"), axisY: rgb("#2f6f9f"), accent: rgb("#0b63a5") };
+    state.theme = {
+      dark, figure, ...axes,
+      ...(dark
+        ? { above: rgb("#161b21"), below: rgb("#262d36"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c"), contact: rgb("#ffd24a"), paper: rgb("#14181e") }
+        : figure
+          ? { above: [1, 1, 1], below: [1, 1, 1], ink: rgb("#30363c"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: [1, 1, 1] }
+          : { above: rgb("#dfe4e8"), below: rgb("#f7f6f3"), ink: rgb("#222c36"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: rgb("#fffefb") }),
+    };
+    state.lineInk = dark ? rgb("#e6e8ea") : rgb("#222c36");
     timeline.draw();
     touch();
   }
@@ -140,19 +183,16 @@ function main() {
 
   function showLegend({ legend }) {
     const box = $("legend");
-    box.replaceChildren(...legend.map(([colour, name]) => {
-      const swatch = el("i", { class: colour === "ramp" ? "ramp" : null });
-      const stops = RAMP.map(c => `rgb(${c.map(x => Math.round(x * 255)).join(" ")})`).join(", ");
-      swatch.style.background = colour === "ramp" ? `linear-gradient(90deg, ${stops})` : colour;
-      return el("span", {}, swatch, visible(name));
-    }));
+    const shown = legend.slice(0, LEGEND_MAX);
+    box.replaceChildren(...legendOf(shown), ...(legend.length > shown.length ? [el("span", {}, "and " + (legend.length - shown.length) + " more, in View")] : []));
     box.hidden = legend.length < 2 && legend[0][0] !== "ramp";
+    $("parts").replaceChildren(...legendOf(legend));
     //: showScale(plan, options, box);
   }
 
   const pace = paceOf();
-  /** How coarsely it is drawn: only what moves by itself. */
-  const coarseness = () => (state.playing ? pace.level() : 0);
+  /** How coarsely it is drawn: only what moves by itself, or is turned. */
+  const coarseness = () => (state.playing || performance.now() - state.moved < TURNED_FOR ? pace.level() : 0);
   let shaped = 0;
   function resize() {
     const ratio = Math.min(devicePixelRatio || 1, 2) * PIXELS[coarseness()];
@@ -195,18 +235,25 @@ function main() {
     if (options.contacts) marks.push(...contactDots(plan, state.t, floor, lineTheme));
     if (failure && failure.point) marks.push(...spotOf(failure.point, 11, [...lineTheme.bad, 1], lineTheme));
     if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, floor, lineTheme));
+    marks.push(...measure.marks(lineTheme, onScreen));
+    const grain = framing.thread ? 5 * framing.thread.wide : framing.radius;
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
-      middle: now.middle, radius: now.radius, grain: framing.thread ? 5 * framing.thread.wide : framing.radius, floor: plan.floor, floorAt: floor, slope: plan.slope || [0, 0], ground: plan.ground, shadow: options.shadow && plan.ground && coarseness() < 1,
-      edges: options.edges && coarseness() < 2, smooth: coarseness() < 1, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], area: options.mass && stand ? stand.area : [], lines, marks,
+      middle: now.middle, radius: now.radius, grain, floor: plan.floor, lowest: framing.lowest, floorAt: floor, slope: plan.slope || [0, 0], ground: plan.ground,
+      shadow: options.shadow && coarseness() < 2, sky: options.shadow && coarseness() < 1,
+      edges: options.edges && coarseness() < 2, grid: options.grid && !state.theme.figure, smooth: coarseness() < 1, detail: DETAIL[coarseness()], ghosts: [options.start, options.goal], target: options.target ? motion.target : null, area: options.mass && stand ? stand.area : [], lines, marks,
     };
     //: scene.ghosts.push(options.nominal);
     //: if (renderer && options.nominal) renderer.ghosts[2] = placeNominal(plan, motion, state.t, nominal);
     if (renderer) {
       scene.ghosts.forEach((shown, i) => shown && !ghosts[i] && makeGhost(i));
-      stats.calls = renderer.render(scene, X);
+      const drawn = renderer.show(scene, X, 0);
+      stats.calls = drawn.calls;
+      [state.round, state.more, state.began] = [0, drawn.more, performance.now()];
     }
     scene_ = scene;
+    cube.turn(camera.yaw, camera.pitch);
+    scale.show(camera.distance, canvas.clientHeight, gridStep(grain));
     placeCallout(failure);
     timeline.show(state.t);
     curves.draw(state.t);
@@ -218,6 +265,12 @@ function main() {
     return moving;
   }
   let scene_ = null;
+
+  /** One more of the pictures that are averaged while nothing moves. */
+  function refine() {
+    const drawn = renderer.show(scene_, X, ++state.round);
+    state.more = drawn.more && (state.round < ROUNDS_LEAST || performance.now() - state.began < REFINED_FOR);
+  }
 
   /** Where a module is on the screen, in pixels. */
   function onScreen(p) {
@@ -268,6 +321,8 @@ function main() {
   });
   canvas.addEventListener("click", e => {
     if (camera.dragged()) return;
+    const rect = canvas.getBoundingClientRect();
+    if (measure.click((e.clientX - rect.left) / rect.width, (e.clientY - rect.top) / rect.height)) return;
     const module = hover(e);
     if (motion.joints.length) curves.choose(module === undefined ? null : module);
     touch();
@@ -279,6 +334,7 @@ function main() {
     resize();
   }
 
+  let side = -1;
   const keys = [
     [" ", "space", "play or pause", () => play(!state.playing)],
     ["ArrowLeft", "←", "a little back (with shift: the event before)", e => (e.shiftKey ? step(-1) : player.seek(state.t - plan.duration / 200, true))],
@@ -292,7 +348,16 @@ function main() {
     ["l", "L", "begin again at the end", () => $("loop").click()],
     ["c", "C", "curves", () => $("plots").click()],
     ["f", "F", "the whole robot", () => fit()],
+    ["v", "V", "from the next side", () => {
+      side = (side + 1) % FACES.length;
+      camera.side(FACES[side][0]);
+      fit();
+    }],
+    ["h", "H", "from the corner, as at first", () => (camera.side("corner"), fit())],
+    ["x", "X", "measure a distance", () => measure.toggle()],
+    ["Escape", "Esc", "no longer measure", () => measure.toggle(false)],
     ["d", "D", "light or dark", () => $("shade").click()],
+    ["b", "B", "a figure for a paper, black on white", () => $("figure").click()],
     ["p", "P", "panel", () => $("sheet").click()],
     ...toggles.filter(t => t.key).map(t => [t.key, t.key.toUpperCase(), t.title.toLowerCase(), () => player.toggle(t.name)]),
     ...colourings.map((c, i) => [String(i + 1), String(i + 1), "colour by " + c.title.toLowerCase(), () => player.colour(c.name)]),
@@ -318,9 +383,17 @@ function main() {
   $("plots").addEventListener("click", () => showCurves(curves.root.hidden));
   $("fit").addEventListener("click", () => fit());
   $("shade").addEventListener("click", () => theme(!state.theme.dark));
+  $("figure").addEventListener("click", () => theme(false, !state.theme.figure));
+  $("measure").addEventListener("click", () => measure.toggle());
   $("sheet").addEventListener("click", () => {
     document.body.classList.toggle("wide");
     $("panel").hidden = document.body.classList.contains("wide");
+    resize();
+  });
+  $("grip").addEventListener("pointerdown", e => $("grip").setPointerCapture(e.pointerId));
+  $("grip").addEventListener("pointermove", e => {
+    if (!$("grip").hasPointerCapture(e.pointerId)) return;
+    document.body.style.setProperty("--panel", clamp(innerWidth - e.clientX, 220, innerWidth - 320) + "px");
     resize();
   });
   $("help").addEventListener("click", () => $("keys").showModal());
@@ -344,7 +417,10 @@ function main() {
   function frame(now) {
     // The first frame may have begun before the clock was read.
     const passed = clamp((now - last) / 1000, 0, 0.1);
-    if (state.playing && pace.saw(now - last)) resize();
+    const turned_ = now - state.moved < TURNED_FOR;
+    if ((state.playing || (turned_ && state.dirty)) && pace.saw(now - last)) resize();
+    // What has been turned, and is at rest again, is drawn in full.
+    if (coarseness() !== state.coarseness) (state.coarseness = coarseness()), resize();
     last = now;
     if (state.playing) {
       state.t += passed * state.speed;
@@ -363,6 +439,8 @@ function main() {
         try { history.replaceState(null, "", address); } catch { /* nothing is lost */ }
         known = location.hash;
       }
+    } else if (state.more && renderer && !state.playing) {
+      try { refine(); } catch (error) { showStill(error); }
     }
     requestAnimationFrame(frame);
   }
@@ -383,7 +461,7 @@ function main() {
     return Array.from(X);
   };
   // For scripts and tests.
-  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, X, x, y), places, onScreen };
+  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, X, x, y), places, onScreen, measure };
   try {
     if (renderer) renderer.ready();
   } catch (error) {

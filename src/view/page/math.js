@@ -68,6 +68,18 @@ function lookAt(eye, target, up) {
   ]);
 }
 
+/** The inverse of a matrix, by elimination. */
+function inverse(a) {
+  const rows = [0, 1, 2, 3].map(r => [...[0, 1, 2, 3].map(c => a[4 * c + r]), ...[0, 1, 2, 3].map(c => (c === r ? 1 : 0))]);
+  for (let i = 0; i < 4; i++) {
+    const best = [i, i + 1, i + 2, i + 3].filter(r => r < 4).reduce((b, r) => (Math.abs(rows[r][i]) > Math.abs(rows[b][i]) ? r : b), i);
+    [rows[i], rows[best]] = [rows[best], rows[i]];
+    rows[i] = rows[i].map(x => x / rows[i][i]);
+    for (let r = 0; r < 4; r++) if (r !== i) rows[r] = rows[r].map((x, c) => x - rows[r][i] * rows[i][c]);
+  }
+  return [0, 1, 2, 3].flatMap(c => rows.map(row => row[4 + c]));
+}
+
 /** Where a point of the world is on the screen: x and y in -1..1, and depth; behind the eye: null. */
 function projected(m, p) {
   const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];

@@ -85,7 +85,7 @@ function effortRows(plan, motion, chosen) {
       const share = line(drive, 100 / drive.limit, " % of " + drive.limit + " " + drive.unit);
       return { ...share, points: share.points.map(([t, x]) => [t, Math.abs(x)]) };
     });
-    return [{ title: "efforts, dashed: the limit", lines, limit: 100 }];
+    return [{ title: "efforts", lines, limits: [[100, "limit of the motor"]] }];
   }
   const lines = drives.slice(0, JOINTS_SHOWN).map(drive => line(drive, 1, " " + drive.unit));
   return lines.length ? [{ title: "efforts, without limits", lines }] : [];

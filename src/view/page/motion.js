@@ -8,6 +8,10 @@
 //   causes(t)    indices of what commands the motion at t
 //   facts(b, t)  lines about a body for the tooltip
 
+/** Smaller than this on the screen, in pixels, fittings and the plates of cells are not drawn. */
+const FITTING = 5;
+const PLATE = 22;
+
 /** Numbers of a body in X: place, -, rotation, size, -, colour, glow. */
 const POSE = 16;
 
@@ -54,6 +58,7 @@ function robotMotion(plan, body) {
     modules.push({ name, type: type.name, group: groups[module] });
     type.links.forEach((link, index) => {
       for (const solid of link.solids) solids.push({ ...solid, body: links.length, shade: index });
+      for (const solid of link.fittings) solids.push({ ...solid, body: links.length, metal: true, least: FITTING });
       for (const solid of link.collides || link.solids) collides.push({ ...solid, body: links.length, shade: index });
       links.push({ module, name: link.name });
     });
@@ -269,7 +274,9 @@ function latticeMotion(plan, body) {
   const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i * every, type: body.cell, group: "" }));
   return {
     bodies: n,
-    solids: modules.map((_, i) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s: [0.97, 0.97, 0.97], shade: 0 })),
+    // A cube with a plate on each face, if it is near.
+    solids: modules.flatMap((_, i) => [[[0.97, 0.97, 0.97], 0, 0], ...[0, 1, 2].map(axis => [[0, 1, 2].map(k => (k === axis ? 0.985 : 0.72)), 5, PLATE])]
+      .map(([s, shade, least]) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s, shade, least }))),
     ...eachItsOwn(modules),
     place(t, X) {
       const at = stageAt(t);
@@ -308,15 +315,20 @@ function trussMotion(plan, body) {
   const modules = body.nodes.map(name => ({ name, type: "node", group: "nodes" }));
   body.struts.forEach(([a, b]) => modules.push({ name: body.nodes[a] + " -- " + body.nodes[b], type: body.strut, group: "struts" }));
   const moving = modules.length;
+  // The surface that it takes on is fixed to a body that is not drawn.
+  const target = plan.target === undefined ? null : [{ body: modules.length + body.around.length, shape: 3 + plan.target, p: [0, 0, 0], q: [0, 0, 0, 1], s: [1, 1, 1], shade: 0 }];
   for (const { name } of body.around) modules.push({ name, type: name.replace(/ [0-9]+$/, ""), group: "surroundings", around: true });
+  if (target) modules.push({ name: "target", type: "target", group: "surroundings", around: true });
   // A strut is a thick tube with a thinner rod that slides in it, as linear actuators are.
   const solids = [];
   modules.forEach((_, i) => {
-    const solid = (shape, p, s, shade) => solids.push({ body: i, shape, p, q: [0, 0, 0, 1], s, shade });
+    const solid = (shape, p, s, shade, rest) => solids.push({ body: i, shape, p, q: [0, 0, 0, 1], s, shade, ...rest });
+    if (i >= moving + body.around.length) return;
     if (i >= moving) return body.around[i - moving].solids.forEach(s => solids.push({ ...s, body: i, shade: 0, endless: body.around[i - moving].name === "ground" }));
     if (i < nodes) return solid(2, [0, 0, 0], [2.6 * thick, 2.6 * thick, 2.6 * thick], 0);
-    solid(1, [0, 0, 0], [thick * 0.6, thick * 0.6, 0.96], 1);
+    solid(1, [0, 0, 0], [thick * 0.56, thick * 0.56, 0.96], 1, { metal: true });
     solid(1, [0, 0, -0.21], [thick, thick, 0.5], 0);
+    solid(1, [0, 0, 0.03], [thick * 1.24, thick * 1.24, 0.03], 1, { metal: true, least: FITTING });
   });
   function nodesAt(t) {
     const after = lastNotAbove(times, t) + 1;
@@ -333,6 +345,7 @@ function trussMotion(plan, body) {
   return {
     bodies: modules.length,
     solids,
+    target,
     ...eachItsOwn(modules),
     place(t, X) {
       const at = nodesAt(t);

@@ -59,9 +59,7 @@ function sourcePage(plan, player) {
     page.append(el("h2", {}, visible(name)));
     page.append(el("ol", {}, lines.map(([number, text]) => {
       const place = name + ":" + number;
-      const remark = text.search(/\/\//);
-      const parts = remark < 0 ? [visible(text)] : [visible(text.slice(0, remark)), el("span", { class: "remark" }, visible(text.slice(remark)))];
-      const row = el("li", { "data-line": number, class: blamed.has(place) ? "blame" : null }, el("span", {}, parts));
+      const row = el("li", { "data-line": number, class: blamed.has(place) ? "blame" : null }, el("span", {}, coloured(text)));
       if (firsts.has(place)) {
         row.classList.add("can");
         row.title = "commands from " + seconds(firsts.get(place)) + " on";
@@ -75,11 +73,15 @@ function sourcePage(plan, player) {
   return {
     page,
     show(causes) {
-      const places = new Set([...causes].flatMap(c => placesOf(plan.causes[c] || {})));
+      const commanding = [...causes].map(c => plan.causes[c] || {});
+      const places = new Set(commanding.flatMap(placesOf));
       const next = [...places].map(place => rows.get(place)).filter(Boolean);
       if (next.length === lit.length && next.every((row, i) => row === lit[i])) return;
-      lit.forEach(row => row.classList.remove("lit"));
+      lit.forEach(row => row.classList.remove("lit", "callee"));
       next.forEach(row => row.classList.add("lit"));
+      // What was called stands below the line that called it, and is lit more faintly.
+      for (const { caller, file, line } of commanding) if (caller) rows.get(file + ":" + line)?.classList.add("callee");
+      for (const { caller } of commanding) if (caller) rows.get(caller.file + ":" + caller.line)?.classList.remove("callee");
       lit = next;
       const box = document.getElementById("pages");
       if (!next.length || page.hidden) return;
@@ -87,6 +89,28 @@ function sourcePage(plan, player) {
       if (top < box.scrollTop + 20 || top > box.scrollTop + box.clientHeight - 60) box.scrollTop = top - box.clientHeight / 3;
     },
   };
+}
+
+/** Words with a meaning of their own in a program. */
+const KEYWORDS = new Set(("alias allows and as at base behavior by capture cell closed collides config connect connector contact each else expect extern facing fn for "
+  + "hinge holds if in is joint lattice let link mass mates module motor node not obstacle of on or part port record require scene set snap strut study test touch "
+  + "touching truss turn turned turns type up use with world").split(" "));
+/** A comment, a text, a number with its unit, a word, in this order; what is none of them stays as it is. */
+const TOKEN = /(\/\/.*)|("""[^]*?(?:"""|$)|"(?:[^"\\]|\\.)*"?)|(\b[0-9][0-9_]*(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?(?:[A-Za-z_][A-Za-z0-9_]*(?:\^-?[0-9]+)?(?:[*\/][A-Za-z_][A-Za-z0-9_]*(?:\^-?[0-9]+)?)*)?)|([A-Za-z_][A-Za-z0-9_]*)/g;
+
+/** A line of a program with colours. */
+function coloured(text) {
+  const parts = [];
+  let at = 0;
+  for (const found of text.matchAll(TOKEN)) {
+    const [whole, remark, quoted, number, word] = found;
+    const after = text.slice(found.index + whole.length);
+    const kind = remark ? "remark" : quoted ? "text" : number ? "number" : text[found.index - 1] !== "." && KEYWORDS.has(word) && !/^\s*:/.test(after) ? "word"
+      : /^[A-Z]/.test(word) ? "type" : /^\s*\(/.test(after) ? "call" : null;
+    parts.push(visible(text.slice(at, found.index)), kind ? el("span", { class: kind }, visible(whole)) : visible(whole));
+    at = found.index + whole.length;
+  }
+  return [...parts, visible(text.slice(at))].filter(Boolean);
 }
 
 /** A plan file has no source texts, but the lines that its causes stand on. */
@@ -140,7 +164,7 @@ function viewPage(plan, player) {
   page.append(el("h2", {}, "Colour by"));
   const choice = el("div", { class: "choice" });
   player.colourings.forEach(({ name, title }, i) => choice.append(el("button", { "data-colour": name, on: () => player.colour(name), title: "key " + (i + 1) }, title)));
-  page.append(choice, el("h2", {}, "Show"));
+  page.append(choice, el("div", { id: "parts" }), el("h2", {}, "Show"));
   for (const { name, title, key } of player.toggles) {
     const box = el("input", { type: "checkbox", "data-toggle": name });
     box.checked = player.options[name];

@@ -1,15 +1,15 @@
 // The scene at a time: colours, lines, marks.
 
 /** Told apart by people who see no red, no green or no blue, too: a test measures it. */
-const PALETTE = ["#3865d4", "#f5b116", "#2aa264", "#b76086", "#7bd3f4", "#c4bb58", "#8b84bf", "#a0c7aa"];
-const FAILED = "#d9480f";
+const PALETTE = ["#4c75ae", "#daa43d", "#519277", "#a06182", "#a3c8de", "#cabe87", "#6b6c95", "#9cb6a1"];
+const FAILED = "#cf4520";
 /** What is no part of a robot: obstacles, and ground that is not flat. */
-const AROUND = "#b4b8b2";
+const AROUND = "#b9bbb5";
 
 const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
 
 /** From cold to warm, as bright in steps as it is in hue (after cividis). */
-const RAMP = ["#1c4a86", "#4f7196", "#7f8c8d", "#bca94f", "#fddc3b"].map(rgb);
+const RAMP = ["#234f85", "#537298", "#828d8c", "#b8a65c", "#ecd262"].map(rgb);
 function ramp(u) {
   const x = clamp(u, 0, 1) * (RAMP.length - 1);
   const i = Math.min(Math.floor(x), RAMP.length - 2);
@@ -22,7 +22,7 @@ function colouringsOf(plan, motion) {
   const groups = [...new Set(parts.map(m => m.group))];
   const types = [...new Set(parts.map(m => m.type))];
   const by = (list, key) => motion.modules.map(m => rgb(m.around ? AROUND : PALETTE[list.indexOf(m[key]) % PALETTE.length]));
-  const swatches = list => [...list.slice(0, 8).map((name, i) => [PALETTE[i], name]), ...(list.length > 8 ? [["none", "and " + (list.length - 8) + " more"]] : [])];
+  const swatches = list => list.map((name, i) => [PALETTE[i % PALETTE.length], name]);
   const ofGroup = by(groups, "group");
   const ofType = by(types, "type");
   const all = [];
@@ -41,6 +41,16 @@ function colouringsOf(plan, motion) {
   //: all.push(...effortColours(motion));
   plain("type", "Type", ofType, types);
   return all;
+}
+
+/** A legend: a swatch and a name for each. */
+function legendOf(legend) {
+  const stops = RAMP.map(c => `rgb(${c.map(x => Math.round(x * 255)).join(" ")})`).join(", ");
+  return legend.map(([colour, name]) => {
+    const swatch = el("i", { class: colour === "ramp" ? "ramp" : null });
+    swatch.style.background = colour === "ramp" ? `linear-gradient(90deg, ${stops})` : colour;
+    return el("span", {}, swatch, visible(name));
+  });
 }
 
 /** The colour of the greatest joint load of a module. */

@@ -2,7 +2,12 @@
 
 const HEAD = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\nprecision highp sampler2DShadow;\n";
 
-/** Each instance carries the three sides of what it draws, in the world, and its place. */
+/** Directions of the sky whose light is followed at once: tiles of one map, four by four. */
+const SKIES = 16;
+const SKY_TILES = 4;
+
+/** Each instance carries the three sides of what it draws, in the world, and its place. Edges of boxes and cylinders are
+    rounded: `inset` says how many radii a corner is drawn in from the sides. */
 const BODY = `
 layout(location=0) in vec3 corner;
 layout(location=1) in vec3 normal;
@@ -11,10 +16,12 @@ layout(location=3) in vec4 across;
 layout(location=4) in vec4 up;
 layout(location=5) in vec4 tint;    // w: glow
 layout(location=6) in float body;
+layout(location=7) in vec3 inset;
 vec3 place() { return vec3(along.w, across.w, up.w); }
 vec3 sides() { return vec3(length(along.xyz), length(across.xyz), length(up.xyz)); }
 vec3 grown(vec3 by) {
-  vec3 c = corner * by;
+  vec3 s = sides(), round = 0.085 * min(s.x, min(s.y, s.z)) / s;
+  vec3 c = (corner - inset * round) * by;
   return place() + along.xyz * c.x + across.xyz * c.y + up.xyz * c.z;
 }
 vec3 world() { return grown(vec3(1.0)); }
@@ -29,7 +36,7 @@ uniform mat4 view, sun;
 uniform float pixels;               // of a metre at a distance of one
 out vec3 at, facing, colour;
 out vec4 lit;
-out float glow;
+out float glow, metal;
 void main() {
   // A line thinner than a pixel would appear as dots, or not at all.
   float away = (view * vec4(place(), 1.0)).w;
@@ -37,14 +44,18 @@ void main() {
   facing = worldNormal();
   // Light adds up in squares of what is shown, which is near enough to what screens do.
   colour = tint.rgb * tint.rgb;
-  glow = tint.a;
+  metal = tint.a < 0.0 ? 1.0 : 0.0;
+  glow = max(tint.a, 0.0);
   lit = sun * vec4(at + facing * 0.002, 1.0);
   gl_Position = view * vec4(at, 1.0);
 }`;
 
+/** Light of the sun, through a map of its own, and of the sky, through a map with a tile for each direction. */
 const LIGHT = `
-uniform sampler2DShadow shadows;
-uniform float shadowed;
+uniform sampler2DShadow shadows, skies;
+uniform float shadowed, open;
+uniform mat4 skyViews[${SKIES}];
+uniform vec3 skyDirections[${SKIES}];
 float sunlight(vec4 lit) {
   vec3 p = lit.xyz / lit.w * 0.5 + 0.5;
   if (shadowed < 0.5 || any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
@@ -53,25 +64,48 @@ float sunlight(vec4 lit) {
     for (float y = -0.9; y < 1.0; y += 1.8) sum += texture(shadows, vec3(p.xy + vec2(x, y) * texel, p.z - 0.0015));
   return sum / 4.0;
 }
+/** What of the sky is seen from a point: of what shines on its side, and of all. */
+vec2 skylight(vec3 at, vec3 n) {
+  if (open > 0.5) return vec2(1.0);
+  float sum = 0.0, weights = 0.0, all = 0.0;
+  for (int i = 0; i < ${SKIES}; i++) {
+    vec3 p = (skyViews[i] * vec4(at, 1.0)).xyz * 0.5 + 0.5;
+    vec2 tile = vec2(i % ${SKY_TILES}, i / ${SKY_TILES});
+    float seen = any(lessThan(p, vec3(0.004))) || any(greaterThan(p, vec3(0.996))) ? 1.0
+      : texture(skies, vec3((p.xy + tile) / ${SKY_TILES}.0, p.z - 0.003));
+    float weight = max(dot(n, skyDirections[i]), 0.0) + 0.02;
+    sum += weight * seen;
+    weights += weight;
+    all += seen;
+  }
+  return vec2(sum / weights, all / ${SKIES}.0);
+}
 `;
 
 const SOLID_FRAGMENT = HEAD + LIGHT + `
 uniform vec3 eye, sunDirection;
-uniform float opacity, dark;
+uniform float opacity, dark, paper, reach;
 in vec3 at, facing, colour;
 in vec4 lit;
-in float glow;
+in float glow, metal;
 out vec4 shown;
 void main() {
-  vec3 n = normalize(facing), v = normalize(eye - at);
+  vec3 n = normalize(facing), v = normalize(eye - at), h = normalize(sunDirection + v);
   float direct = max(dot(n, sunDirection), 0.0) * sunlight(lit);
-  float back = max(dot(n, vec3(-sunDirection.xy, 0.25)), 0.0);
-  vec3 sky = mix(vec3(0.30, 0.29, 0.28), vec3(0.56, 0.60, 0.66), n.z * 0.5 + 0.5) * mix(1.0, 0.72, dark);
-  vec3 c = colour * (sky + direct * vec3(0.92, 0.88, 0.80) + back * 0.10);
-  float gloss = max(dot(n, normalize(sunDirection + v)), 0.0), rim = 1.0 - max(dot(n, v), 0.0);
-  gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss; gloss *= gloss;
-  c += 0.10 * gloss * direct + colour * 0.35 * rim * rim * rim;
-  c = mix(c, colour * 1.5 + 0.12, glow);
+  vec2 sky = skylight(at + n * reach, n);
+  float up = n.z * 0.5 + 0.5, side = max(dot(n, normalize(vec3(-sunDirection.xy, 0.3))), 0.0);
+  vec3 ambient = mix(vec3(0.50, 0.54, 0.60), vec3(0.74), paper) * mix(1.0, 0.62, dark) * (0.35 + 0.65 * up) * mix(0.12, 1.0, sky.x);
+  ambient += mix(vec3(0.26, 0.245, 0.225), vec3(0.26), paper) * mix(1.0, 0.55, dark) * (1.0 - up) * mix(0.3, 1.0, sky.y);
+  ambient += side * vec3(0.17, 0.175, 0.19) * mix(0.4, 1.0, sky.y);
+  // A rough surface: a broad highlight, and what the sky leaves at grazing angles.
+  float rough = mix(0.42, 0.30, metal), a = rough * rough, d = dot(n, h) * dot(n, h) * (a * a - 1.0) + 1.0;
+  float gloss = min(a * a / (4.0 * d * d), 6.0) * mix(0.06, 0.24, metal);
+  float rim = pow(1.0 - max(dot(n, v), 0.0), 4.0);
+  vec3 c = colour * (ambient + direct * mix(vec3(0.74, 0.705, 0.65), vec3(0.52), paper));
+  c += (gloss * direct + rim * 0.10 * sky.x * (0.4 + 0.6 * up)) * mix(vec3(1.0), colour * 2.2, metal * 0.5) * mix(1.0, 0.4, paper);
+  c = mix(c, colour * 1.3 + 0.10, glow);
+  // Bright light is compressed, and not cut off.
+  c = c / (1.0 + max(c - 0.6, 0.0) * 0.7);
   shown = vec4(sqrt(c), opacity);
 }`;
 
@@ -89,11 +123,11 @@ void main() {
 }`;
 
 const EDGE_FRAGMENT = HEAD + `
-uniform float opacity, dark;
+uniform float opacity, dark, paper;
 in vec3 colour;
 in float strength;
 out vec4 shown;
-void main() { shown = vec4(colour * mix(0.42, 0.32, dark), opacity * strength); }`;
+void main() { shown = vec4(colour * mix(0.55, 0.4, dark) * (1.0 - 0.75 * paper), opacity * strength * mix(0.38, 0.9, paper)); }`;
 
 const DEPTH_VERTEX = HEAD + BODY + `
 uniform mat4 view;
@@ -105,9 +139,13 @@ uniform mat4 view;
 flat out int found;
 void main() { found = int(body) + 1; gl_Position = view * vec4(world(), 1.0); }`;
 const PICK_FRAGMENT = HEAD + `
+uniform float depth;                // whether the depth is asked for, and not the body
 flat in int found;
 out vec4 shown;
-void main() { shown = vec4(found & 255, (found >> 8) & 255, (found >> 16) & 255, 255) / 255.0; }`;
+void main() {
+  int value = depth > 0.5 ? int(gl_FragCoord.z * 16777215.0) : found;
+  shown = vec4(value & 255, (value >> 8) & 255, (value >> 16) & 255, 255) / 255.0;
+}`;
 
 const GROUND_VERTEX = HEAD + `
 uniform mat4 view, sun;
@@ -124,23 +162,32 @@ void main() {
 }`;
 const GROUND_FRAGMENT = HEAD + LIGHT + `
 uniform vec4 patch_;
-uniform vec3 ink;
-uniform float step_, strength;
+uniform vec3 ink, axisX, axisY;
+uniform vec2 slope;
+uniform float step_, strength, reach, there, lines_;
 in vec2 at;
 in vec4 lit;
 out vec4 shown;
 float grid(float width) {
   vec2 g = abs(fract(at / width - 0.5) - 0.5) * width, w = fwidth(at);
-  vec2 line = 1.0 - smoothstep(w * 0.4, w * 1.4, g);
+  vec2 line = 1.0 - smoothstep(w * 0.3, w * 1.0, g);
   // Lines closer than two pixels would only be noise.
   return max(line.x, line.y) * clamp(width / max(w.x, w.y) / 8.0 - 0.25, 0.0, 1.0);
 }
 void main() {
   float away = length(at - patch_.xy) / patch_.w;
-  float fade = 1.0 - smoothstep(0.15, 0.95, away);
-  float lines = max(grid(step_) * 0.10, grid(step_ * 10.0) * 0.22);
-  float shade = (1.0 - sunlight(lit)) * 0.34 * strength;
-  shown = vec4(ink, 1.0 - (1.0 - lines) * (1.0 - shade)) * vec4(1.0, 1.0, 1.0, fade);
+  float fade = 1.0 - smoothstep(0.10, 0.85, away);
+  float lines = max(grid(step_) * 0.075, grid(step_ * 10.0) * 0.17) * lines_;
+  vec2 w = fwidth(at), axis = (1.0 - smoothstep(w * 0.4, w * 1.2, abs(at))).yx * 0.38 * lines_;
+  float shade = 0.0;
+  if (there > 0.5) {
+    vec3 n = normalize(vec3(-slope, 1.0));
+    float sky = skylight(vec3(at, patch_.z + dot(slope, at)) + n * reach, n).x;
+    shade = 1.0 - (1.0 - (1.0 - sunlight(lit)) * 0.24 * strength) * mix(1.0, sky, 0.55);
+  }
+  vec3 c = mix(mix(ink, axisX, axis.x > 0.02 ? 1.0 : 0.0), axisY, axis.y > 0.02 ? 1.0 : 0.0);
+  float drawn = 1.0 - (1.0 - max(lines, max(axis.x, axis.y))) * (1.0 - shade);
+  shown = vec4(mix(ink, c, step(shade, max(axis.x, axis.y))), drawn * fade);
 }`;
 
 const SKY_VERTEX = HEAD + `
@@ -151,7 +198,19 @@ const SKY_FRAGMENT = HEAD + `
 uniform vec3 above, below;
 in float up;
 out vec4 shown;
-void main() { shown = vec4(mix(below, above, smoothstep(0.1, 1.0, up)), 1.0); }`;
+void main() { shown = vec4(mix(below, above, smoothstep(0.0, 1.0, up)), 1.0); }`;
+
+/** A picture added to others, or shown: a part of each. */
+const MEAN_VERTEX = HEAD + `
+layout(location=0) in vec2 corner;
+out vec2 at;
+void main() { at = corner * 0.5 + 0.5; gl_Position = vec4(corner, 0.0, 1.0); }`;
+const MEAN_FRAGMENT = HEAD + `
+uniform sampler2D pictures;
+uniform float part;
+in vec2 at;
+out vec4 shown;
+void main() { shown = vec4(texture(pictures, at).rgb * part, 1.0); }`;
 
 /** Lines as wide as asked for, in pixels; four corners each. */
 const LINE_VERTEX = HEAD + `
@@ -194,5 +253,5 @@ void main() { shown = tint; }`;
 const PROGRAMS = {
   solid: [SOLID_VERTEX, SOLID_FRAGMENT], edge: [EDGE_VERTEX, EDGE_FRAGMENT], depth: [DEPTH_VERTEX, DEPTH_FRAGMENT],
   pick: [PICK_VERTEX, PICK_FRAGMENT], ground: [GROUND_VERTEX, GROUND_FRAGMENT], sky: [SKY_VERTEX, SKY_FRAGMENT],
-  line: [LINE_VERTEX, LINE_FRAGMENT], flat: [FLAT_VERTEX, FLAT_FRAGMENT],
+  line: [LINE_VERTEX, LINE_FRAGMENT], flat: [FLAT_VERTEX, FLAT_FRAGMENT], mean: [MEAN_VERTEX, MEAN_FRAGMENT],
 };

@@ -9,60 +9,75 @@ function shapesOf(plan, rounds) {
   return [[boxShape()], rounds.map(cylinderShape), rounds.map(ballShape), ...(plan.meshes || []).map(mesh => [meshShape(mesh)])];
 }
 
-/** Corners [x, y, z, normal], three a triangle, as corners that are there once, and their indices. */
+/** Corners [x, y, z, normal, inset], three a triangle, as corners that are there once, and their indices. */
 function indexed(corners) {
   const known = new Map();
   const faces = [];
   const index = corners.map(corner => {
     const key = corner.join();
-    if (!known.has(key)) known.set(key, known.size), faces.push(...corner);
+    if (!known.has(key)) known.set(key, known.size), faces.push(...corner, ...(corner.length < 9 ? [0, 0, 0] : []));
     return known.get(key);
   });
   return { faces: new Float32Array(faces), index: new Uint32Array(index) };
 }
 
+/** The corners of a convex polygon as a fan of triangles, turned so that it faces along its normals. */
+function fan(faces, ring) {
+  const p = ring.map(corner => corner.slice(0, 3).map((x, k) => x - 0.2 * corner[6 + k]));
+  const outwards = dot(cross(sub(p[1], p[0]), sub(p[2], p[0])), add(add(ring[0].slice(3, 6), ring[1].slice(3, 6)), ring[2].slice(3, 6))) > 0;
+  const turned_ = outwards ? ring : [...ring].reverse();
+  for (let i = 2; i < ring.length; i++) faces.push(turned_[0], turned_[i - 1], turned_[i]);
+}
+
+/** A box with rounded edges: its faces are drawn in from the edges, strips and corners lie between them. */
 function boxShape() {
   const faces = [];
   const lines = [];
+  /** A corner of the box as a corner of its face along an axis. */
+  const corner = (signs, axis) => [
+    ...signs.map(x => x / 2), ...[0, 1, 2].map(k => (k === axis ? signs[k] : 0)), ...signs.map((x, k) => (k === axis ? 0 : x)),
+  ];
   for (let axis = 0; axis < 3; axis++) {
     const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
-    const corner = (a, b, c) => {
-      const p = [0, 0, 0];
-      p[axis] = a / 2;
-      p[u] = b / 2;
-      p[v] = c / 2;
-      return p;
-    };
+    const signs = (a, b, c) => [0, 1, 2].map(k => (k === axis ? a : k === u ? b : c));
     for (const side of [-1, 1]) {
-      const normal = corner(2 * side, 0, 0);
-      const ring = [corner(side, -side, -1), corner(side, side, -1), corner(side, side, 1), corner(side, -side, 1)];
-      for (const i of [0, 1, 2, 0, 2, 3]) faces.push([...ring[i], ...normal]);
-      for (const other of [-1, 1]) lines.push(...corner(-1, side, other), ...corner(1, side, other));
+      fan(faces, [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([b, c]) => corner(signs(side, b, c), axis)));
+      for (const other of [-1, 1]) {
+        const ends = [signs(-1, side, other), signs(1, side, other)];
+        fan(faces, [corner(ends[0], u), corner(ends[1], u), corner(ends[1], v), corner(ends[0], v)]);
+        for (const end of ends) lines.push(...end.map(x => x / 2), ...end.map(x => x / 2));
+      }
     }
+  }
+  for (let i = 0; i < 8; i++) {
+    const signs = [0, 1, 2].map(k => (i >> k & 1 ? 1 : -1));
+    fan(faces, [0, 1, 2].map(axis => corner(signs, axis)));
   }
   return { ...indexed(faces), lines: new Float32Array(lines) };
 }
 
+/** A cylinder whose rims are rounded. */
 function cylinderShape(round) {
   const faces = [];
   const lines = [];
-  const at = (i, z) => [Math.cos((2 * Math.PI * (i % round)) / round) / 2, Math.sin((2 * Math.PI * (i % round)) / round) / 2, z];
+  const out = i => [Math.cos((2 * Math.PI * (i % round)) / round), Math.sin((2 * Math.PI * (i % round)) / round)];
+  const side = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, c, s, 0, 0, 0, z]; };
+  const lid = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, 0, 0, z, c, s, 0]; };
   for (let i = 0; i < round; i++) {
-    const quad = [at(i, -0.5), at(i + 1, -0.5), at(i + 1, 0.5), at(i, 0.5)];
-    for (const k of [0, 1, 2, 0, 2, 3]) faces.push([...quad[k], 2 * quad[k][0], 2 * quad[k][1], 0]);
-    for (const z of [-0.5, 0.5]) {
-      const [a, b] = z > 0 ? [i, i + 1] : [i + 1, i];
-      if (i) for (const p of [at(0, z), at(a, z), at(b, z)]) faces.push([...p, 0, 0, 2 * z]);
-      lines.push(...at(i, z), ...at(i + 1, z));
+    fan(faces, [side(i, -1), side(i + 1, -1), side(i + 1, 1), side(i, 1)]);
+    for (const z of [-1, 1]) {
+      fan(faces, [side(i, z), side(i + 1, z), lid(i + 1, z), lid(i, z)]);
+      if (i && i + 1 < round) fan(faces, [lid(0, z), lid(i, z), lid(i + 1, z)]);
+      for (const k of [i, i + 1]) lines.push(...side(k, z).slice(0, 3), ...out(k).map(x => x / 2), z / 2);
     }
   }
   // A mark on each end, or nobody would see it turn.
-  for (const z of [-0.501, 0.501]) lines.push(0.12, 0, z, 0.46, 0, z);
+  for (const z of [-0.501, 0.501]) lines.push(0.12, 0, z, 0, 0, 0, 0.40, 0, z, 0, 0, 0);
   return { ...indexed(faces), lines: new Float32Array(lines) };
 }
 
 function ballShape(round) {
-  const [around, down] = [Math.round(round * 0.6), Math.round(round * 0.35)];
+  const [around, down] = [Math.round(round * 0.8), Math.round(round * 0.45)];
   const faces = [];
   const at = (i, j) => {
     const [a, b] = [(2 * Math.PI * (i % around)) / around, (Math.PI * j) / down];
@@ -105,7 +120,7 @@ function meshShape({ points, triangles }) {
   for (const [key, [a, b]] of edges)
     if (b === undefined || dot(normals[a], normals[b]) < CREASE) {
       const [i, j] = key.split(",").map(Number);
-      lines.push(...p(i), ...p(j));
+      lines.push(...p(i), 0, 0, 0, ...p(j), 0, 0, 0);
     }
   return { ...indexed(faces), lines: new Float32Array(lines) };
 }

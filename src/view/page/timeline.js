@@ -2,6 +2,10 @@
 
 /** Events closer than this on the screen are one stop for the keys and one mark for the eye, s. */
 const SAME_TIME = 1e-6;
+/** Pixels at the left of the line of time and of the curves, where numbers and the button to play stand. */
+const GUTTER = 52;
+/** The kinds of marks, the most important first, and what they mean. */
+const MARKS = [["failure", "fails"], ["tip", "tips"], ["dock", "docks, undocks"], ["worst", "worst value"], ["stage", "stage"]];
 /** More marks than this would be a solid bar. */
 const FLAGS_MAX = 300;
 
@@ -30,7 +34,7 @@ function timelineOf(plan, motion, events, seek) {
   root.setAttribute("aria-valuemax", plan.duration.toFixed(2));
 
   // Of marks of a kind, the failures come first when there are too many.
-  const order = ["failure", "tip", "dock", "worst", "stage"];
+  const order = MARKS.map(([kind]) => kind);
   const shown = [...events.marks].sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind)).slice(0, FLAGS_MAX);
   for (const { time, kind, text } of shown.reverse()) {
     const flag = document.createElement("button");
@@ -42,6 +46,12 @@ function timelineOf(plan, motion, events, seek) {
     flag.addEventListener("click", () => seek(time, true));
     flags.append(flag);
   }
+
+  const kinds = new Set(shown.map(mark => mark.kind));
+  document.getElementById("marks").replaceChildren(
+    ...MARKS.filter(([kind]) => kinds.has(kind)).map(([kind, words]) => el("span", {}, el("i", { class: kind }), words)),
+    el("span", {}, el("i", { class: "busy" }), "what moves"), el("span", {}, el("i", { class: "stop" }), "a command begins"),
+  );
 
   const busy = busyness(plan, motion);
   function draw() {
@@ -69,9 +79,13 @@ function timelineOf(plan, motion, events, seek) {
     for (const time of events.stops) {
       const x = (w * time) / whole;
       if (x - last < gap) continue;
-      g.fillRect(x, h - 5 * ratio, ratio, 4 * ratio);
+      g.fillRect(x, 27 * ratio, ratio, 4 * ratio);
       last = x;
     }
+    g.save();
+    g.scale(ratio, ratio);
+    timeAxis(g, time => (root.clientWidth * time) / whole, 32, plan.duration, root.clientWidth, colour);
+    g.restore();
     if (plan.end < plan.duration) {
       // The time after a failure is not shown.
       g.strokeStyle = colour("--bad");
@@ -81,7 +95,7 @@ function timelineOf(plan, motion, events, seek) {
       g.beginPath();
       g.rect(from, middle - 7 * ratio, w - from, 14 * ratio);
       g.clip();
-      for (let x = from - h; x < w; x += 6 * ratio) {
+      for (let x = from - 20 * ratio; x < w; x += 6 * ratio) {
         g.beginPath();
         g.moveTo(x, middle + 7 * ratio);
         g.lineTo(x + 14 * ratio, middle - 7 * ratio);
