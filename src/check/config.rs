@@ -1,7 +1,7 @@
 //! Configurations: parts, ports, behaviours, and the clauses that connect them.
 
 use super::checker::{Checker, Entity};
-use super::expr::Role;
+use super::expr::{Role, error_expr};
 use super::family::Family;
 use super::scope::Scope;
 use super::typed::{
@@ -185,8 +185,10 @@ impl<'a> Checker<'a> {
         let allows = ast.allows.iter().filter_map(|e| self.exemption(&mut scope, e)).collect();
         scope.in_behavior = true;
         scope.contracts = matches!(ast.body.kind, ast::ExprKind::Block { .. });
-        let body = self.expr(&mut scope, &ast.body, Some(&Type::Behavior));
-        self.ensure_last(&body);
+        let body = match self.ensures_last(&ast.body) {
+            true => error_expr(ast.body.span),
+            false => self.expr(&mut scope, &ast.body, Some(&Type::Behavior)),
+        };
         let contracts = contracts_of(&body);
         let body = self.coerce(body, &Type::Behavior, Role::Place("a behavior"));
         BehaviorDef {

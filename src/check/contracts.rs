@@ -3,7 +3,7 @@
 use super::checker::Checker;
 use super::expr::Role;
 use super::scope::Scope;
-use super::typed::{Contract, ContractKind, Expr, ExprKind, Stmt, StmtKind};
+use super::typed::{Contract, ContractKind, StmtKind};
 use super::types::Type;
 use crate::source::{Diagnostic, Span, Symbol, code};
 use crate::syntax::ast;
@@ -88,20 +88,21 @@ impl<'a> Checker<'a> {
         true
     }
 
-    /// Reports an `ensure` behind the behaviour of a block, which has no value then.
-    pub(super) fn ensure_last(&mut self, body: &Expr) {
-        if let ExprKind::Block { statements, value: None } = &body.kind
-            && let Some(Stmt { kind: StmtKind::Contract(last), .. }) = statements.last()
-        {
-            self.report(
-                Diagnostic::error(
-                    code::CONTRACT_PLACE,
-                    "a block ends with its behavior, and this one with a contract",
-                )
-                .label(last.span, "this line is the last")
-                .hint("put contracts before the behavior"),
-            );
-        }
+    /// Reports an `ensure` behind the behaviour of a block, which has no value then; returns true if there is one.
+    pub(super) fn ensures_last(&mut self, body: &ast::Expr) -> bool {
+        let ast::ExprKind::Block { statements, value: None } = &body.kind else { return false };
+        let Some(ast::Stmt { kind: ast::StmtKind::Ensure(last), .. }) = statements.last() else {
+            return false;
+        };
+        self.report(
+            Diagnostic::error(
+                code::CONTRACT_PLACE,
+                "a block ends with its behavior, and this one with a contract",
+            )
+            .label(last.span, "this line is the last")
+            .hint("put contracts before the behavior"),
+        );
+        true
     }
 
     /// Returns true if instances of a declaration have a member, joint or port of this name.

@@ -361,7 +361,7 @@ impl<'a> Checker<'a> {
 
     /// Checks a statement; `mark` is that of the block it is in. `None` for an unreadable one.
     fn statement(&mut self, scope: &mut Scope, mark: (usize, u32), s: &'a ast::Stmt) -> Option<Stmt> {
-        // What stands within the statement is not in the block itself.
+        // Statements within this one are not in the block itself.
         let own = std::mem::take(&mut scope.contracts);
         let kind = self.statement_kind(scope, mark, s, own);
         scope.contracts = own;

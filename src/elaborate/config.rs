@@ -4,7 +4,7 @@ use crate::check::typed::{ConfigClause, ConfigDef, Expr, PartCount, PartDef, Req
 use crate::interpret::design::{
     ConfigDesign, Design, FlatModule, Instance, PartElement, PartGroup, SetRecord, join_path,
 };
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::routines::Args;
 use crate::interpret::stop::{Eval, Stop, fault};

@@ -5,7 +5,7 @@ use crate::check::typed::{ConfigDef, Expr};
 use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::shorten;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{PortValue, Value};

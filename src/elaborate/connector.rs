@@ -3,7 +3,7 @@
 use crate::check::Type;
 use crate::check::typed::{ConnectorDef, DefId, DefKind, Expr};
 use crate::interpret::design::ConnectorDesign;
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{JointSpec, Value};

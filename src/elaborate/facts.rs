@@ -3,7 +3,7 @@
 use crate::check::family::{Fact, FactForm, FactsFamily, Family};
 use crate::check::typed::{DefId, Expr, FactsDef};
 use crate::interpret::design::{DesignKind, Instance};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Value;

@@ -3,7 +3,7 @@
 use crate::check::family::Instantiable;
 use crate::check::typed::{DefId, DefKind, Expr, Param};
 use crate::interpret::design::{ConfigDesign, Design, DesignKind, Instance};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::routines::Args;
 use crate::interpret::scene::SceneDesign;

@@ -2,7 +2,7 @@
 
 use crate::check::typed::{DefId, LatticeDef};
 use crate::interpret::design::{DesignKind, Instance, LatticeDesign};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::Value;

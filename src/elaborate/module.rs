@@ -9,7 +9,7 @@ use crate::geometry::soundness::{self, EXTENT_MAX};
 use crate::geometry::{Placed, Pose, Unsound, Vec3};
 use crate::interpret::design::ConnectorDesign;
 use crate::interpret::design::{DesignKind, Instance, ModuleDesign};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, fault};
 use crate::interpret::value::{JointSpec, Solid, Value};

@@ -4,7 +4,7 @@ use super::tolerances::TOLERANCES;
 use crate::check::typed::{ConfigDef, Obstacle, PartDef};
 use crate::geometry::{Pose, soundness};
 use crate::interpret::design::{ConfigDesign, Design, PartElement, shorten};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::record::Record;
 use crate::interpret::scene::{ObstacleRecord, Place};

@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 use crate::geometry::closest_points::segment_segment_distance;
 use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::interpret::design::{Design, DesignKind, Instance, Node, TrussDesign};
-use crate::interpret::eval::Frame;
+use crate::interpret::frame::Frame;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;

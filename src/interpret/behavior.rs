@@ -2,7 +2,7 @@
 
 use super::causes::CauseRecord;
 use super::design::{Design, Subject, port_ref};
-use super::eval::Frame;
+use super::frame::Frame;
 use super::identity::Name;
 use super::interpreter::Interpreter;
 use super::robot::Robot;

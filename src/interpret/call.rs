@@ -2,7 +2,7 @@
 
 use super::behavior::with_otherwise;
 use super::design::Instance;
-use super::eval::Frame;
+use super::frame::Frame;
 use super::host::Mode;
 use super::identity::Name;
 use super::interpreter::Interpreter;

@@ -6,19 +6,19 @@
 
 use super::behavior::with_instance;
 use super::causes::CauseRecord;
-use super::design::Instance;
-use super::eval::Frame;
+use super::frame::Frame;
 use super::interpreter::Interpreter;
 use super::plan_value::PlanValue;
 use super::planning::state_value;
 use super::record::Record;
 use super::stop::Eval;
-use super::value::Value;
+use super::value::{ContractUse, ContractValue, Value};
 use crate::behavior::ContractInterval;
 use crate::check::typed::{Contract, ContractKind};
 use crate::plan::verify::articulated::base_at;
 use crate::plan::{
-    self, Body, CauseId, Check, CheckKind, Failure, Ground, Node, Plan, Status, Verdict, verify::verify,
+    self, Body, CauseId, Check, CheckKind, Failure, Ground, Node, Plan, Status, Verdict, WORST_VALUES, Worst,
+    verify::verify,
 };
 use crate::source::{Diagnostic, Span, Symbol, code};
 use std::cell::OnceCell;
@@ -30,30 +30,6 @@ use std::sync::Arc;
 const USES_MAX: usize = 10_000;
 /// The greatest number of failures of contracts that a verdict lists.
 const FAILURES_MAX: usize = 100;
-
-/// A contract with the values of the block in which it was stated.
-#[derive(Clone, Debug)]
-pub struct ContractValue {
-    /// The clause.
-    pub clause: Arc<Contract>,
-    /// The variables of the block, by their slots.
-    pub slots: Vec<Value>,
-    /// The instance whose behaviour it is.
-    pub this: Option<Rc<Instance>>,
-}
-
-/// A contract of a behaviour that a call gave.
-#[derive(Debug)]
-pub struct ContractUse {
-    /// The contract with its values.
-    stated: ContractValue,
-    /// The name of the behaviour.
-    behavior: Symbol,
-    /// The cause that is the call of the behaviour.
-    called: CauseId,
-    /// The cause that is the clause.
-    clause: CauseId,
-}
 
 impl Interpreter<'_> {
     /// Returns the node of a behaviour with the contracts that its block stated, the first outermost. `name`: that of the
@@ -265,7 +241,7 @@ impl Intervals<'_> {
         let plan = &self.plan.plan;
         let verdict = match interval.from <= 0.0 && interval.to >= plan.body.duration() {
             true => self.whole.clone(),
-            false => verdict_within(plan, interval),
+            false => verdict_within(plan, self.whole, interval),
         };
         let headline = plan::headline_under(plan, &plan.worlds, &verdict);
         let report = Value::Record(Rc::new(Record::Report(Rc::new(verdict), headline)));
@@ -274,10 +250,12 @@ impl Intervals<'_> {
     }
 }
 
-/// Returns the verdict on a part of a plan alone, from where the robot stands at its beginning. A plan that goes on before or
-/// after it need not be at rest there.
-fn verdict_within(plan: &Plan, interval: &ContractInterval) -> Verdict {
-    let mut part = match plan::sliced(plan, interval.from, interval.to) {
+/// Returns the verdict on a part of a plan, from where the robot stands at its beginning: of the part alone, but for what its
+/// ends make of it where joints move there. The failures are those of the whole plan in that time, and a worst value is
+/// that of the whole where this is better: the part has none that is worse.
+fn verdict_within(plan: &Plan, whole: &Verdict, interval: &ContractInterval) -> Verdict {
+    let (from, to) = (interval.from, interval.to);
+    let mut part = match plan::sliced(plan, from, to) {
         Ok(part) => part,
         Err(error) => {
             return Verdict { failures: vec![Failure::form(error.to_string())], ..Verdict::default() };
@@ -287,20 +265,33 @@ fn verdict_within(plan: &Plan, interval: &ContractInterval) -> Verdict {
     if let Body::Tracks(tracks) = &mut part.body
         && stands
         && tracks.start.clusters.is_empty()
-        && let Some(base) = base_at(plan, interval.from)
+        && let Some(base) = base_at(plan, from)
     {
         tracks.start.base = base;
     }
     let mut verdict = verify(&part);
-    let (begins, ends) = (interval.from <= 0.0, interval.to >= plan.body.duration());
-    let duration = part.body.duration();
-    let cut = |failure: &Failure| {
-        failure.kind == CheckKind::Rest && !(if failure.time < duration / 2.0 { begins } else { ends })
+    let shifted = |time: f64| (time - from).clamp(0.0, to - from);
+    let within = |failure: &&Failure| failure.time <= to && failure.until.unwrap_or(failure.time) >= from;
+    let moved = |failure: &Failure| Failure {
+        time: shifted(failure.time),
+        until: failure.until.map(shifted),
+        ..failure.clone()
     };
-    verdict.failures.retain(|failure| !cut(failure));
-    let moving = verdict.failures.iter().any(|failure| failure.kind == CheckKind::Rest);
-    for check in verdict.checks.iter_mut().filter(|check| check.kind == CheckKind::Rest && !moving) {
-        check.status = Status::NotChecked("the plan goes on before or after this interval".into());
+    verdict.failures = whole.failures.iter().filter(within).map(moved).collect();
+    for kind in WORST_VALUES {
+        let (Some(own), Some(all)) = ((kind.of)(&verdict), (kind.of)(whole)) else { continue };
+        let better = if kind.greatest { all.value < own.value } else { all.value > own.value };
+        if better {
+            *(kind.of_mut)(&mut verdict) = Some(Worst { time: shifted(all.time), ..all.clone() });
+        }
+    }
+    let cut = from > 0.0 || to < plan.body.duration();
+    for check in &mut verdict.checks {
+        if verdict.failures.iter().any(|failure| failure.kind == check.kind) {
+            check.status = Status::Failed;
+        } else if check.status == Status::Failed || check.kind == CheckKind::Rest && cut {
+            check.status = Status::NotChecked("joints may move where this interval begins or ends".into());
+        }
     }
     verdict
 }

@@ -2,7 +2,6 @@
 
 use super::capability::Capabilities;
 use super::causes::Causes;
-use super::contracts::ContractUse;
 use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
@@ -10,7 +9,7 @@ use super::plan_value::PlanValue;
 use super::recalled::Recalled;
 use super::routines::Routines;
 use super::stop::{Eval, Stop};
-use super::value::{Behavior, BehaviorCall, Lazy, Value};
+use super::value::{Behavior, BehaviorCall, ContractUse, Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{Def, DefId, DefKind, Program};
 use crate::interrupt;

@@ -14,6 +14,7 @@ pub mod stop;
 pub mod value;
 
 pub mod eval;
+pub mod frame;
 pub mod interpreter;
 mod operators;
 

@@ -1,6 +1,6 @@
 //! Operators on values.
 
-use super::eval::Frame;
+use super::frame::Frame;
 use super::interpreter::Interpreter;
 use super::stop::{Eval, fault};
 use super::value::{ConditionValue, Measure, SignalValue, Value};

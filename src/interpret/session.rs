@@ -4,8 +4,8 @@
 //! cost of a few pointers: an entry that fails, or is taken back, leaves the copy.
 
 use super::capability::Capabilities;
-use super::eval::Frame;
 use super::evaluator_thread::{EvaluatorThread, HostProxy};
+use super::frame::Frame;
 use super::host::{Host, Mode, Options};
 use super::interpreter::{Interpreter, Memory};
 use super::recalled::Recalled;

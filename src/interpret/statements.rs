@@ -1,11 +1,10 @@
 //! The execution of statements and tests.
 
-use super::contracts::ContractValue;
-use super::eval::Frame;
+use super::frame::Frame;
 use super::host::{Mode, TestResult};
 use super::interpreter::Interpreter;
 use super::stop::{Eval, Stop};
-use super::value::Value;
+use super::value::{ContractValue, Value};
 use crate::check::typed::{Body, Expr, Stmt, StmtKind};
 use crate::source::{Diagnostic, code};
 

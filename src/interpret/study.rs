@@ -3,8 +3,8 @@
 //! A row is a function of the program and the row's number alone: whatever was computed for other rows is forgotten
 //! before it, but for the values of top-level lets that its study needs, which are evaluated first.
 
-use super::eval::Frame;
 use super::evaluator_thread;
+use super::frame::Frame;
 use super::host::{Host, Mode, Options};
 use super::interpreter::{Interpreter, Memory, Reported, Stack};
 use super::record::{DeclaredRecord, Record};

@@ -8,9 +8,9 @@ use super::design::{Instance, Subject};
 use super::identity::Name;
 use super::recalled::CallKey;
 use super::record::Record;
-use crate::check::typed::{DefId, Expr, Local};
+use crate::check::typed::{Contract, DefId, Expr, Local};
 use crate::geometry::{HeightField, Placed, Pose, Vec3};
-use crate::plan;
+use crate::plan::{self, CauseId};
 use crate::robot::{JointKind, JointOwner, Limits, PortRef, Servo, Surface};
 use crate::source::{Span, Symbol};
 use crate::units::Dimension;
@@ -184,6 +184,30 @@ impl BehaviorCall {
             && self.args.len() == other.args.len()
             && self.args.iter().zip(&other.args).all(|(a, b)| same(a, b))
     }
+}
+
+/// A contract with the values of the block in which it was stated.
+#[derive(Clone, Debug)]
+pub struct ContractValue {
+    /// The clause.
+    pub clause: Arc<Contract>,
+    /// The variables of the block, by their slots.
+    pub slots: Vec<Value>,
+    /// The instance whose behaviour it is.
+    pub this: Option<Rc<Instance>>,
+}
+
+/// A contract of a behaviour that a call gave.
+#[derive(Debug)]
+pub struct ContractUse {
+    /// The contract with its values.
+    pub stated: ContractValue,
+    /// The name of the behaviour.
+    pub behavior: Symbol,
+    /// The cause that is the call of the behaviour.
+    pub called: CauseId,
+    /// The cause that is the clause.
+    pub clause: CauseId,
 }
 
 /// A signal of a sensor, with the robot that gives it.

@@ -56,7 +56,29 @@ pub(super) fn locals(text: &str) -> Vec<LocalName> {
         );
         found.push(LocalName { name: name.to_owned(), origin: origin_of(word, behind) });
     }
+    found.extend(of_contract(text));
     found
+}
+
+/// Returns the states and the report that the contract of a behaviour knows, if a text ends within one.
+fn of_contract(text: &str) -> Vec<LocalName> {
+    let line = text.rsplit('\n').next().unwrap_or("").trim_start();
+    // Each with an expression of its type.
+    let known: &[(&str, &str)] = match next_word(line).map(|(word, _)| word) {
+        Some("require") => &[("start", "plan(wait(1s)).start")],
+        Some("ensure") => &[
+            ("start", "plan(wait(1s)).start"),
+            ("end", "plan(wait(1s)).end"),
+            ("report", "verify(wait(1s))"),
+        ],
+        _ => &[],
+    };
+    let named = |(name, value): &(&str, &str)| LocalName {
+        name: (*name).to_owned(),
+        origin: Origin::Value((*value).to_owned()),
+    };
+    // Outside of behaviours neither stands.
+    known.iter().filter(|_| text.contains("behavior ")).map(named).collect()
 }
 
 /// Returns the number of blanks at the beginning of a text.

@@ -39,6 +39,11 @@ const RENAMED: &[(&str, &str, &str)] = &[
 const INSTEAD: &[(&[&str], &str)] = &[
     (&["def", "func", "function", "fun"], "a function is written `fn name(x: Length) -> Length = 2 * x`"),
     (&["lambda"], "a function without a name is written `x => 2 * x`, where one is wanted"),
+    (
+        &["ensure"],
+        "`ensure` begins a contract before a word, a number or a text on its line: \
+         turn the comparison round where it would begin with a bracket",
+    ),
     (&["return"], "what a function gives stands behind its `=`, or last in its `{ }`"),
     (
         &["import", "from", "include", "using"],

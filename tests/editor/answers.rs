@@ -193,3 +193,34 @@ fn what_can_not_be_is_refused_and_the_server_goes_on() {
     }
     assert!(editor.end());
 }
+
+#[test]
+fn contracts_are_shown_with_their_behaviour_and_know_states() {
+    let mut editor = Client::new(&[]);
+    let begun = "use std.smores.Chain3\nconfig Worm {\n  part c: Chain3\n  behavior lift(a: Angle) = {\n\
+                 \x20   require start.angle(c.m[1].tilt) < 1deg\n";
+    let rest = "    move(c.m[1].tilt, to: a)\n  }\n  behavior twice = Sc(lift|(1deg), lift(2deg))\n}\n";
+    let program = format!("{begun}    ensure report.ok, \"sound\"\n{rest}");
+    let answer = editor.ask_at("textDocument/hover", &program, json!({}));
+    let text = answer["contents"]["value"].as_str().expect("words");
+    for words in ["lift(a: Angle)", "require start.angle(c.m[1].tilt) < 1deg", "ensure report.ok, \"sound\""]
+    {
+        assert!(text.contains(words), "{text}");
+    }
+    let rest = rest.replace('|', "");
+    for (typed, name) in [("ensure en|", "end"), ("ensure rep|", "report"), ("require sta|", "start")] {
+        let found =
+            editor.ask_at("textDocument/completion", &format!("{begun}    {typed}\n{rest}"), json!({}));
+        assert!(labels(&found).contains(&name), "{typed}: {:?}", labels(&found));
+    }
+    for (typed, name) in
+        [("ensure end.|", "margin"), ("ensure report.|", "travel"), ("require start.|", "com")]
+    {
+        let found =
+            editor.ask_at("textDocument/completion", &format!("{begun}    {typed}\n{rest}"), json!({}));
+        assert!(labels(&found).contains(&name), "{typed}: {:?}", labels(&found));
+    }
+    let elsewhere =
+        editor.ask_at("textDocument/completion", &format!("{begun}    let b = repo|\n{rest}"), json!({}));
+    assert!(!labels(&elsewhere).contains(&"report"), "{:?}", labels(&elsewhere));
+}

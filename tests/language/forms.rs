@@ -52,6 +52,7 @@ const FORMS: &[(&str, &[&str])] = &[
             "expect <e>",
             "expect <e>, \"why\"",
             "require <e>, <text>",
+            "ensure a > <e>, <text>",
             "for <n> in <e> { <e> }",
             "for <n> in <e> {\n<statement>\n  <statement>\n}",
             "if <e> { <e> }",

@@ -34,12 +34,10 @@ config Worm {
 //             ^^^^^^^^^^^^^^^^^^^^^^ E0411
     for i in 0..n { ensure i > 0 }
 //                  ^^^^^^^^^^^^ E0411
-    { ensure true }
     move(c.m[0].tilt, to: 1deg)
   }
   behavior b = {
     move(c.m[0].tilt, to: 1deg)
-//  ^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0202 is lost
     ensure end.com.x > 0mm
 //  ^^^^^^^^^^^^^^^^^^^^^^ E0411 ends with its behavior | before the behavior
   }
@@ -53,9 +51,9 @@ config Worm {
     ensure end.com.x
 //         ^^^^^^^^^ E0202 `ensure` wants
     ensure end.margin > 3mm
-//         ^^^^^^^^^^^^^^^^ E0207
+//                    ^ E0207
     ensure end.nothing > 3mm
-//         ^^^^^^^^^^^ E0107
+//             ^^^^^^^ E0107
     ensure true, 3
 //               ^ E0202
     require start.angle(3) > 3deg

@@ -12,9 +12,9 @@ let a = ensure + 1
 ensure(3)
 ensure
 g(1)
-//> (config C (behavior a (block (require (> start.a 1) "low") (ensure (> end.a 1) "high") (ensure (not b)) (call go))))
+//> (config C (behavior a {(require (Gt start.a 1) "low") (ensure (Gt end.a 1) "high") (ensure (not b)) (call go)}))
 //> (call f ensure (call ensure 1))
-//> (let a (+ ensure 1))
+//> (let a (Add ensure 1))
 //> (call ensure 3)
 //> ensure
 //> (call g 1)
@@ -30,4 +30,4 @@ config C {
   }
   behavior b = go()
 }
-//> (config C ERROR (behavior b (call go)))
+//> (config C (behavior a ERROR) (behavior b (call go)))
