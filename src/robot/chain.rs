@@ -156,6 +156,13 @@ impl Chain {
         self.length
     }
 
+    /// Returns the sum of the sizes of the factors by which a joint (its number in its [`super::JointId`]) moves steps of the
+    /// chain, joints that follow it included; 0 if it moves none.
+    pub fn factor(&self, joint: usize) -> f64 {
+        let terms = self.legs.iter().flat_map(|leg| leg.step.terms());
+        terms.filter(|(moved, _)| *moved == joint).map(|(_, factor)| factor.abs()).sum()
+    }
+
     /// Returns the pose of the frame in that of the held link; `joints`: the positions of all joints of the robot (rad or
     /// m), by the number in their [`super::JointId`].
     pub fn pose(&self, joints: &[f64]) -> Pose {
@@ -361,7 +368,9 @@ impl Chain {
         Chain::error(&pose, target)
     }
 
-    /// Takes one step of damped least squares towards a motion of the frame, `wanted`, in place.
+    /// Takes one step of damped least squares towards a motion of the frame, `wanted`, in place. A joint at an end of its range
+    /// that the step would move beyond it takes no part, and the others make up for it (the clamping loop of Baerlocher and
+    /// Boulic 2004, *An inverse kinematics architecture enforcing an arbitrary number of strict priority levels*).
     fn step(
         &self,
         wanted: &Vector6<f64>,
@@ -379,7 +388,22 @@ impl Chain {
         }
         let mut gram = Matrix6::identity() * damping;
         work.columns.iter().for_each(|column| gram += column * column.transpose());
-        let Some(solved) = gram.cholesky().map(|factor| factor.solve(&task)) else { return };
+        let solved = loop {
+            let Some(solved) = gram.cholesky().map(|factor| factor.solve(&task)) else { return };
+            let mut clamped = false;
+            for (joint, column) in self.joints.iter().zip(&mut work.columns) {
+                let (at, change) = (joints[joint.joint], column.dot(&solved));
+                let leaves = change < 0.0 && at <= joint.limits.0 || change > 0.0 && at >= joint.limits.1;
+                if (within || joint.slides) && leaves {
+                    gram -= *column * column.transpose();
+                    column.fill(0.0);
+                    clamped = true;
+                }
+            }
+            if !clamped {
+                break solved;
+            }
+        };
         let unit = |joint: &ChainJoint| if joint.slides { scale } else { 1.0 };
         let changes = work.columns.iter().map(|column| column.dot(&solved));
         let greatest = changes

@@ -154,3 +154,56 @@ let way = p.end.pose(arm.tool).position - at
 let places = [p.at(t).pose(arm.tool).position - at for t in steps(begun..p.duration, by: 20ms)]
 print(max([norm(cross(q, way)) / norm(way) for q in places]) < 0.1mm, abs(norm(way) - 40mm) < 100nm)
 //> true true
+
+--- a way that begins or ends where bodies meet, that is not found in time, or that leads out of reach
+use std.smores.Arm
+scene Cell {
+  part a: Arm(n: 5)
+  obstacle post = box(40mm, 40mm, 300mm) at [220mm, 0mm, 300mm]
+  world(ground: held, dynamics: statics, gravity: off)
+}
+let c = Cell()
+let low = move(c.a.m[1].tilt, to: -60deg)
+let aside = Pc(move(c.a.m[0].pan, to: 40deg), low)
+let blocked = Pc(move(c.a.m[0].pan, to: 0deg), low)
+let across = Pc(move(c.a.m[0].pan, to: -40deg), low)
+print(plan(Sc(aside, avoid(blocked))).duration)
+//                   ^^^^^^^^^^^^^^ E0806 `a.m[4].holder` and `post` meet, 44.5685mm deep where the way ends
+//    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
+print(plan(Sc(blocked, avoid(across))).duration)
+//                     ^^^^^^^^^^^^^ E0806 `a.m[4].holder` and `post` meet, 44.5685mm deep where the way begins
+//    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
+print(plan(Sc(aside, avoid(across, budget: 10))).duration)
+//                   ^^^^^^^^^^^^^^^^^^^^^^^^^ E0807 no way was found in 41 postures | of it left; straight on, `a.m[3].left_disc` and `post` meet
+//    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
+print(plan(Sc(aside, avoid(reach(c.a.hand, position: [900mm, 0mm, 100mm])))).duration)
+//                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0805 the place is 905.539mm away, and the chain is 450mm long
+//    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
+print(plan(Sc(aside, line(c.a.hand, by: [0mm, 0mm, 900mm]))).duration)
+//                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0805 of the way are within reach: beyond, it is
+//    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
+
+--- a joint at the end of its range takes no part, and the others make up for it
+use std.smores.Puma4
+let arm = Puma4()
+let still = world(ground: held)
+let begun = plan(arm.posture(), world: still).duration
+let ways: List<Vec3<Length>> = [[-40mm, 0mm, 0mm], [0mm, 0mm, -60mm], [-40mm, 40mm, 40mm]]
+for way in ways {
+  let p = plan(Sc(arm.posture(), line(arm.tool, by: way, orientation: free)), world: still)
+  let at = p.at(begun).pose(arm.tool).position
+  let off = [p.at(t).pose(arm.tool).position - at for t in steps(begun..p.duration, by: 50ms)]
+  let ends = norm(p.end.pose(arm.tool).position - at - way) < 100nm
+  print(ends, max([norm(cross(o, way)) / norm(way) for o in off]) < 0.1mm, max([s.angle(arm.waist.tilt) for s in p.states(step: 50ms)]))
+}
+//> true true 90deg
+//> true true 90deg
+//> true true 90deg
+
+--- a verdict says that ports keep to their lines, and how that is known
+use std.smores.Puma4
+let arm = Puma4()
+let still = world(ground: held)
+fn said(b: Behavior) -> List<Text> = [c for c in verify(b, world: still).checks if split(c, on: ":")[0] == "path"]
+print(said(Sc(arm.posture(), line(arm.tool, by: [0mm, 20mm, 0mm], orientation: free))), said(arm.posture()))
+//> [path: proved] []
