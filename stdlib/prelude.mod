@@ -1483,8 +1483,8 @@ extern fn reach(
 /// Moves a port straight in space, from where it is: `to` a pose, or `by` a vector, with its orientation kept.
 ///
 /// Joints follow piecewise cubics on which the port deviates from the line by no more than `within`, and by
-/// `turned_within` from the turn about one axis that brings it to its orientation; both are measured at 64 places or
-/// more. With a `free` orientation only the position is looked at, for feet and arms of fewer than six joints. `for` is how
+/// `turned_within` from the turn about one axis that brings it to its orientation. The plan states both, and the judge proves
+/// the distance and measures the turn at 64 places or more: `path` in a verdict. With a `free` orientation only the position is looked at, for feet and arms of fewer than six joints. `for` is how
 /// long it takes; without it, as long as the limits of joints and motors need. Where a place on the line
 /// is out of reach, or a joint would have to leap, it is refused with the part of the line that is within reach. `seen_from`
 /// is as for `reach`. What bodies meet on the way is found by the judge.

@@ -12,7 +12,9 @@ use crate::geometry::Pose;
 use crate::plan::visit::Graph;
 use crate::plan::{CauseId, Ground, Node, World};
 use crate::planners::RequestedProgress;
-use crate::planners::goals::{GOALS_MAX, Misplaced, Problem, Reason, Refusal, avoid, line, reach, resolve};
+use crate::planners::goals::{
+    GOALS_MAX, Misplaced, Problem, Reason, Refusal, Resolved, avoid, line, reach, resolve,
+};
 use crate::robot::State;
 use crate::source::{Code, Diagnostic, Span, code};
 use std::cell::OnceCell;
@@ -39,9 +41,9 @@ impl Interpreter<'_> {
     ///
     /// # Errors
     /// A fault at the goal that does not become actions.
-    pub(super) fn resolved(&self, stated: &Stated, program: &Arc<Node>, span: Span) -> Eval<Arc<Node>> {
+    pub(super) fn resolved(&self, stated: &Stated, program: &Arc<Node>, span: Span) -> Eval<Resolved> {
         if !Graph::of(program).nodes.iter().any(|node| matches!(&***node, Node::Goal(_))) {
-            return Ok(program.clone());
+            return Ok(Resolved { program: program.clone(), paths: Vec::new() });
         }
         crate::interrupt::start_task(format!("planning {}", stated.design.name));
         let problem = Problem {

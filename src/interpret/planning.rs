@@ -102,7 +102,7 @@ impl Interpreter<'_> {
         let problem = Problem {
             robot: robot.assembly.as_ref().clone(),
             start,
-            program: resolved,
+            program: resolved.program,
             start_causes: set.joints,
             bond_causes: set.bonds,
             settings: behavior::Settings::default(),
@@ -111,7 +111,8 @@ impl Interpreter<'_> {
             Ok(scheduled) => scheduled,
             Err(refusal) => return Err(self.refused(&refusal, &causes.ids, span)),
         };
-        let planned = self.assemble_plan(design, robot, scheduled, &causes, world);
+        let mut planned = self.assemble_plan(design, robot, scheduled, &causes, world);
+        planned.0.plan.paths = resolved.paths;
         if !self.report_issues(&planned.1, &causes.ids) {
             return Ok(None);
         }

@@ -96,6 +96,7 @@ fn failure_code(kind: CheckKind) -> Code {
         CheckKind::Traction => code::TRAVEL_UNDETERMINED,
         CheckKind::Slip => code::UNSTABLE,
         CheckKind::Rest => code::NOT_AT_REST,
+        CheckKind::Path => code::OFF_PATH,
     }
 }
 
@@ -154,6 +155,7 @@ impl Interpreter<'_> {
             let text = match (failure.blames_start, index) {
                 (true, 0) => "the start pose, set here, is to blame",
                 (true, _) => "and here",
+                (false, 0) if failure.kind == CheckKind::Path => "this states the path",
                 (false, 0) => "held still, this would remove the failure",
                 (false, _) => "so would this",
             };

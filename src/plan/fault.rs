@@ -111,6 +111,10 @@ pub enum PlanFault {
         /// The name of the built-in that makes such a goal.
         name: &'static str,
     },
+    /// A path of a port in a plan of a lattice or a truss.
+    PathFamily,
+    /// A path of a port with a negative deviation, or an interval that ends before it begins.
+    PathNumbers,
     /// A contract in the program: plans have none.
     Contract,
     /// A fault inside the track of a joint.
@@ -469,6 +473,10 @@ impl fmt::Display for PlanFault {
             PlanFault::ProgramRoot { node } => write!(f, "the program has no node {node} to begin with"),
             PlanFault::Goal { name } => {
                 write!(f, "`{name}` stands in the program as a goal, without its motion")
+            }
+            PlanFault::PathFamily => write!(f, "a path of a port stands in a plan that has no ports"),
+            PlanFault::PathNumbers => {
+                write!(f, "a path has a negative deviation, or an interval that ends before it begins")
             }
             PlanFault::Contract => write!(f, "a contract stands in the program"),
             PlanFault::InTrack { joint, fault } => write!(f, "in the track of joint {joint}: {fault}"),

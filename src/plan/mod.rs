@@ -33,6 +33,7 @@ mod listing;
 mod operation_error;
 mod operations;
 mod stated;
+mod stated_path;
 mod tolerances;
 pub mod validation;
 
@@ -55,6 +56,7 @@ pub use slope::SLOPE_RISE_MAX;
 pub use stages::{
     ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
 };
+pub use stated_path::StatedPath;
 pub use tolerances::{TOLERANCES, Tolerances};
 pub use tracks::{
     DockingEvent, DockingKind, LastingTrees, Obstacle, Remap, Segment, Track, Tracks, timeline,

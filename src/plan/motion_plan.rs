@@ -4,6 +4,7 @@ use super::body::Body;
 use super::cause::Cause;
 use super::program::Program;
 use super::provenance::Provenance;
+use super::stated_path::StatedPath;
 use super::verdict::Verdict;
 use super::world::{Exemption, Settings, World, WorldFrom};
 use crate::robot::Library;
@@ -33,6 +34,8 @@ pub struct Plan {
     pub causes: Vec<Cause>,
     /// The parts of the plan that are excused from a check.
     pub exemptions: Vec<Exemption>,
+    /// The paths in space that ports keep to; empty for plans of other families than articulated robots.
+    pub paths: Vec<StatedPath>,
     /// The verdict of the last verification; `None` if there was none since the last change. It is recomputed
     /// whenever it matters.
     pub verdict: Option<Verdict>,
@@ -52,6 +55,7 @@ impl Plan {
             nominal: false,
             causes: Vec::new(),
             exemptions: Vec::new(),
+            paths: Vec::new(),
             verdict: None,
         }
     }

@@ -27,6 +27,7 @@ pub fn reversed(plan: &Plan) -> Plan {
     let mut new = Plan {
         body: plan.body.reversed(),
         exemptions: plan.exemptions.iter().rev().map(exemption).collect(),
+        paths: plan.paths.iter().rev().map(|path| path.reversed(duration)).collect(),
         worlds: reversed_worlds(&plan.worlds, duration),
         ..plan.clone()
     };
@@ -61,6 +62,7 @@ pub fn sliced(plan: &Plan, from: f64, to: f64) -> Result<Plan, OperationError> {
     let mut new = Plan {
         body: plan.body.sliced(from, to)?,
         exemptions: plan.exemptions.iter().filter_map(exemption).collect(),
+        paths: plan.paths.iter().filter_map(|path| path.between(from, to)).collect(),
         worlds: worlds.map(|w| WorldFrom { from: (w.from - from).max(0.0), world: w.world }).collect(),
         ..plan.clone()
     };
@@ -103,6 +105,7 @@ pub fn joined(p: &Plan, q: &Plan) -> Result<Plan, OperationError> {
             Exemption { from: e.from + at, to: e.to + at, cause: CauseId(e.cause.0 + causes), ..e.clone() }
         }
     }));
+    new.paths.extend(q.paths.iter().filter_map(|path| remap.as_ref()?.path(path, at)));
     new.program = match (&p.program, &q.program, &remap) {
         (Some(first), Some(second), Some(remap)) => {
             let second = remap.program(&second.root);
@@ -130,6 +133,7 @@ pub fn retimed(plan: &Plan, tracks: Tracks, clock: &dyn Fn(f64) -> f64, reserve:
     let mut new = Plan {
         body: tracks.into(),
         exemptions: plan.exemptions.iter().map(exemption).collect(),
+        paths: plan.paths.iter().map(|path| path.retimed(clock)).collect(),
         worlds: plan.worlds.iter().map(|w| WorldFrom { from: clock(w.from), world: w.world }).collect(),
         nominal: false,
         ..plan.clone()

@@ -51,6 +51,8 @@ pub enum CheckKind {
     Rigidity,
     /// The struts of a truss bear its weight.
     StrutLoad,
+    /// Ports keep to the lines and arcs that the plan states of them.
+    Path,
     /// Behaviours begin as they require, and end as they ensure. A plan file states no contracts: whoever makes the plan adds
     /// this check to those of the judge.
     Contract,
@@ -81,6 +83,7 @@ impl CheckKind {
             CheckKind::Deflection => "deflection",
             CheckKind::Rigidity => "rigidity",
             CheckKind::StrutLoad => "strut load",
+            CheckKind::Path => "path",
             CheckKind::Contract => "contract",
         }
     }

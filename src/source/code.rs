@@ -112,6 +112,7 @@ codes! {
     TRAVEL_UNDETERMINED = "E0612", "a travel that friction does not determine";
     REQUIRED_START = "E0613", "a behaviour that begins where it may not";
     ENSURED_END = "E0614", "a behaviour that does not bring about what it ensures";
+    OFF_PATH = "E0615", "a port that leaves its stated path";
     // E07xx: plan files and output.
     OUTSIDE_OUTPUT = "E0701", "an output path that leads out of the output folder";
     CANNOT_WRITE = "E0702", "a file that cannot be written";

@@ -17,6 +17,7 @@ const NOT_BY_TEXT: &[Code] = &[
     code::FALLS_APART,
     code::UNSTABLE,
     code::NOT_VERIFIED,
+    code::OFF_PATH,
     code::LOST_VALUE,
     code::NO_MEMORY,
     code::CANNOT_WRITE,

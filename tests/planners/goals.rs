@@ -1,19 +1,20 @@
 //! Motions by goals: inverse kinematics against kinematics written another way, free ways against closed forms of distances.
 
-use crate::support::arms::{LENGTHS, RANGES, axis, robot_of, seven_joints};
+use crate::support::arms::{BALL, LENGTHS, RANGES, axis, gantry, seven_joints};
 use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
-use crate::support::robots::{at_rest, boxed, joint, link};
+use crate::support::robots::{at_rest, boxed};
 use modl::geometry::pose::{shifted, turned};
-use modl::geometry::{Placed, Pose, Shape, Vec3};
+use modl::geometry::{Pose, Vec3};
 use modl::optimize::random::SplitMix64;
-use modl::plan::{Body, Obstacle, file};
+use modl::plan::verify::verify;
+use modl::plan::{Body, CheckKind, Obstacle, Plan, Status, Verdict, file, reversed, sliced};
 use modl::planners::NoProgress;
 use modl::planners::goals::avoid::{Path, Problem, Refusal, Settings, plan};
-use modl::planners::goals::{FreeSpace, Surroundings};
+use modl::planners::goals::{FreeSpace, Surroundings, reach};
 use modl::robot::chain::{Chain, DescentSettings, Orientation, Target};
 use modl::robot::jacobian::LinkFrame;
-use modl::robot::{Assembly, JointKind, Kinematics, Limits, PortRef, State};
+use modl::robot::{Assembly, Kinematics, PortRef, State};
 
 /// Returns the pose of the tool of [`seven_joints`], written as a product of turns and shifts.
 fn tool(q: &[f64]) -> Pose {
@@ -144,31 +145,6 @@ fn arms_of_the_library_reach_what_their_joints_reach() {
     }
 }
 
-/// The radius of the ball of a gantry, m.
-const BALL: f64 = 0.05;
-
-/// A ball that two slides carry along x and y.
-fn gantry() -> Assembly {
-    let tiny = vec![boxed(Vec3::new(-1e-3, -1e-3, 9.999), Vec3::new(1e-3, 1e-3, 10.0))];
-    let ball = vec![Placed { pose: Pose::identity(), shape: Shape::Sphere { radius: BALL } }];
-    let links = vec![
-        link("rail", tiny.clone(), 1.0, Vec3::zeros(), 0.5),
-        link(
-            "cart",
-            vec![boxed(Vec3::new(-1e-3, -1e-3, 4.999), Vec3::new(1e-3, 1e-3, 5.0))],
-            1.0,
-            Vec3::zeros(),
-            0.5,
-        ),
-        link("ball", ball, 1.0, Vec3::zeros(), 0.5),
-    ];
-    let slide = |name: &str, between, axis| {
-        let limits = Limits { range: Some((-1.0, 1.0)), speed: Some(1.0), acceleration: None, effort: None };
-        joint(name, between, JointKind::Prismatic, Pose::identity(), axis, limits)
-    };
-    robot_of(links, vec![slide("x", (0, 1), Vec3::x()), slide("y", (1, 2), Vec3::y())])
-}
-
 /// A wall: its least and greatest x and y, m.
 type Wall = (&'static str, [f64; 4]);
 
@@ -254,4 +230,150 @@ fn what_is_in_the_way_of_a_ball_is_named() {
     let walls: [Wall; 1] = [("wall", [-0.1, 0.1, -0.9, 0.9])];
     let ends = ([-0.8, 0.0], [0.8, 0.0]);
     assert_eq!(way(&walls, ends.0, ends.1, 1e-3, 5), way(&walls, ends.0, ends.1, 1e-3, 5));
+}
+
+/// Returns the posture by which [`seven_joints`] brings its tool to a position, with and without the task of balance, and the
+/// distance of the centre of mass from where it was, along the ground, m.
+fn balanced(position: Vec3, orientation: Orientation, balance: bool) -> (reach::Posture, f64) {
+    let robot = seven_joints();
+    let kinematics = Kinematics::new(&robot, &[], 0);
+    let frame = LinkFrame { link: 7, X_LF: shifted(Vec3::z() * LENGTHS[7]) };
+    let chain = Chain::new(&robot, &kinematics, 0, &frame).expect("the links are connected");
+    let state = State { joints: vec![0.1, 0.4, -0.2, 0.7, 0.3, -0.5, 0.2], ..at_rest(&robot) };
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&state.joints, &Pose::identity(), &mut poses);
+    let centre = |joints: &[f64], poses: &mut [Pose]| {
+        kinematics.link_poses(joints, &Pose::identity(), poses);
+        kinematics.centre_of_mass(&robot, poses).0
+    };
+    let stood = centre(&state.joints, &mut poses);
+    let around =
+        Surroundings { robot: &robot, state: &state, poses: &poses.clone(), obstacles: &[], floor: false };
+    let moved: Vec<usize> = (0..7).collect();
+    let mut space = FreeSpace::new(around, 0, &moved, 0.0).expect("the shapes are sound");
+    let names: Vec<String> = (0..7).map(|joint| format!("j{joint}")).collect();
+    let target = Target { position, orientation };
+    let problem = reach::Problem { chain: &chain, target, joints: &state.joints, names: &names };
+    let settings = reach::Settings { clearance: 0.0, balance, solutions: 1, ..reach::Settings::default() };
+    let found = reach::plan(&problem, &mut space, &settings, &mut NoProgress).expect("it is within reach");
+    let off = centre(&found.joints, &mut poses) - stood;
+    let way = libm::hypot(off.x, off.y);
+    (found, way)
+}
+
+#[test]
+fn what_freedom_is_left_keeps_the_centre_of_mass_above_where_it_was() {
+    let begins = tool(&[0.1, 0.4, -0.2, 0.7, 0.3, -0.5, 0.2]);
+    for by in [Vec3::new(0.0, 0.15, 0.0), Vec3::new(-0.1, 0.0, 0.1), Vec3::new(0.05, -0.1, -0.1)] {
+        let position = begins.translation.vector + by;
+        let (free, far) = balanced(position, Orientation::Free, false);
+        let (kept, near) = balanced(position, Orientation::Free, true);
+        for found in [&free, &kept] {
+            assert!((tool(&found.joints).translation.vector - position).norm() < 1e-6, "{found:?}");
+            assert!(found.joints.iter().zip(RANGES).all(|(q, range)| q.abs() <= range));
+        }
+        assert!(near < 0.9 * far, "{near} m instead of {far} m");
+        // With the whole pose asked for one freedom is left, and with balance it is used no worse.
+        let goal = tool(&kept.joints);
+        let (_, whole) = balanced(position, Orientation::Full(goal.rotation), false);
+        let (_, balanced) = balanced(position, Orientation::Full(goal.rotation), true);
+        assert!(balanced <= whole + 1e-9, "{balanced} m instead of {whole} m");
+    }
+}
+
+/// The plan of an arm that moves its hand along a line, with the position alone or the pose kept.
+fn line_plan(orientation: &str) -> Plan {
+    let text = format!(
+        "use std.smores.Smores\nconfig Reacher {{\n  part m[7]: Smores\n\
+         \x20 for i in 0..6 {{ connect m[i].top -- m[i + 1].bottom turn if i % 2 == 0 {{ 90deg }} else {{ 0deg }} }}\n\
+         \x20 for i in 1..6 {{ set m[i].tilt = 25deg }}\n  base m[0]\n}}\nlet r = Reacher()\n\
+         let b = line(r.m[6].top, by: [10mm, -20mm, 40mm], for: 2s, orientation: {orientation})\n\
+         emit(plan(Sc(wait(500ms), b, wait(500ms)), world: world(ground: held, gravity: off)), \"p.json\")\n"
+    );
+    file::read(run_clean(&text).text("p.json")).expect("the plan can be read")
+}
+
+/// Returns the greatest distance of the port of a plan's first path from its line, m, by the kinematics of the whole robot.
+fn off_line(plan: &Plan) -> f64 {
+    let Body::Tracks(tracks) = &plan.body else { panic!("a plan of joints") };
+    let stated = &plan.paths[0];
+    let kinematics = Kinematics::new(&tracks.robot, &tracks.start.bonds, stated.module);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    let (a, b) = (stated.start.translation.vector, stated.end.translation.vector);
+    let (along, length) = ((b - a).normalize(), (b - a).norm());
+    let mut most: f64 = 0.0;
+    for i in 0..=20_000 {
+        let time = stated.from + (stated.to - stated.from) * f64::from(i) / 20_000.0;
+        kinematics.link_poses(&tracks.state(time).joints, &Pose::identity(), &mut poses);
+        let p = kinematics.port_pose(&tracks.robot, stated.port, &poses).translation.vector - a;
+        most = most.max((p - along * p.dot(&along).clamp(0.0, length)).norm());
+    }
+    most
+}
+
+fn path_check(verdict: &Verdict) -> Option<&Status> {
+    verdict.checks.iter().find(|check| check.kind == CheckKind::Path).map(|check| &check.status)
+}
+
+#[test]
+fn the_judge_proves_that_a_port_keeps_to_its_line() {
+    let free = line_plan("free");
+    assert_eq!(free.paths.len(), 1);
+    assert!((free.paths[0].from - 0.5).abs() < 1e-9 && (free.paths[0].to - 2.5).abs() < 1e-9);
+    assert!(off_line(&free) <= 1e-4, "{} m", off_line(&free));
+    assert_eq!(path_check(&verify(&free)), Some(&Status::Proved));
+    let kept = line_plan("kept");
+    assert!(matches!(path_check(&verify(&kept)), Some(Status::Sampled(n)) if *n >= 64));
+    // The line is stated of any part of the plan, and of the plan run backwards.
+    for part in
+        [reversed(&kept), sliced(&free, 1.0, 2.0).expect("a part"), sliced(&free, 0.0, 0.4).expect("a part")]
+    {
+        let verdict = verify(&part);
+        assert_eq!(part.paths.len(), usize::from(part.body.duration() > 0.5));
+        assert_eq!(path_check(&verdict).is_some(), !part.paths.is_empty());
+        assert!(verdict.failures.iter().all(|failure| failure.kind != CheckKind::Path));
+    }
+}
+
+#[test]
+fn a_plan_that_was_bent_is_off_its_line() {
+    for (bend, fails) in [(1e-5, false), (2e-3, true), (2e-2, true)] {
+        let mut plan = line_plan("free");
+        let Body::Tracks(tracks) = &mut plan.body else { panic!("a plan of joints") };
+        let track = &mut tracks.tracks[2];
+        let middle = track.segments.len() / 2;
+        // Both inner control points: the curve leaves its place by three quarters of that, between two keyframes.
+        track.segments[middle].control[1..3].iter_mut().for_each(|c| *c += bend);
+        let (verdict, off) = (verify(&plan), off_line(&plan));
+        let failure = verdict.failures.iter().find(|failure| failure.kind == CheckKind::Path);
+        assert_eq!(failure.is_some(), fails, "{off} m with {bend} rad");
+        if let Some(failure) = failure {
+            assert!((failure.value - off).abs() < 1e-2 * off, "{} m, and {off} m", failure.value);
+            assert_eq!(failure.limit, 1e-4);
+            assert!(failure.message.contains("off its path"), "{}", failure.message);
+        }
+    }
+    // A tighter statement than the motion keeps is refused, too.
+    let mut plan = line_plan("free");
+    plan.paths[0].within = 0.5 * off_line(&plan);
+    assert!(verify(&plan).failures.iter().any(|failure| failure.kind == CheckKind::Path));
+    plan.paths[0].within = 1.01 * off_line(&plan);
+    assert!(matches!(path_check(&verify(&plan)), Some(Status::Proved)));
+}
+
+#[test]
+fn paths_in_files_name_what_they_are_of() {
+    let plan = line_plan("kept");
+    let text = file::write(&plan).expect("it can be written");
+    assert_eq!(file::read(&text).expect("it can be read").paths, plan.paths);
+    let (before, paths) = text.split_at(text.find("\"paths\"").expect("the paths are written"));
+    assert!(paths.contains("m[6].top"), "the port is named");
+    let renamed = format!("{before}{}", paths.replacen("m[6].top", "m[5].top", 1));
+    assert!(file::read(&renamed).is_err(), "the name is that of another port");
+    let mut other = plan.clone();
+    other.paths[0].within = -1.0;
+    assert_eq!(verify(&other).failures.len(), 1);
+    other = plan.clone();
+    other.paths[0].port.module = 99;
+    assert_eq!(verify(&other).checks[0].status, Status::Failed);
 }

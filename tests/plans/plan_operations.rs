@@ -41,6 +41,7 @@ pub fn plan_of(scheduled: Scheduled) -> Plan {
         nominal: scheduled.nominal,
         causes: (0..1000).map(cause).collect(),
         exemptions: scheduled.exemptions,
+        paths: vec![],
         verdict: None,
     }
 }

@@ -1,6 +1,6 @@
-//! An arm of seven joints for tests and benches.
+//! An arm of seven joints, and a ball on two slides, for tests and benches.
 
-use super::robots::{joint, link};
+use super::robots::{boxed, joint, link};
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::robot::{Assembly, Joint, JointKind, Library, Limits, Link, ModuleInstance, ModuleType};
@@ -63,4 +63,29 @@ pub fn seven_joints() -> Assembly {
         ));
     }
     robot_of(links, joints)
+}
+
+/// The radius of the ball of a gantry, m.
+pub const BALL: f64 = 0.05;
+
+/// Returns a ball that two slides carry along x and y.
+pub fn gantry() -> Assembly {
+    let tiny = vec![boxed(Vec3::new(-1e-3, -1e-3, 9.999), Vec3::new(1e-3, 1e-3, 10.0))];
+    let ball = vec![Placed { pose: Pose::identity(), shape: Shape::Sphere { radius: BALL } }];
+    let links = vec![
+        link("rail", tiny.clone(), 1.0, Vec3::zeros(), 0.5),
+        link(
+            "cart",
+            vec![boxed(Vec3::new(-1e-3, -1e-3, 4.999), Vec3::new(1e-3, 1e-3, 5.0))],
+            1.0,
+            Vec3::zeros(),
+            0.5,
+        ),
+        link("ball", ball, 1.0, Vec3::zeros(), 0.5),
+    ];
+    let slide = |name: &str, between, axis| {
+        let limits = Limits { range: Some((-1.0, 1.0)), speed: Some(1.0), acceleration: None, effort: None };
+        joint(name, between, JointKind::Prismatic, Pose::identity(), axis, limits)
+    };
+    robot_of(links, vec![slide("x", (0, 1), Vec3::x()), slide("y", (1, 2), Vec3::y())])
 }

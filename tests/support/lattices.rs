@@ -42,6 +42,7 @@ pub fn plan_of(stages: Stages) -> Plan {
         nominal: false,
         causes: vec![cause],
         exemptions: vec![],
+        paths: vec![],
         verdict: None,
     }
 }

@@ -115,6 +115,7 @@ impl Motion {
             nominal: false,
             causes: (0..causes).map(cause).collect(),
             exemptions: vec![],
+            paths: vec![],
             verdict: None,
         }
     }

@@ -16,6 +16,7 @@ use crate::plan::fault::PlanFault;
 use crate::plan::motion_plan::Plan;
 use crate::plan::provenance::Provenance;
 use crate::plan::stated::Stated;
+use crate::plan::stated_path::StatedPath;
 use crate::plan::tracks::RobotNames;
 use crate::plan::validation::validate;
 use crate::plan::verdict::Verdict;
@@ -58,6 +59,9 @@ pub(super) struct PlanJson<'a> {
     program: Option<ProgramJson<'a>>,
     causes: Cow<'a, [Cause]>,
     exemptions: Vec<ExemptionJson>,
+    /// The paths in space that ports keep to; absent without any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    paths: Vec<PathJson>,
     verdict: Option<Cow<'a, Verdict>>,
 }
 
@@ -102,6 +106,16 @@ struct ExemptionJson {
     cause: CauseId,
 }
 
+/// A path that a port keeps to, in the frame of the body of a module.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(rename = "StatedPath", deny_unknown_fields)]
+struct PathJson {
+    /// The port and the module, by index.
+    stated: StatedPath,
+    /// The names of the port and of the module.
+    on: Vec<String>,
+}
+
 /// The part of a plan file by which its format and version are recognised before the rest is read.
 #[derive(Deserialize)]
 pub(super) struct Header {
@@ -141,6 +155,12 @@ impl<'a> PlanJson<'a> {
             to: e.to,
             cause: e.cause,
         };
+        let path = |path: &StatedPath| PathJson {
+            stated: path.clone(),
+            on: names
+                .as_ref()
+                .map_or_else(Vec::new, |names| vec![names.port(path.port), names.module(path.module)]),
+        };
         PlanJson {
             format: Cow::Borrowed(FORMAT),
             version: VERSION,
@@ -154,6 +174,7 @@ impl<'a> PlanJson<'a> {
             program: plan.program.as_ref().map(|p| ProgramJson::of(p, names.as_ref())),
             causes: Cow::Borrowed(&plan.causes),
             exemptions: plan.exemptions.iter().map(exemption).collect(),
+            paths: plan.paths.iter().map(path).collect(),
             verdict: plan.verdict.as_ref().map(Cow::Borrowed),
         }
     }
@@ -167,6 +188,7 @@ impl<'a> PlanJson<'a> {
             program.names(&mut stated);
         }
         self.exemptions.iter().for_each(|e| stated.add_all("exemption subject", &e.on));
+        self.paths.iter().for_each(|path| stated.add_all("path subject", &path.on));
         stated
     }
 
@@ -213,6 +235,7 @@ impl<'a> PlanJson<'a> {
             program,
             causes: self.causes.into_owned(),
             exemptions: self.exemptions.into_iter().map(exemption).collect(),
+            paths: self.paths.into_iter().map(|path| path.stated).collect(),
             verdict: self.verdict.map(Cow::into_owned),
         })
     }

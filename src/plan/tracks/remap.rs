@@ -3,6 +3,7 @@
 use super::motion::{DockingEvent, Segment, Track, Tracks};
 use crate::plan::cause::CauseId;
 use crate::plan::program::{Action, Command, Condition, Node, Otherwise, Signal, Target};
+use crate::plan::stated_path::StatedPath;
 use crate::plan::visit::{Graph, with_children};
 use crate::plan::world::{Exemption, ExemptionKind};
 use crate::robot::{Assembly, Bond, JointId, JointOwner, Kinematics, Matching, PortRef, State};
@@ -141,6 +142,23 @@ impl Remap {
             to: exemption.to + seam,
             cause: self.cause(exemption.cause),
         }
+    }
+
+    /// Returns a path of robot B as one of robot A, its times later by `seam` (s); `None` where a module lies in its image by a
+    /// symmetry, so that the path would be another in its frame.
+    pub fn path(&self, path: &StatedPath, seam: f64) -> Option<StatedPath> {
+        let plain = |module: usize| {
+            let turned = &self.found.turned[module];
+            turned.ports.iter().enumerate().all(|(port, image)| port == *image)
+        };
+        (plain(path.module) && plain(path.port.module)).then(|| StatedPath {
+            port: self.found.port(path.port),
+            module: self.found.modules[path.module],
+            from: path.from + seam,
+            to: path.to + seam,
+            cause: self.cause(path.cause),
+            ..path.clone()
+        })
     }
 
     fn kind(&self, kind: &ExemptionKind) -> ExemptionKind {

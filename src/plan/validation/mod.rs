@@ -37,6 +37,7 @@ pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
     if let Some(tracks) = plan.body.tracks() {
         let names = program::Names::of(&tracks.robot, causes);
         plan.exemptions.iter().try_for_each(|exemption| names.exemption(&exemption.kind))?;
+        plan.paths.iter().try_for_each(|path| names.path(path))?;
         if let Some(program) = &plan.program {
             names.nodes(&Graph::of(&program.root))?;
         }
@@ -45,6 +46,7 @@ pub fn validate(plan: &Plan) -> Result<(), PlanFault> {
         need_index(exemption.cause.0 as usize, causes, "cause")?;
         need(exemption.from <= exemption.to, || PlanFault::ExemptionOrder)?;
     }
+    need(plan.paths.is_empty() || plan.body.tracks().is_some(), || PlanFault::PathFamily)?;
     let starts: Vec<f64> = plan.worlds.iter().map(|w| w.from).collect();
     need(starts.first() == Some(&0.0), || PlanFault::FirstWorld)?;
     need_ascending(&starts, "the worlds")
@@ -69,6 +71,7 @@ fn numbers(plan: &Plan) -> Result<(), PlanFault> {
     need_finite("the settings", &plan.settings)?;
     need_finite("the worlds", &plan.worlds)?;
     need_finite("the exemptions", &plan.exemptions)?;
+    need_finite("the paths", &plan.paths)?;
     plan.body.check_numbers()
 }
 

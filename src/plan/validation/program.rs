@@ -3,6 +3,7 @@
 use crate::plan::cause::CauseId;
 use crate::plan::fault::{PlanFault, need_index};
 use crate::plan::program::{Action, Command, Condition, Node, Signal};
+use crate::plan::stated_path::StatedPath;
 use crate::plan::visit::Graph;
 use crate::plan::world::ExemptionKind;
 use crate::robot::{Assembly, JointId, PortRef};
@@ -40,6 +41,17 @@ impl Names<'_> {
             | ExemptionKind::Collision(None)
             | ExemptionKind::Overload(None) => Ok(()),
         }
+    }
+
+    /// Checks that a path is of a port of the robot, in the frame of one of its modules, over an interval, with deviations that
+    /// are not negative.
+    pub(super) fn path(&self, path: &StatedPath) -> Result<(), PlanFault> {
+        self.port(path.port)?;
+        self.modules(&[path.module])?;
+        self.cause(path.cause)?;
+        let sound =
+            path.from <= path.to && path.within >= 0.0 && path.turned_within.is_none_or(|angle| angle >= 0.0);
+        if sound { Ok(()) } else { Err(PlanFault::PathNumbers) }
     }
 
     /// Checks that the indices in every node of a program are within their lists.

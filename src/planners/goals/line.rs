@@ -248,6 +248,8 @@ pub fn plan(problem: &Problem, settings: &Settings, progress: &mut dyn Progress)
         }
     };
     let way = Way { start, goal: problem.goal, arc };
+    let PoseError { distance, angle } = problem.within;
+    let inner = PoseError { distance: INNER * distance, angle: INNER * angle };
     let mut pieces = settings.pieces;
     loop {
         let postures = postures(problem, &way, settings, pieces, progress);
@@ -259,7 +261,7 @@ pub fn plan(problem: &Problem, settings: &Settings, progress: &mut dyn Progress)
             Ok(postures) => {
                 let joints = slopes(chain, &postures);
                 let deviation = deviation(problem, &way, &joints, pieces);
-                if deviation.is_within(&problem.within) {
+                if deviation.is_within(&inner) {
                     return Ok(Path { joints, deviation });
                 }
                 if last {
@@ -316,19 +318,24 @@ fn postures(
 fn slopes(chain: &Chain, postures: &[Vec<f64>]) -> Vec<Vec<[f64; 2]>> {
     let last = postures.len() - 1;
     let step = 1.0 / last as f64;
-    let of = |joint: usize| {
+    let of = |joint: usize, limits: (f64, f64)| {
         let q = |k: usize| postures[k][joint];
+        // With these slopes the control points of the cubics, and so the cubics, are within the range of the joint.
+        let room = |k: usize| (3.0 / step * (q(k) - limits.0).min(limits.1 - q(k))).max(0.0);
         let slope = |k: usize| match k {
             0 => 0.0,
             k if k == last => 0.0,
             k if k == 1 || k == last - 1 => (q(k + 1) - q(k - 1)) / (2.0 * step),
             k => (8.0 * (q(k + 1) - q(k - 1)) - (q(k + 2) - q(k - 2))) / (12.0 * step),
         };
-        (0..=last).map(|k| [q(k), slope(k)]).collect()
+        (0..=last).map(|k| [q(k), slope(k).clamp(-room(k), room(k))]).collect()
     };
-    chain.joints().iter().map(|joint| of(joint.joint)).collect()
+    chain.joints().iter().map(|joint| of(joint.joint, joint.limits)).collect()
 }
 
+/// The part of the greatest deviation that is allowed, without unit, within which the motion is measured: between the places where
+/// it is measured it may deviate more, and the judge proves the whole.
+const INNER: f64 = 0.8;
 /// The number of places in each piece at which the deviation is measured.
 const LOOKS: usize = 4;
 

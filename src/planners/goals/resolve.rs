@@ -7,7 +7,8 @@ use super::{avoid, line, reach};
 use crate::behavior::{self, Scheduled, schedule};
 use crate::geometry::{Pose, Unsound};
 use crate::plan::{
-    Action, CauseId, Command, Goal, GoalFrame, GoalKind, LineEnd, Node, Obstacle, Otherwise, Profile, Target,
+    Action, CauseId, Command, Goal, GoalFrame, GoalKind, LineEnd, Node, Obstacle, Otherwise, Profile,
+    StatedPath, Target,
 };
 use crate::planners::Progress;
 use crate::robot::chain::{Chain, Orientation, Target as Place};
@@ -76,6 +77,15 @@ pub struct Refusal {
 /// robots have docked on the way the turns in which they have.
 pub type Placing<'p> = dyn FnMut(&mut Scheduled, f64) -> Vec<Pose> + 'p;
 
+/// A program without goals, and what their motions keep to.
+#[derive(Clone, Debug)]
+pub struct Resolved {
+    /// The program.
+    pub program: Arc<Node>,
+    /// The lines and arcs in space that ports keep to, at the times at which the program moves them.
+    pub paths: Vec<StatedPath>,
+}
+
 /// Returns a program in which actions stand in the place of all goals. `placing`: where the robots are as the judge has
 /// it; it is asked only where that makes a difference.
 ///
@@ -85,7 +95,8 @@ pub fn resolve(
     problem: &Problem,
     placing: &mut Placing,
     progress: &mut dyn Progress,
-) -> Result<Arc<Node>, Refusal> {
+) -> Result<Resolved, Refusal> {
+    let mut paths = Vec::new();
     if let Some((goal, why)) = misplaced(problem.program) {
         return Err(refusal(goal, Reason::Misplaced(why)));
     }
@@ -97,7 +108,7 @@ pub fn resolve(
         let mut goals = Vec::new();
         let before = cut(&program, &mut goals);
         if goals.is_empty() {
-            return Ok(program);
+            return Ok(Resolved { program, paths });
         }
         let mut scheduled = scheduled(problem, problem.start.clone(), before)
             .map_err(|refusal| whole(Reason::Schedule(refusal)))?;
@@ -115,7 +126,8 @@ pub fn resolve(
             false => standing_poses(&scheduled.tracks.robot, &state),
         };
         let beginning = Beginning { problem, robot: &scheduled.tracks.robot, state, poses };
-        let actions = beginning.actions(goal, progress).map_err(|reason| refusal(goal, reason))?;
+        let (actions, path) = beginning.actions(goal, progress).map_err(|reason| refusal(goal, reason))?;
+        paths.extend(path.map(|path| StatedPath { from: time, to: time + path.to, ..path }));
         let old = goals[first].clone();
         program = replaced(&program, &old, &actions);
     }
@@ -146,8 +158,12 @@ struct Beginning<'a> {
 }
 
 impl Beginning<'_> {
-    /// Returns the actions that a goal becomes.
-    fn actions(&self, goal: &Goal, progress: &mut dyn Progress) -> Result<Arc<Node>, Reason> {
+    /// Returns the actions that a goal becomes, and the path that it states, which begins at 0 s.
+    fn actions(
+        &self,
+        goal: &Goal,
+        progress: &mut dyn Progress,
+    ) -> Result<(Arc<Node>, Option<StatedPath>), Reason> {
         let (robot, state, poses) = (self.robot, &self.state, self.poses.as_slice());
         match &goal.kind {
             GoalKind::Reach { frame, position, orientation, duration, profile, starts, seed } => {
@@ -170,13 +186,9 @@ impl Beginning<'_> {
                 let found = reach::plan(&problem, &mut space, &settings, progress)
                     .map_err(|refusal| Reason::Reach(held.seen(refusal)))?;
                 let moved: Vec<usize> = held.chain.joints().iter().map(|joint| joint.joint).collect();
-                move_together(
-                    robot,
-                    (&state.joints, &found.joints),
-                    &moved,
-                    (*duration, *profile),
-                    goal.cause,
-                )
+                let times = (*duration, *profile);
+                let moves = move_together(robot, (&state.joints, &found.joints), &moved, times, goal.cause)?;
+                Ok((moves, None))
             }
             GoalKind::Line { frame, end, via, duration, free, within } => {
                 let held = Held::new(robot, state, poses, frame)?;
@@ -202,13 +214,27 @@ impl Beginning<'_> {
                 };
                 let path =
                     line::plan(&problem, &line::Settings::default(), progress).map_err(Reason::Line)?;
-                follow(robot, &held.chain, &path, *duration, goal.cause)
+                let (follows, lasting) = follow(robot, &held.chain, &path, *duration, goal.cause)?;
+                let via = via.map(|via| into.transform_point(&via.into()).coords.into());
+                let stated = StatedPath {
+                    port: frame.port,
+                    module: held.module,
+                    from: 0.0,
+                    to: lasting,
+                    start: begins,
+                    end: problem.goal,
+                    via,
+                    within: within.distance,
+                    turned_within: (!free).then_some(within.angle),
+                    cause: goal.cause,
+                };
+                Ok((follows, Some(stated)))
             }
             GoalKind::Avoid { body, clearance, budget, seed } => {
                 let settings = avoid::Settings { budget: *budget, seed: *seed, ..avoid::Settings::default() };
                 let joints = commanded(goal);
                 let around = AvoidGoal { joints, body, clearance: *clearance, settings, cause: goal.cause };
-                self.free_way(&around, progress)
+                Ok((self.free_way(&around, progress)?, None))
             }
         }
     }
@@ -222,7 +248,7 @@ impl Beginning<'_> {
             // Goals in the behaviour begin where the robot stands here.
             let mut placing = |_: &mut Scheduled, _: f64| self.poses.clone();
             let program = resolve(&problem, &mut placing, progress).map_err(|refusal| *refusal.reason)?;
-            scheduled(&problem, start.clone(), program).map_err(Reason::Schedule)?
+            scheduled(&problem, start.clone(), program.program).map_err(Reason::Schedule)?
         };
         if !end.tracks.events.is_empty() {
             return Err(Reason::Docks);
@@ -387,14 +413,14 @@ fn move_together(
     Ok(Arc::new(Node::Parallel(moves.collect())))
 }
 
-/// Returns the actions by which the joints of a chain follow a path.
+/// Returns the actions by which the joints of a chain follow a path, and the time that they take, s.
 fn follow(
     robot: &Assembly,
     chain: &Chain,
     path: &line::Path,
     duration: Option<f64>,
     cause: CauseId,
-) -> Result<Arc<Node>, Reason> {
+) -> Result<(Arc<Node>, f64), Reason> {
     let joints: Vec<(usize, &[[f64; 2]])> =
         chain.joints().iter().zip(&path.joints).map(|(joint, keys)| (joint.joint, keys.as_slice())).collect();
     let duration = duration.or_else(|| timing::along(robot, &joints)).ok_or(Reason::NoSpeed)?;
@@ -407,7 +433,7 @@ fn follow(
             .collect();
         action(Command::Follow { joint: joint_id(*joint), keyframes }, cause)
     });
-    Ok(Arc::new(Node::Parallel(follows.collect())))
+    Ok((Arc::new(Node::Parallel(follows.collect())), duration))
 }
 
 fn joint_id(joint: usize) -> JointId {

@@ -1,6 +1,7 @@
 //! The judgement of articulated robots, whose plans are tracks of joints.
 //!
-//! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials;
+//! In this order: joint and motor limits, and rest at both ends, from the control points of the polynomials; the paths in space
+//! that the plan states of ports;
 //! docking, from the poses at the instants of docking; then one rollout of the plan over the ground, from sample to
 //! sample, which the checks of loops, stability, slip and torque watch; the torque between samples for a fixed base,
 //! or, under full dynamics, the loads along the recorded attitudes; collisions, by conservative advancement; and last
@@ -70,6 +71,7 @@ mod joining;
 mod one_robot;
 mod parted;
 mod placed_clusters;
+mod stated_paths;
 mod succession;
 mod support_area;
 mod time_series;
@@ -103,6 +105,7 @@ pub fn judge(plan: &Plan, tracks: &Tracks) -> Verdict {
     let rollout = Rollout::of(plan, tracks, &tolerances);
     limits::judge(tracks, rollout.is_full(), &tolerances, &mut ledger);
     rest::judge(tracks, &tolerances, &mut ledger);
+    stated_paths::judge(plan, tracks, &tolerances, &mut ledger);
     match parted::clusters(&rollout) {
         Some(mut clusters) => {
             parted::judge(&rollout, &mut clusters, &mut ledger);

@@ -29,6 +29,9 @@ impl Default for Precision {
 /// The tolerances of the judgement of articulated robots. Lengths in metres, angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
+    /// The part of the greatest deviation that a path states, without unit, by which a bound on the deviation may exceed it: below
+    /// that nothing is halved any more. Default 1e-3.
+    pub path_part: f64,
     /// The predicted fall of the centre of mass below which settling ends, m. Default 1e-9 m: rounding of
     /// coordinates.
     pub fall_min: f64,
@@ -133,6 +136,7 @@ impl Default for Tolerances {
     fn default() -> Tolerances {
         let degree = std::f64::consts::PI / 180.0;
         Tolerances {
+            path_part: 1e-3,
             fall_min: 1e-9,
             fall_floor: 1e-3,
             deflected_depth: 1e-3,
