@@ -1,4 +1,6 @@
-//! A hexapod of one's own walks: its feet are told where to be against its body, and joints follow.
+//! A hexapod of one's own walks ahead, aside and round: its feet are put to where a gait has them, and joints follow.
+use std.legs.{Legs, Walk, ripple, standing, tripod}
+
 connector Clip { mates Clip, turns 1, holds 300N, holds 30N*m }
 
 /// Six ports for legs: 0, 2 and 4 to the left, 1, 3 and 5 to the right, from front to back.
@@ -50,31 +52,39 @@ config Hexapod {
   for i in 0..6 { connect body.side[i] -- leg[i].root }
   base body
 
-  // Brings toes to where they stand at the start, shifted in the frame of the body.
-  behavior put(legs: List<Int>, by: Vec3<Length>, t: Time) = Pc([
-    reach(leg[i].toe, position: pose(leg[i].toe).position + by, seen_from: body, in: t) for i in legs
-  ])
+  let legs = Legs(body: body, feet: [l.toe for l in leg], stand: [pose(l.toe).position for l in leg])
 
-  // Three feet lift and swing while the other three push the body ahead by a stride.
-  behavior step(swing: List<Int>, push: List<Int>, stride: Length, t: Time) = Sc(
-    put(swing, by: [-stride / 2, 0mm, 30mm], t: t / 2),
-    Pc(put(swing, by: [stride / 2, 0mm, 30mm], t: t), put(push, by: [-stride / 2, 0mm, 0mm], t: t)),
-    put(swing, by: [stride / 2, 0mm, 0mm], t: t / 2),
-  )
+  /// Walks by the tripod gait: in each cycle ahead by a stride and round to the left.
+  behavior walk(stride: Length = 60mm, turn: Angle = 0deg, cycles: Int = 3) = {
+    require standing(start, by: 20mm), "it stands"
+    ensure standing(end, by: 20mm)
+    ensure abs(report.heading - cycles * turn) < 2deg
+    tripod(legs, Walk(stride: [stride, 0mm, 0mm], turn: turn, beat: 1s), cycles)
+  }
 
-  /// The tripod gait: the front and the back foot of one side and the middle one of the other, in turns.
-  behavior tripod(stride: Length = 60mm, steps: Int = 2, t: Time = 600ms) =
-    repeat(Sc(step([0, 3, 4], [1, 2, 5], stride, t), step([1, 2, 5], [0, 3, 4], stride, t)), steps)
+  /// Walks to the left by the ripple gait.
+  behavior aside(stride: Length = 45mm, cycles: Int = 2) = {
+    require standing(start, by: 20mm), "it stands"
+    ensure abs(report.displacement.y - cycles * stride) < 5mm
+    ripple(legs, Walk(stride: [0mm, stride, 0mm], beat: 1s), cycles)
+  }
 }
 
-let walk = Hexapod().tripod()
-let report = verify(walk, reserve: 0.2)
+let robot = Hexapod()
+let report = verify(robot.walk(), reserve: 0.2)
 print(report)
-print(simulate(walk))
-show(walk, "hexapod.html")
+print(simulate(robot.walk()))
+show(robot.walk(), "hexapod.html")
 
-test "it walks half a stride, and a stride for each further step, with a reserve of 0.2" {
+test "it walks a stride in each cycle, with a reserve of 0.2, as its feet say" {
   expect report.ok
-  expect abs(report.travel - (30mm + 3 * 60mm)) < 5mm
-  expect abs(simulate(walk).travel - report.travel) < 5mm
+  expect abs(report.travel - 3 * 60mm) < 5mm
+  expect abs(simulate(robot.walk()).travel - report.travel) < 5mm
+}
+
+test "it goes round, and aside, as it ensures" {
+  let round = verify(robot.walk(turn: 12deg, cycles: 1), reserve: 0.2)
+  expect round.ok
+  expect abs(round.heading - 12deg) < 2deg
+  expect verify(robot.aside(cycles: 1), reserve: 0.2).ok
 }

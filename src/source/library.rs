@@ -12,6 +12,7 @@ macro_rules! embed {
 pub const FILES: &[(&str, &str)] = embed![
     "crystal.mod",
     "gaits.mod",
+    "legs.mod",
     "lists.mod",
     "mori.mod",
     "prelude.mod",
