@@ -4,6 +4,7 @@ use super::config::Deferred;
 use super::tolerances::TOLERANCES;
 use crate::check::typed::{DefId, NodeRef, TrussBody, TrussClause, TrussDef};
 use crate::geometry::Vec3;
+use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::closest_points::segment_segment_distance;
 use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::interpret::design::{Design, DesignKind, Instance, Node, TrussDesign};
@@ -236,8 +237,9 @@ impl Interpreter<'_> {
         let sound = |&(a, b, _): &(usize, usize, Span)| {
             !far(a) && !far(b) && !twins.iter().any(|&(twin, _)| twin == a || twin == b)
         };
-        for (index, strut) in draft.struts.iter().enumerate().filter(|(_, strut)| sound(strut)) {
-            if let Err(stop) = self.check_strut(draft, strut, &draft.struts[..index], kind) {
+        let struts: Vec<&(usize, usize, Span)> = draft.struts.iter().filter(|strut| sound(strut)).collect();
+        for (strut, before) in struts.iter().zip(nearby_before(&draft.nodes, &struts, kind)) {
+            if let Err(stop) = self.check_strut(draft, strut, &before, kind) {
                 faults.push((strut.2, stop));
             }
         }
@@ -258,7 +260,7 @@ impl Interpreter<'_> {
     }
 
     /// Refuses a strut without length, one of a length out of range, one that is there already, and one that is
-    /// nearer than its clearance to one of the struts before it that shares no node with it.
+    /// nearer than its clearance to one of the struts `before` it that shares no node with it.
     ///
     /// # Errors
     /// A fault at the strut.
@@ -266,7 +268,7 @@ impl Interpreter<'_> {
         &mut self,
         draft: &Draft,
         &(a, b, span): &(usize, usize, Span),
-        before: &[(usize, usize, Span)],
+        before: &[&(usize, usize, Span)],
         kind: &Strut,
     ) -> Eval<()> {
         let name = |a: usize, b: usize| format!("{} -- {}", draft.nodes[a].name, draft.nodes[b].name);
@@ -289,7 +291,7 @@ impl Interpreter<'_> {
             return Err(fault(code::BAD_TRUSS, span, message, format!("{} long", metres(length))));
         }
         let ends = |a: usize, b: usize| (draft.nodes[a].position, draft.nodes[b].position);
-        for &(c, d, other) in before {
+        for &&(c, d, other) in before {
             if (a, b) == (c, d) || (a, b) == (d, c) {
                 let message = format!("the strut {} is there twice", name(a, b));
                 return Err(Diagnostic::error(code::BAD_TRUSS, message)
@@ -320,10 +322,41 @@ impl Interpreter<'_> {
     }
 }
 
-/// Returns the pairs of a node and the first node before it at the same position.
+/// Returns for each of some struts those before it, in their order, that may be nearer to it than its clearance, those
+/// with the same nodes among them.
+fn nearby_before<'d>(
+    nodes: &[Node],
+    struts: &[&'d (usize, usize, Span)],
+    kind: &Strut,
+) -> Vec<Vec<&'d (usize, usize, Span)>> {
+    let ends = |strut: &&(usize, usize, Span)| [nodes[strut.0].position, nodes[strut.1].position];
+    let boxes: Vec<Aabb> = struts.iter().map(|strut| Aabb::around(ends(strut))).collect();
+    let mut before = vec![Vec::new(); struts.len()];
+    let reach = kind.clearance.max(TOLERANCES.node_distance);
+    near_boxes(&boxes, reach, kind.length.0.max(reach), |i, j| before[j].push(i));
+    let struts_of = |mut indices: Vec<usize>| {
+        indices.sort_unstable();
+        indices.into_iter().map(|i| struts[i]).collect()
+    };
+    before.into_iter().map(struts_of).collect()
+}
+
+/// Returns the pairs of a node and the first node before it at the same position, by the later one.
 fn twins(nodes: &[Node]) -> Vec<(usize, usize)> {
     let near = |a: usize, b: usize| (nodes[a].position - nodes[b].position).norm() < TOLERANCES.node_distance;
-    (0..nodes.len()).filter_map(|a| Some((a, (0..a).find(|&b| near(a, b))?))).collect()
+    // Along x: those at one position stand together.
+    let mut sorted: Vec<usize> = (0..nodes.len()).collect();
+    sorted.sort_by(|&a, &b| nodes[a].position.x.total_cmp(&nodes[b].position.x));
+    let mut first: Vec<Option<usize>> = vec![None; nodes.len()];
+    for (at, &a) in sorted.iter().enumerate() {
+        let next = sorted[at + 1..].iter();
+        let apart = |b: &&usize| nodes[**b].position.x - nodes[a].position.x < TOLERANCES.node_distance;
+        for &b in next.take_while(apart).filter(|&&b| near(a, b)) {
+            let (low, high) = (a.min(b), a.max(b));
+            first[high] = Some(first[high].map_or(low, |known| known.min(low)));
+        }
+    }
+    first.into_iter().enumerate().filter_map(|(a, b)| Some((a, b?))).collect()
 }
 
 /// Returns nodes that are named by their numbers, from 0.

@@ -162,7 +162,7 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
             interpreter.add_report(
                 Diagnostic::warning(code::SHORT_OF_GOAL, message)
                     .label(call.span, report.ended.clone())
-                    .hint("a greater `budget`, some `orientations`, or a greater `tolerance`"),
+                    .hint("a greater `budget`, more `orientations`, or a greater `tolerance`"),
             );
         }
     }
@@ -346,7 +346,7 @@ fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
     let name = match invalid {
         InvalidTruss::Incomplete | InvalidTruss::Degenerate { .. } | InvalidTruss::TooFar { .. } => "truss",
         InvalidTruss::AngleLimit => "angle",
-        InvalidTruss::RigidityLimit | InvalidTruss::RigidityNodes { .. } => "rigidity",
+        InvalidTruss::RigidityLimit => "rigidity",
         InvalidTruss::ShortLoop => "perimeters",
         InvalidTruss::NotSolid { .. }
         | InvalidTruss::InsideObstacle { .. }

@@ -39,12 +39,17 @@ struct Line {
     terms: Vec<(usize, f64)>,
     right: f64,
     equal: bool,
-    /// The image z, once it was needed; with its squared length and its product with v₀.
-    image: Option<(Sparse, f64, f64)>,
+    /// The image z, once it was needed, with its product with v₀.
+    image: Option<(Sparse, f64)>,
     active: bool,
 }
 
 impl Line {
+    /// Returns the image z, which active rows have.
+    fn image(&self) -> &Sparse {
+        &self.image.as_ref().expect("it was made").0
+    }
+
     fn over(&self, x: &[f64]) -> f64 {
         self.terms.iter().map(|(i, a)| a * x[*i]).sum::<f64>() - self.right
     }
@@ -60,6 +65,8 @@ pub(super) struct ActiveSet {
     /// The active rows, and their Lagrange multipliers, in the order of the factor's rows.
     active: Vec<usize>,
     multipliers: Vec<f64>,
+    /// The point v of the present multipliers.
+    point: Vec<f64>,
     /// The lower triangle C of the active rows' Gram matrix, `C Cᵀ`, by rows.
     gram: Vec<Vec<f64>>,
     /// The tolerance of a row, in the units of its right side.
@@ -71,10 +78,11 @@ impl ActiveSet {
     /// Returns the program without rows. `factor`: that of `H = L Lᵀ`; `linear`: c, one entry for every variable;
     /// `tolerance`: the most by which a row may be violated, in the unit of its right side.
     pub(super) fn new(factor: SparseCholesky, linear: &[f64], tolerance: f64) -> ActiveSet {
-        let mut free: Vec<f64> = linear.iter().map(|c| -c).collect();
+        let mut free: Vec<f64> = factor.permuted(linear).iter().map(|c| -c).collect();
         factor.solve_lower(&mut free);
         ActiveSet {
             work: vec![0.0; free.len()],
+            point: free.clone(),
             factor,
             free,
             lines: Vec::new(),
@@ -96,7 +104,7 @@ impl ActiveSet {
     }
 
     /// Returns the optimal x for the rows as they are now, beginning with the active set of the last solution.
-    /// Equalities enter first, then the most violated inequality again and again.
+    /// Equalities enter first, then all violated inequalities, the most violated first, again and again.
     ///
     /// # Errors
     /// [`Unsolved::Infeasible`] where a violated row is a combination of active ones that can't give way,
@@ -108,12 +116,27 @@ impl ActiveSet {
                 self.enter(line)?;
             }
         }
-        for _ in 0..CHANGES_MAX * (self.lines.len() + 1) {
-            let x = self.point();
-            let Some(line) = self.most_violated(&x) else {
-                return if self.active_hold(&x) { Ok(x) } else { Err(Unsolved::Numerical) };
-            };
-            self.enter(line)?;
+        let mut changes = 0;
+        let mut exact = false;
+        while changes < CHANGES_MAX * (self.lines.len() + 1) {
+            let x = self.solution();
+            let violated = self.violated(&x);
+            if violated.is_empty() && self.active_hold(&x) {
+                return Ok(x);
+            }
+            let mut entered = false;
+            for line in violated {
+                changes += 1;
+                entered |= self.enter(line)?;
+            }
+            // Rounding adds up over many changes: once more from the multipliers.
+            if !entered && exact {
+                return Err(Unsolved::Numerical);
+            }
+            exact = !entered;
+            if exact {
+                self.restart();
+            }
         }
         Err(Unsolved::Numerical)
     }
@@ -135,31 +158,26 @@ impl ActiveSet {
             self.multipliers = self.gram_solved(violations);
             let pulls = self.multipliers.iter().zip(&self.active);
             let pulls = pulls.enumerate().filter(|(_, (m, line))| **m < 0.0 && !self.lines[**line].equal);
-            let Some((worst, _)) = pulls.min_by(|a, b| a.1.0.total_cmp(b.1.0)) else { return };
+            let Some((worst, _)) = pulls.min_by(|a, b| a.1.0.total_cmp(b.1.0)) else { break };
             self.leave(worst);
+        }
+        self.point.copy_from_slice(&self.free);
+        for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
+            self.lines[*line].image().add_to(&mut self.point, -multiplier);
         }
     }
 
     /// Returns the amount by which v₀ violates an active row.
     fn violation_at_start(&self, line: usize) -> f64 {
         let line = &self.lines[line];
-        line.image.as_ref().expect("active rows have images").2 - line.right
+        line.image.as_ref().expect("active rows have images").1 - line.right
     }
 
     /// Returns x for the present multipliers.
-    fn point(&mut self) -> Vec<f64> {
-        let mut v = self.nearest();
+    fn solution(&self) -> Vec<f64> {
+        let mut v = self.point.clone();
         self.factor.solve_upper(&mut v);
-        v
-    }
-
-    /// Returns v for the present multipliers.
-    fn nearest(&self) -> Vec<f64> {
-        let mut v = self.free.clone();
-        for (line, multiplier) in self.active.iter().zip(&self.multipliers) {
-            self.lines[*line].image.as_ref().expect("active rows have images").0.add_to(&mut v, -multiplier);
-        }
-        v
+        self.factor.restored(&v)
     }
 
     /// Returns true if the active rows hold: rows whose Gram matrix is nearly singular may be lost to rounding.
@@ -167,41 +185,43 @@ impl ActiveSet {
         self.active.iter().all(|line| self.lines[*line].over(x).abs() <= self.tolerance)
     }
 
-    /// Returns the inequality that x violates most; `None` if x violates none by more than the tolerance.
-    fn most_violated(&self, x: &[f64]) -> Option<usize> {
+    /// Returns the inequalities that x violates by more than the tolerance, the most violated first.
+    fn violated(&self, x: &[f64]) -> Vec<usize> {
         let open = self.lines.iter().enumerate().filter(|(_, line)| !line.active && !line.equal);
-        let worst =
-            open.map(|(i, line)| (i, line.over(x))).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        worst.filter(|(_, over)| *over > self.tolerance).map(|(i, _)| i)
+        let mut over: Vec<(f64, usize)> = open.map(|(i, line)| (line.over(x), i)).collect();
+        over.retain(|(over, _)| *over > self.tolerance);
+        over.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        over.into_iter().map(|(_, line)| line).collect()
     }
 
     /// Makes a row active, and drops those that block the step to it (step 2 of the dual algorithm): partial steps
-    /// up to the first multiplier that vanishes, then the full step.
+    /// up to the first multiplier that vanishes, then the full step. Returns false for a row that holds without.
     ///
     /// # Errors
     /// [`Unsolved::Infeasible`] where the row depends on the active ones and none of them can be dropped.
-    fn enter(&mut self, line: usize) -> Result<(), Unsolved> {
+    fn enter(&mut self, line: usize) -> Result<bool, Unsolved> {
         self.make_image(line);
+        let Line { equal, right, .. } = self.lines[line];
+        if !equal && self.lines[line].image().dot(&self.point) - right <= self.tolerance / 2.0 {
+            return Ok(false);
+        }
         let mut own = 0.0;
         loop {
-            let (image, square, _) = self.lines[line].image.as_ref().expect("just made");
+            let image = self.lines[line].image();
+            self.work.fill(0.0);
             image.add_to(&mut self.work, 1.0);
-            let products: Vec<f64> = self
-                .active
-                .iter()
-                .map(|other| self.lines[*other].image.as_ref().expect("active").0.dot(&self.work))
-                .collect();
+            let square: f64 = image.value.iter().map(|v| v * v).sum();
+            let products: Vec<f64> =
+                self.active.iter().map(|other| self.lines[*other].image().dot(&self.work)).collect();
             let half = self.gram_forward(products);
             let falls = self.gram_back(half.clone());
             // The part of the row across the active ones, from the row itself: a difference of squares would be nothing
             // but rounding where it is small.
             for (other, fall) in self.active.iter().zip(&falls) {
-                self.lines[*other].image.as_ref().expect("active").0.add_to(&mut self.work, -fall);
+                self.lines[*other].image().add_to(&mut self.work, -fall);
             }
             let left: f64 = self.work.iter().map(|w| w * w).sum();
-            self.work.fill(0.0);
-            let over = image.dot(&self.nearest()) - own * square - self.lines[line].right;
-            let equal = self.lines[line].equal;
+            let over = image.dot(&self.point) - right;
             // The sign of the row's own multiplier: an equality that v falls short of pushes in the opposite
             // direction.
             let sign = if equal && over < 0.0 { -1.0 } else { 1.0 };
@@ -213,28 +233,28 @@ impl ActiveSet {
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             let independent = left > TOL_DEPENDENT * square;
             if equal && !independent && over.abs() <= self.tolerance {
-                return Ok(());
+                return Ok(false);
             }
             let full = if independent { sign * over / left } else { f64::INFINITY };
-            match first {
-                Some((i, step)) if step < full => {
-                    own += sign * step;
-                    self.multipliers.iter_mut().zip(&falls).for_each(|(m, f)| *m -= sign * step * f);
-                    self.leave(i);
-                }
-                _ if full.is_finite() => {
-                    own += sign * full;
-                    self.multipliers.iter_mut().zip(&falls).for_each(|(m, f)| *m -= sign * full * f);
-                    let mut row = half;
-                    row.push(left.sqrt());
-                    self.gram.push(row);
-                    self.multipliers.push(own);
-                    self.active.push(line);
-                    self.lines[line].active = true;
-                    return Ok(());
-                }
-                _ => return Err(Unsolved::Infeasible),
+            let blocked = first.filter(|(_, step)| *step < full);
+            let step = sign * blocked.map_or(full, |(_, step)| step);
+            if !step.is_finite() {
+                return Err(Unsolved::Infeasible);
             }
+            own += step;
+            self.multipliers.iter_mut().zip(&falls).for_each(|(m, f)| *m -= step * f);
+            self.point.iter_mut().zip(&self.work).for_each(|(v, w)| *v -= step * w);
+            if let Some((i, _)) = blocked {
+                self.leave(i);
+                continue;
+            }
+            let mut row = half;
+            row.push(left.sqrt());
+            self.gram.push(row);
+            self.multipliers.push(own);
+            self.active.push(line);
+            self.lines[line].active = true;
+            return Ok(true);
         }
     }
 
@@ -244,17 +264,17 @@ impl ActiveSet {
         if line.image.is_some() {
             return;
         }
-        let mut z = vec![0.0; self.free.len()];
-        line.terms.iter().for_each(|(i, a)| z[*i] += a);
+        let mut terms = vec![0.0; self.free.len()];
+        line.terms.iter().for_each(|(i, a)| terms[*i] += a);
+        let mut z = self.factor.permuted(&terms);
         self.factor.solve_lower(&mut z);
         let mut image = Sparse::default();
         for (i, value) in z.iter().enumerate().filter(|(_, value)| **value != 0.0) {
             image.at.push(i);
             image.value.push(*value);
         }
-        let square = image.value.iter().map(|v| v * v).sum();
         let along = image.dot(&self.free);
-        line.image = Some((image, square, along));
+        line.image = Some((image, along));
     }
 
     /// Drops the row at an index of the active set; Givens rotations make the factor's later rows triangular again.

@@ -246,7 +246,7 @@ impl Summation {
 }
 
 /// Returns the dot product by four sums side by side.
-fn four_lanes(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn four_lanes(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();

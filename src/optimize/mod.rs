@@ -3,7 +3,10 @@
 
 pub mod cholesky;
 pub mod cuthill_mckee;
-mod sparse_cholesky;
+pub mod minimum_degree;
+pub mod nested_dissection;
+pub mod sparse_cholesky;
+mod supernodes;
 
 pub mod random;
 
@@ -18,3 +21,4 @@ pub use cholesky::SymmetricMatrix;
 pub use cma_es::CmaEs;
 pub use linear::{LinearProgram, LinearSolution, Row, Unsolved, solve_linear_program};
 pub use quadratic::QuadraticProgram;
+pub use supernodes::{Slot, SymbolicFactor};

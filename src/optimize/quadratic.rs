@@ -5,13 +5,20 @@
 //! interior-point method from the start.
 
 use super::active_set::ActiveSet;
+use super::cholesky::PivotRule;
+use super::cuthill_mckee::neighbours;
 use super::interior_point;
 use super::linear::{Row, Unsolved};
-use super::sparse_cholesky::SparseCholesky;
+use super::sparse_cholesky::{SparseCholesky, SparseMatrix};
+use super::supernodes::SymbolicFactor;
+use std::sync::Arc;
 
 /// The greatest number of multiplications to decompose H for which the active-set method is used: up to there it was
 /// measured to be the faster.
 const WORK_MAX: usize = 400_000_000;
+/// Threshold: H counts as singular if a pivot is not above this fraction, without unit, of its diagonal entry, a
+/// hundred times the rounding of double precision.
+const TOL_PIVOT: f64 = 1e-14;
 
 /// The convex quadratic program `min ½ xᵀ H x + c·x` subject to `E x = e` and `G x ≤ g`, whose rows are added one by
 /// one; between solutions it is warm-started.
@@ -33,7 +40,19 @@ impl QuadraticProgram {
     /// one entry for every variable; `tolerance`: the most by which the active-set method may leave a row violated,
     /// in the units of its right side.
     pub fn new(hessian: Vec<(usize, usize, f64)>, linear: Vec<f64>, tolerance: f64) -> QuadraticProgram {
-        let factor = SparseCholesky::new(linear.len(), &hessian, WORK_MAX);
+        QuadraticProgram::in_blocks(hessian, linear, tolerance, (1, None))
+    }
+
+    /// Returns the program of [`new`](Self::new) over variables in consecutive blocks of equal size, such as the
+    /// coordinates of nodes. `blocks`: that size, and an order of the blocks, numbered from 0, in which the decomposition of
+    /// H fills little; `None` for that of minimum degree.
+    pub fn in_blocks(
+        hessian: Vec<(usize, usize, f64)>,
+        linear: Vec<f64>,
+        tolerance: f64,
+        blocks: (usize, Option<&[usize]>),
+    ) -> QuadraticProgram {
+        let factor = factor(linear.len(), &hessian, blocks);
         let active = factor.map(|factor| ActiveSet::new(factor, &linear, tolerance));
         QuadraticProgram { hessian, linear, rows: Vec::new(), active }
     }
@@ -93,4 +112,32 @@ impl QuadraticProgram {
         let solved = interior_point::solve(&hessian, &self.linear, &of(true), &of(false));
         solved.map(|solution| solution.x).map_err(|why| if why == Unsolved::Numerical { doubt } else { why })
     }
+}
+
+/// Returns the decomposition of an n × n matrix from its entries on and above the diagonal; `None` if it is not positive
+/// definite within rounding, or takes too much work.
+fn factor(
+    n: usize,
+    entries: &[(usize, usize, f64)],
+    (size, order): (usize, Option<&[usize]>),
+) -> Option<SparseCholesky> {
+    let mut positive = vec![false; n];
+    entries.iter().filter(|(i, j, value)| i == j && *value > 0.0).for_each(|(i, _, _)| positive[*i] = true);
+    if positive.contains(&false) || !n.is_multiple_of(size) {
+        return None;
+    }
+    // Entries of one block often stand together.
+    let mut pairs: Vec<(usize, usize)> = entries.iter().map(|&(i, j, _)| (i / size, j / size)).collect();
+    pairs.dedup();
+    let neighbours = neighbours(n / size, pairs.into_iter());
+    let symbolic = match order {
+        Some(order) => SymbolicFactor::in_order(size, &neighbours, order),
+        None => SymbolicFactor::new(size, &neighbours),
+    };
+    if symbolic.work() > WORK_MAX {
+        return None;
+    }
+    let mut matrix = SparseMatrix::new(&Arc::new(symbolic));
+    entries.iter().for_each(|&(i, j, value)| matrix.add(i, j, value));
+    matrix.cholesky(PivotRule::Refuse(TOL_PIVOT))
 }

@@ -4,7 +4,7 @@
 //! Givens rotations make it triangular there. Unlike normal equations that does not square its condition, and the time
 //! grows with the nodes times the square of the band's width.
 
-use super::truss::{TOLERANCES, orthonormal, rigid_motions};
+use super::truss::{RigidityReport, TOLERANCES, orthonormal, rigid_motions};
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::cuthill_mckee;
@@ -17,14 +17,6 @@ const ITERATIONS_MAX: usize = 300;
 const SUBSPACE: usize = 8;
 /// The number of iterations in a row whose change must be within the tolerance for convergence.
 const CONVERGED_TIMES: usize = 4;
-
-/// The rigidity of a truss whose least singular value is clearly above zero.
-pub(super) struct RigidityReport {
-    /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
-    pub(super) weakest: f64,
-    /// Indices of the struts without any one of which the truss stays rigid, ascending.
-    pub(super) redundant: Vec<usize>,
-}
 
 /// Returns the rigidity of a truss with nodes at these positions (m) and struts between them (pairs of indices of
 /// nodes), by a banded QR decomposition (Givens rotations) of its rigidity matrix; `None` where it is not rigid, or

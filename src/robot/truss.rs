@@ -3,10 +3,11 @@
 //! half the squared lengths, with one row for each strut and three columns for each node.
 
 use super::banded_qr;
+use super::sparse_rigidity;
 use crate::geometry::Vec3;
 use nalgebra::{DMatrix, DVector};
 
-/// The number of nodes above which the banded decomposition is tried first: a dense one takes the cube of it.
+/// The number of nodes above which sparse decompositions are tried first: a dense one takes the cube of it.
 const NODES_DENSE: usize = 60;
 
 /// The tolerances with which the rigidity of trusses is examined, all relative and without unit.
@@ -24,6 +25,9 @@ pub(super) struct RigidityTolerances {
     /// The least singular value, as a fraction of the largest, above which a truss is clearly rigid, so that the banded
     /// decomposition decides. 1e-7: the square root of what counts as zero would be 3e-5, and rounding is 1e-16.
     pub clearly_rigid: f64,
+    /// The least singular value, as a fraction of the largest, above which normal equations decide. 1e-4: its square is far
+    /// above rounding.
+    pub well_conditioned: f64,
     /// The relative change of the value of an iteration up to which the iteration counts as converged. 1e-11: below
     /// what is shown.
     pub converged: f64,
@@ -37,6 +41,7 @@ pub(super) const TOLERANCES: RigidityTolerances = RigidityTolerances {
     displacement: 1e-6,
     redundant: 1e-9,
     clearly_rigid: 1e-7,
+    well_conditioned: 1e-4,
     converged: 1e-11,
     on_line: 1e-6,
 };
@@ -72,6 +77,14 @@ pub struct FreeMotion {
     pub nodes: Vec<(usize, Vec3)>,
 }
 
+/// The rigidity of a large truss whose least singular value is clearly above zero.
+pub(super) struct RigidityReport {
+    /// The least singular value that belongs to no motion of the whole, for struts of mean length 1.
+    pub(super) weakest: f64,
+    /// Indices of the struts without any one of which the truss stays rigid, ascending.
+    pub(super) redundant: Vec<usize>,
+}
+
 impl Rigidity {
     /// Returns true if the truss is infinitesimally rigid: only motions of the whole as a rigid body are free.
     pub fn rigid(&self) -> bool {
@@ -80,11 +93,12 @@ impl Rigidity {
 }
 
 /// Returns the infinitesimal rigidity of a truss with nodes at these positions (m) and struts between them, as pairs
-/// of indices of nodes that lie apart, from the singular values of the rigidity matrix; large trusses that are
-/// clearly rigid by a banded QR decomposition. Panics without nodes, and for a strut of a node that is not there.
+/// of indices of nodes that lie apart, from the singular values of the rigidity matrix; large trusses by sparse normal
+/// equations if these are well conditioned, or else by a banded QR decomposition if they are clearly rigid. Panics without nodes, and for a strut of a node that is not there.
 pub fn rigidity(nodes: &[Vec3], struts: &[(usize, usize)]) -> Rigidity {
     if nodes.len() > NODES_DENSE
-        && let Some(report) = banded_qr::examine(nodes, struts)
+        && let Some(report) =
+            sparse_rigidity::examine(nodes, struts).or_else(|| banded_qr::examine(nodes, struts))
     {
         let rank = 3 * nodes.len() - rigid_motions(nodes).len();
         return Rigidity {

@@ -1,6 +1,6 @@
 //! The forces in the struts and contacts of a truss that hold it under loads.
 
-use super::truss_layout::Layout;
+use super::truss_layout::{Layout, directions};
 use crate::geometry::Vec3;
 use crate::optimize::cholesky::PivotRule;
 use nalgebra::Matrix3;
@@ -129,22 +129,18 @@ impl Weights {
         self.struts.resize(struts.len(), 1.0);
         self.grips.iter_mut().for_each(|grip| *grip = (*grip * GRIP_GAIN).min(GRIP_MAX));
         let whole: f64 = model.loads.iter().map(Vec3::norm).sum();
-        let along: Vec<(Vec3, f64)> = struts
-            .iter()
-            .map(|&(a, b)| {
-                let d = x[b] - x[a];
-                (d / d.norm(), d.norm())
-            })
-            .collect();
+        let rows = directions(x, struts);
+        let length = |&(a, b): &(usize, usize)| (x[b] - x[a]).norm();
+        let along: Vec<(Vec3, f64)> = rows.iter().copied().zip(struts.iter().map(length)).collect();
         let mut error = ForcesError::Falls;
         for _ in 0..ROUNDS_MAX {
-            let mut matrix = layout.matrix(x, struts, |strut| 1.0 / self.struts[strut], 0.0);
+            let mut matrix = layout.matrix(&rows, struts, |strut| 1.0 / self.struts[strut], 0.0);
             for contact in contacts.iter().filter(|contact| !self.lifted[contact.node]) {
                 layout.add(&mut matrix, contact.node, &self.spring(contact));
             }
             let mut u = layout.gathered(|node| model.loads[node]);
             let factor = matrix.cholesky(PivotRule::Refuse(PIVOT)).ok_or(ForcesError::NoHold(0))?;
-            factor.solve(&mut u);
+            factor.solve_permuted(&mut u);
             let displacements: Vec<Vec3> = (0..x.len()).map(|node| layout.at(&u, node)).collect();
             // The contact that has to change most.
             let mut pulls: Option<(f64, usize)> = None;

@@ -1,90 +1,97 @@
-//! The envelope of a truss's stiffness matrix.
+//! The places of the entries of a truss's stiffness matrix.
 
 use crate::geometry::Vec3;
-use crate::optimize::SymmetricMatrix;
-use crate::optimize::cuthill_mckee;
+use crate::optimize::cuthill_mckee::neighbours;
+use crate::optimize::sparse_cholesky::SparseMatrix;
+use crate::optimize::{Slot, SymbolicFactor};
 use nalgebra::Matrix3;
+use std::sync::Arc;
 
-/// The order of the nodes of a truss in its stiffness matrix and the matrix's envelope, in which no decomposition
-/// fills anything outside.
+/// The dimension of space: the number of coordinates of a node.
+const DIMENSION: usize = 3;
+
+/// The order in which the nodes of a truss are eliminated in its stiffness matrix, so that its decomposition fills
+/// little, and where each node's and each strut's entries are. It depends on the graph alone, and is found once for a
+/// truss.
 #[derive(Clone, Debug)]
 pub struct Layout {
-    /// The number of each node in the matrix.
-    position: Vec<usize>,
-    /// The first column of each row.
-    first: Vec<usize>,
+    symbolic: Arc<SymbolicFactor>,
+    /// The diagonal block of each node.
+    nodes: Vec<Slot>,
+    /// The block of each strut beside the diagonal.
+    struts: Vec<Slot>,
 }
 
 impl Layout {
     /// Returns the layout of a truss of `nodes` nodes with `struts` between them, as pairs of indices of nodes: that of
-    /// reverse Cuthill and McKee. Panics for a strut of a node that is not there.
+    /// nested dissection. Panics for a strut of a node that is not there.
     pub fn new(nodes: usize, struts: &[(usize, usize)]) -> Layout {
-        let order = cuthill_mckee::reverse_order(nodes, struts.iter().copied());
-        let mut position = vec![0; nodes];
-        order.iter().enumerate().for_each(|(at, node)| position[*node] = at);
-        let mut first: Vec<usize> = (0..nodes).collect();
-        for &(a, b) in struts {
-            let (high, low) = (position[a].max(position[b]), position[a].min(position[b]));
-            first[high] = first[high].min(low);
+        let symbolic = SymbolicFactor::new(DIMENSION, &neighbours(nodes, struts.iter().copied()));
+        Layout {
+            nodes: (0..nodes).map(|node| symbolic.slot(node, node)).collect(),
+            struts: struts.iter().map(|&(a, b)| symbolic.slot(a, b)).collect(),
+            symbolic: Arc::new(symbolic),
         }
-        Layout { position, first: first.into_iter().flat_map(|node| [3 * node; 3]).collect() }
     }
 
     /// Returns the number of nodes.
     pub fn nodes(&self) -> usize {
-        self.position.len()
+        self.nodes.len()
     }
 
-    /// Returns the stiffness matrix `Σ k e eᵀ` of struts with the unit vectors `e` along them, in the order of this
-    /// layout, with `shift` on its diagonal. `x`: the positions of the nodes, m; `struts`: those of the layout;
-    /// `stiffness`: k of each strut by its index.
+    /// Returns the nodes in the order in which they are eliminated.
+    pub fn order(&self) -> &[usize] {
+        self.symbolic.order()
+    }
+
+    /// Returns the stiffness matrix `Σ k r rᵀ` of struts with the vectors `r` (`rows`) along them from their first node to
+    /// the second, in the order of this layout, with `shift` on its diagonal. `struts`: those of the layout; `stiffness`:
+    /// k of each strut by its index.
     pub(super) fn matrix(
         &self,
-        x: &[Vec3],
+        rows: &[Vec3],
         struts: &[(usize, usize)],
         stiffness: impl Fn(usize) -> f64,
         shift: f64,
-    ) -> SymmetricMatrix {
-        let mut matrix = SymmetricMatrix::with_envelope(self.first.clone());
-        for (strut, &(a, b)) in struts.iter().enumerate() {
-            let along = (x[b] - x[a]).normalize();
-            let block = along * along.transpose() * stiffness(strut);
-            self.add(&mut matrix, a, &block);
-            self.add(&mut matrix, b, &block);
-            let (high, low) = if self.position[a] > self.position[b] { (a, b) } else { (b, a) };
-            let (row, column) = (3 * self.position[high], 3 * self.position[low]);
-            for i in 0..3 {
-                for j in 0..3 {
-                    matrix.add(row + i, column + j, -block[(i, j)]);
-                }
-            }
+    ) -> SparseMatrix {
+        let mut matrix = SparseMatrix::new(&self.symbolic);
+        let shift = Matrix3::from_diagonal_element(shift);
+        let mut sums = vec![shift; self.nodes.len()];
+        for (strut, (&(a, b), row)) in struts.iter().zip(rows).enumerate() {
+            let block = row * row.transpose() * stiffness(strut);
+            sums[a] += block;
+            sums[b] += block;
+            matrix.add_block(self.struts[strut], &-block);
         }
-        (0..matrix.size()).for_each(|row| matrix.add(row, row, shift));
+        for (slot, block) in self.nodes.iter().zip(&sums) {
+            matrix.add_block(*slot, block);
+        }
         matrix
     }
 
     /// Adds a symmetric block to the diagonal of a matrix of this layout at a node.
-    pub(super) fn add(&self, matrix: &mut SymmetricMatrix, node: usize, block: &Matrix3<f64>) {
-        let row = 3 * self.position[node];
-        for i in 0..3 {
-            for j in 0..=i {
-                matrix.add(row + i, row + j, block[(i, j)]);
-            }
-        }
+    pub(super) fn add(&self, matrix: &mut SparseMatrix, node: usize, block: &Matrix3<f64>) {
+        matrix.add_block(self.nodes[node], block);
     }
 
-    /// Returns a vector with three coordinates for each node, in the order of the matrix.
+    /// Returns a vector with three coordinates for each node, in the order of the factor.
     pub(super) fn gathered(&self, nodes: impl Fn(usize) -> Vec3) -> Vec<f64> {
-        let mut vector = vec![0.0; 3 * self.position.len()];
-        for (node, at) in self.position.iter().enumerate() {
-            vector[3 * at..3 * at + 3].copy_from_slice(nodes(node).as_slice());
-        }
-        vector
+        self.order().iter().flat_map(|node| <[f64; DIMENSION]>::from(nodes(*node))).collect()
     }
 
-    /// Returns the three coordinates that a vector in the order of the matrix has for a node.
+    /// Returns the three coordinates that a vector in the order of the factor has for a node.
     pub(super) fn at(&self, vector: &[f64], node: usize) -> Vec3 {
-        let at = 3 * self.position[node];
+        let at = self.row(node);
         Vec3::new(vector[at], vector[at + 1], vector[at + 2])
     }
+
+    /// Returns the index of the first coordinate that a vector in the order of the factor has for a node.
+    pub(super) fn row(&self, node: usize) -> usize {
+        DIMENSION * self.symbolic.place(node)
+    }
+}
+
+/// Returns the unit vectors along struts, from the first node to the second. `x`: the positions of the nodes, m.
+pub(super) fn directions(x: &[Vec3], struts: &[(usize, usize)]) -> Vec<Vec3> {
+    struts.iter().map(|&(a, b)| (x[b] - x[a]).normalize()).collect()
 }

@@ -1,14 +1,15 @@
 //! The least singular values of the rigidity matrix, by subspace iteration.
 
-use super::truss_layout::Layout;
+use super::truss_layout::{Layout, directions};
 use crate::geometry::Vec3;
-use crate::optimize::cholesky::{Cholesky, PivotRule};
+use crate::optimize::cholesky::PivotRule;
 use crate::optimize::random::SplitMix64;
+use crate::optimize::sparse_cholesky::SparseCholesky;
 use crate::robot::truss::rigid_motions;
 use nalgebra::DMatrix;
 
-/// The number of vectors that the iteration carries beyond those asked for: clusters of values then converge.
-const SPARE: usize = 4;
+/// The number of vectors that the iteration carries, more than are asked for: clusters of values then converge.
+const VECTORS: usize = 8;
 /// The part of the mean diagonal entry that is added to the diagonal, so that the matrix, which is singular for rigid
 /// motions, has a decomposition; without unit.
 const SHIFT: f64 = 1e-8;
@@ -17,6 +18,8 @@ const SHIFT: f64 = 1e-8;
 const RESIDUAL: f64 = 1e-10;
 /// The same for searches of steps.
 const RESIDUAL_COARSE: f64 = 1e-6;
+/// The greatest number of independent rigid motions.
+const RIGID_MAX: usize = 6;
 /// The greatest number of iterations: after so many a value is as good as the iteration can make it.
 const ITERATIONS_MAX: usize = 200;
 
@@ -33,23 +36,32 @@ pub struct Mode {
 /// The modes found last, from which the next search begins; none at first.
 #[derive(Clone, Debug, Default)]
 pub struct Modes {
-    /// Orthonormal vectors in the order of the layout.
-    vectors: Vec<Vec<f64>>,
-    /// True if a coarse residual is enough.
-    coarse: bool,
+    /// Orthonormal vectors, the columns, in the order of the layout.
+    vectors: Vec<[f64; VECTORS]>,
+    /// The number of columns that are not zero.
+    wanted: usize,
+    /// The singular value above which none is of interest, if a coarse residual is enough.
+    coarse: Option<f64>,
+}
+
+/// The rigidity matrix of a truss: a row for each strut with a vector along it at one node, and minus that at the other.
+struct Matrix<'a> {
+    layout: &'a Layout,
+    struts: &'a [(usize, usize)],
+    rows: &'a [Vec3],
 }
 
 impl Modes {
     /// Returns these modes for searches of steps: values are found to 1e-9 and vectors to a thousandth of their distance
-    /// from others.
-    pub fn coarse(self) -> Modes {
-        Modes { coarse: true, ..self }
+    /// from others, and those of values above `within` as they come.
+    pub fn coarse(self, within: f64) -> Modes {
+        Modes { coarse: Some(within), ..self }
     }
 
-    /// Returns the modes of the `count` least singular values of the rigidity matrix, in ascending order, those of the
-    /// six rigid motions of the whole left out; fewer if the truss has not so many. `x`: the positions of the nodes,
-    /// m; `struts`: those of the layout. Found by subspace iteration (Bathe 1971) with the inverse of `RᵀR` beside its
-    /// null space, which is known.
+    /// Returns the modes of the `count` least singular values of the rigidity matrix of unit rows, in ascending order,
+    /// those of the six rigid motions of the whole left out; fewer if the truss has not so many. `x`: the positions of
+    /// the nodes, m; `struts`: those of the layout. Found by subspace iteration (Bathe 1971) with the inverse of `RᵀR`
+    /// beside its null space, which is known.
     pub fn weakest(
         &mut self,
         layout: &Layout,
@@ -57,88 +69,97 @@ impl Modes {
         struts: &[(usize, usize)],
         count: usize,
     ) -> Vec<Mode> {
+        self.weakest_of(layout, x, (struts, &directions(x, struts)), count)
+    }
+
+    /// Returns the modes of [`weakest`](Self::weakest) for the matrix whose rows are these vectors along the struts.
+    pub(super) fn weakest_of(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        (struts, rows): (&[(usize, usize)], &[Vec3]),
+        count: usize,
+    ) -> Vec<Mode> {
         let n = 3 * layout.nodes();
-        let rigid: Vec<Vec<f64>> = rigid_motions(x)
-            .iter()
-            .map(|motion| layout.gathered(|node| motion.fixed_rows::<3>(3 * node).into()))
-            .collect();
-        let wanted = (count + SPARE).min(n - rigid.len().min(n));
+        let motions = rigid_motions(x);
+        let wanted = VECTORS.min(n - motions.len().min(n));
         if wanted == 0 || struts.is_empty() {
             return Vec::new();
         }
-        let along: Vec<Vec3> = struts.iter().map(|&(a, b)| (x[b] - x[a]).normalize()).collect();
-        let shift = SHIFT * 2.0 * struts.len() as f64 / n as f64;
-        let matrix = layout.matrix(x, struts, |_| 1.0, shift);
-        let Some(factor) = matrix.cholesky(PivotRule::Raise(shift * SHIFT)) else { return Vec::new() };
-        if self.vectors.len() != wanted || self.vectors[0].len() != n {
-            self.vectors = begun(n, wanted);
+        let mut rigid = vec![[0.0; RIGID_MAX]; n];
+        for (k, motion) in motions.iter().enumerate() {
+            let gathered = layout.gathered(|node| motion.fixed_rows::<3>(3 * node).into());
+            rigid.iter_mut().zip(gathered).for_each(|(row, value)| row[k] = value);
         }
-        let mut values = vec![0.0; wanted];
+        let matrix = Matrix { layout, struts, rows };
+        let trace: f64 = rows.iter().map(|row| 2.0 * row.norm_squared()).sum();
+        let shift = SHIFT * trace / n as f64;
+        let shifted = layout.matrix(rows, struts, |_| 1.0, shift);
+        let Some(factor) = shifted.cholesky(PivotRule::Raise(shift * SHIFT)) else { return Vec::new() };
+        if self.vectors.len() != n || self.wanted != wanted {
+            (self.vectors, self.wanted) = (begun(n, wanted), wanted);
+        }
+        let mut values = [0.0; VECTORS];
+        let count = count.min(wanted);
         for _ in 0..ITERATIONS_MAX {
-            let done = self.iterate(layout, struts, &along, &rigid, &factor, &mut values);
-            if done >= count.min(wanted) {
+            if self.iterate(&matrix, &rigid, &factor, &mut values) >= count {
                 break;
             }
         }
-        let mode = |at: usize| Mode {
-            value: values[at].max(0.0).sqrt(),
-            nodes: (0..layout.nodes()).map(|node| layout.at(&self.vectors[at], node)).collect(),
+        let mode = |at: usize| {
+            let column: Vec<f64> = self.vectors.iter().map(|row| row[at]).collect();
+            let nodes = (0..layout.nodes()).map(|node| layout.at(&column, node)).collect();
+            Mode { value: values[at].max(0.0).sqrt(), nodes }
         };
-        (0..count.min(wanted)).map(mode).collect()
+        (0..count).map(mode).collect()
     }
 
     /// Makes one iteration; `values` become the Ritz values, ascending, and the vectors theirs. Returns the number of
-    /// leading ones that have converged.
+    /// leading ones that have converged; all, if the next is of no interest.
     fn iterate(
         &mut self,
-        layout: &Layout,
-        struts: &[(usize, usize)],
-        along: &[Vec3],
-        rigid: &[Vec<f64>],
-        factor: &Cholesky,
-        values: &mut [f64],
+        matrix: &Matrix,
+        rigid: &[[f64; RIGID_MAX]],
+        factor: &SparseCholesky,
+        values: &mut [f64; VECTORS],
     ) -> usize {
-        for at in 0..self.vectors.len() {
-            let (done, rest) = self.vectors.split_at_mut(at);
-            let vector = &mut rest[0];
-            factor.solve(vector);
-            // Twice is enough (Kahan; Parlett 1980, sec. 6.9).
-            for _ in 0..2 {
-                scale(vector);
-                rigid.iter().chain(done.iter()).for_each(|other| remove(vector, other));
-            }
-            scale(vector);
+        factor.solve_columns(&mut self.vectors);
+        // Twice is enough (Kahan; Parlett 1980, sec. 6.9).
+        for _ in 0..2 {
+            normalise(&mut self.vectors);
+            remove(&mut self.vectors, rigid);
         }
+        orthonormalise(&mut self.vectors);
         // The matrix on the subspace, and its eigenvectors.
-        let images: Vec<Vec<f64>> = self.vectors.iter().map(|v| product(layout, struts, along, v)).collect();
-        let count = self.vectors.len();
-        let ritz = DMatrix::from_fn(count, count, |i, j| dot(&self.vectors[i], &images[j]));
-        let eigen = ((&ritz + ritz.transpose()) * 0.5).symmetric_eigen();
-        let mut order: Vec<usize> = (0..count).collect();
+        let images = matrix.squared_times(&self.vectors);
+        let ritz = products(&self.vectors, &images);
+        let ritz = DMatrix::from_fn(self.wanted, self.wanted, |i, j| (ritz[i][j] + ritz[j][i]) / 2.0);
+        let eigen = ritz.symmetric_eigen();
+        let mut order: Vec<usize> = (0..self.wanted).collect();
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-        let turned = |of: &[Vec<f64>], k: usize| {
-            let mut sum = vec![0.0; of[0].len()];
-            for (j, vector) in of.iter().enumerate() {
-                let part = eigen.eigenvectors[(j, order[k])];
-                sum.iter_mut().zip(vector).for_each(|(s, v)| *s += part * v);
-            }
-            sum
-        };
-        let enough = if self.coarse { RESIDUAL_COARSE } else { RESIDUAL };
-        let mut converged = 0;
-        let mut vectors = Vec::with_capacity(count);
-        for k in 0..count {
-            values[k] = eigen.eigenvalues[order[k]];
-            let (vector, image) = (turned(&self.vectors, k), turned(&images, k));
-            let residual: f64 =
-                vector.iter().zip(&image).map(|(v, a)| (a - values[k] * v) * (a - values[k] * v)).sum();
-            if converged == k && residual <= enough * enough {
-                converged += 1;
-            }
-            vectors.push(vector);
+        let mut turn = [[0.0; VECTORS]; VECTORS];
+        for (k, &from) in order.iter().enumerate() {
+            values[k] = eigen.eigenvalues[from];
+            (0..self.wanted).for_each(|j| turn[j][k] = eigen.eigenvectors[(j, from)]);
         }
-        self.vectors = vectors;
-        converged
+        let mut residuals = [0.0; VECTORS];
+        for (vector, image) in self.vectors.iter_mut().zip(&images) {
+            let turned = combined(image, &turn);
+            *vector = combined(vector, &turn);
+            for k in 0..VECTORS {
+                let rest = turned[k] - values[k] * vector[k];
+                residuals[k] += rest * rest;
+            }
+        }
+        let enough = if self.coarse.is_some() { RESIDUAL_COARSE } else { RESIDUAL };
+        let converged =
+            residuals[..self.wanted].iter().take_while(|square| **square <= enough * enough).count();
+        // An eigenvalue is no farther from a Ritz value than the residual.
+        let beyond = |within: f64| {
+            (1..self.wanted).contains(&converged)
+                && values[converged] - residuals[converged].sqrt() > within * within
+        };
+        if self.coarse.is_some_and(beyond) { self.wanted } else { converged }
     }
 }
 
@@ -147,37 +168,99 @@ impl Modes {
 /// pivots of `RᵀR - limit² I`. `None` where a pivot is zero within rounding, which tells nothing. `x`: the positions
 /// of the nodes, m; `struts`: those of the layout.
 pub fn below(layout: &Layout, x: &[Vec3], struts: &[(usize, usize)], limit: f64) -> Option<usize> {
-    layout.matrix(x, struts, |_| 1.0, -limit * limit).negative_pivots()
+    layout.matrix(&directions(x, struts), struts, |_| 1.0, -limit * limit).negative_pivots()
 }
 
 /// Returns independent vectors to begin with.
-fn begun(n: usize, count: usize) -> Vec<Vec<f64>> {
+fn begun(n: usize, count: usize) -> Vec<[f64; VECTORS]> {
     let mut random = SplitMix64(1);
-    (0..count).map(|_| (0..n).map(|_| random.next_signed()).collect()).collect()
-}
-
-/// Returns `Σ e (e·(v_b - v_a))` at the ends of the struts: `RᵀR v`.
-fn product(layout: &Layout, struts: &[(usize, usize)], along: &[Vec3], v: &[f64]) -> Vec<f64> {
-    let mut sums = vec![Vec3::zeros(); layout.nodes()];
-    for (&(a, b), e) in struts.iter().zip(along) {
-        let pull = e * e.dot(&(layout.at(v, b) - layout.at(v, a)));
-        sums[b] += pull;
-        sums[a] -= pull;
+    let mut vectors = vec![[0.0; VECTORS]; n];
+    for k in 0..count {
+        vectors.iter_mut().for_each(|row| row[k] = random.next_signed());
     }
-    layout.gathered(|node| sums[node])
+    vectors
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(p, q)| p * q).sum()
+impl Matrix<'_> {
+    /// Returns `RᵀR V`, for each column v `Σ r (r·(v_b - v_a))` at the ends of the struts.
+    fn squared_times(&self, v: &[[f64; VECTORS]]) -> Vec<[f64; VECTORS]> {
+        let Matrix { layout, struts, rows } = *self;
+        let mut sums = vec![[0.0; VECTORS]; v.len()];
+        for (&(a, b), r) in struts.iter().zip(rows) {
+            let (a, b) = (layout.row(a), layout.row(b));
+            let mut pulls = [0.0; VECTORS];
+            for k in 0..3 {
+                let (from, to) = (&v[a + k], &v[b + k]);
+                (0..VECTORS).for_each(|column| pulls[column] += r[k] * (to[column] - from[column]));
+            }
+            for k in 0..3 {
+                (0..VECTORS).for_each(|column| sums[a + k][column] -= r[k] * pulls[column]);
+                (0..VECTORS).for_each(|column| sums[b + k][column] += r[k] * pulls[column]);
+            }
+        }
+        sums
+    }
 }
 
-fn scale(vector: &mut [f64]) {
-    let size = dot(vector, vector).sqrt().max(f64::MIN_POSITIVE);
-    vector.iter_mut().for_each(|v| *v /= size);
+/// Returns the dot products of the columns of two matrices, `AᵀB`.
+fn products<const N: usize>(a: &[[f64; N]], b: &[[f64; VECTORS]]) -> [[f64; VECTORS]; N] {
+    let mut sums = [[0.0; VECTORS]; N];
+    for (row, other) in a.iter().zip(b) {
+        for (sums, value) in sums.iter_mut().zip(row) {
+            (0..VECTORS).for_each(|column| sums[column] += value * other[column]);
+        }
+    }
+    sums
 }
 
-/// Takes from a vector its part along a unit vector.
-fn remove(vector: &mut [f64], unit: &[f64]) {
-    let part = dot(vector, unit);
-    vector.iter_mut().zip(unit).for_each(|(v, u)| *v -= part * u);
+/// Returns a row times a matrix.
+fn combined<const N: usize>(row: &[f64; N], matrix: &[[f64; VECTORS]; N]) -> [f64; VECTORS] {
+    let mut sums = [0.0; VECTORS];
+    for (value, other) in row.iter().zip(matrix) {
+        (0..VECTORS).for_each(|column| sums[column] += value * other[column]);
+    }
+    sums
+}
+
+/// Scales columns to length 1; those of zeros stay.
+fn normalise(vectors: &mut [[f64; VECTORS]]) {
+    let mut squares = [0.0; VECTORS];
+    for row in &*vectors {
+        (0..VECTORS).for_each(|column| squares[column] += row[column] * row[column]);
+    }
+    let sizes = squares.map(|square: f64| square.sqrt().max(f64::MIN_POSITIVE));
+    for row in vectors {
+        (0..VECTORS).for_each(|column| row[column] /= sizes[column]);
+    }
+}
+
+/// Takes from each column its part in the span of orthonormal ones.
+fn remove<const N: usize>(vectors: &mut [[f64; VECTORS]], units: &[[f64; N]]) {
+    let parts = products(units, vectors);
+    for (row, unit) in vectors.iter_mut().zip(units) {
+        let along = combined(unit, &parts);
+        (0..VECTORS).for_each(|column| row[column] -= along[column]);
+    }
+}
+
+/// Makes columns orthonormal, each after those before it, by the method of Gram and Schmidt, twice for accuracy.
+fn orthonormalise(vectors: &mut [[f64; VECTORS]]) {
+    for own in 0..VECTORS {
+        for _ in 0..2 {
+            let mut parts = [0.0; VECTORS];
+            for row in &*vectors {
+                (0..VECTORS).for_each(|column| parts[column] += row[column] * row[own]);
+            }
+            parts[own..].fill(0.0);
+            let mut square = 0.0;
+            for row in &mut *vectors {
+                let mut along = 0.0;
+                (0..VECTORS).for_each(|column| along += parts[column] * row[column]);
+                row[own] -= along;
+                square += row[own] * row[own];
+            }
+            let size = square.sqrt().max(f64::MIN_POSITIVE);
+            vectors.iter_mut().for_each(|row| row[own] /= size);
+        }
+    }
 }

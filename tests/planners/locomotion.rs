@@ -7,10 +7,11 @@ use modl::geometry::Vec3;
 use modl::planners::NoProgress;
 use modl::planners::locomote::{End, Hold, Objective, Settings, Travel, cost, follow_path};
 use modl::planners::truss::constraint::Constraint;
-use modl::planners::truss::motion::Move;
+use modl::planners::truss::motion::{Move, moved};
 use modl::planners::truss::roll::rolled;
 use modl::planners::truss::step::{QuadraticCost, StepProblem, WarmStart, step};
 use modl::planners::truss::{Limits, Structure};
+use nalgebra::DMatrix;
 
 /// Five strokes of 8, 6, 8, 6 and 8 from where the robot stands, turned by an angle in degrees.
 fn s_path(turned: f64) -> Vec<[f64; 2]> {
@@ -39,14 +40,55 @@ fn the_s_is_travelled() {
             [Objective::Springs, Objective::Lengths { damping: 1.0 }, Objective::Restoring { damping: 1.0 }];
         cases = turned.iter().flat_map(|&turned| objectives.map(|aim| (turned, aim))).collect();
     }
+    let (truss, start) = robot();
+    let limits = Limits { rigidity: RIGIDITY, ..Limits::default() };
+    let rigid = truss.clone().with_limits(&start, limits);
     for (turned, aim) in cases {
-        let travel = travelled(&s_path(turned), &stepping(aim, 3000));
-        assert_eq!(travel.end, End::Arrived, "turned by {turned}, {aim:?}");
-        assert_eq!(travel.reached, 6);
-        assert!((640..=720).contains(&travel.steps), "{} steps", travel.steps);
-        if whole() {
-            keeps_its_limits(&travel);
+        for truss in [&truss, &rigid] {
+            let travel = follow_path(truss, &start, &s_path(turned), &stepping(aim, 3000), &mut NoProgress);
+            assert_eq!(travel.end, End::Arrived, "turned by {turned}, {aim:?}");
+            assert_eq!(travel.reached, 6);
+            assert!((640..=720).contains(&travel.steps), "{} steps", travel.steps);
+            assert!(travel.slip < 1.0, "{} m slid", travel.slip);
+            if whole() {
+                keeps_its_limits(&travel);
+            }
+            if truss.limits.rigidity > 0.0 {
+                stays_rigid(&travel);
+            }
         }
+    }
+}
+
+/// The least singular value that walks are asked to keep.
+const RIGIDITY: f64 = 0.05;
+
+/// At the ends and in the middle of steps, of all where the whole is asked for, by nalgebra's eigenvalues: the planner
+/// counts pivots and iterates.
+fn stays_rigid(travel: &Travel) {
+    let (truss, mut x) = robot();
+    let every = if whole() { 1 } else { 7 };
+    for (number, step) in travel.moves.iter().enumerate() {
+        let Move::Linear(y) = step else {
+            x = moved(&x, step);
+            continue;
+        };
+        for part in [0.5, 1.0].into_iter().filter(|_| number % every == 0) {
+            let at: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| p + (q - p) * part).collect();
+            let mut squares = DMatrix::<f64>::zeros(3 * at.len(), 3 * at.len());
+            for &(a, b) in &truss.struts {
+                let e = (at[a] - at[b]).normalize();
+                let block = e * e.transpose();
+                for (row, column, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {
+                    let mut part = squares.fixed_view_mut::<3, 3>(3 * row, 3 * column);
+                    part += block * sign;
+                }
+            }
+            let mut values: Vec<f64> = squares.symmetric_eigenvalues().iter().copied().collect();
+            values.sort_by(f64::total_cmp);
+            assert!(values[6] > (RIGIDITY - 1e-6).powi(2), "{} in step {number}", values[6].max(0.0).sqrt());
+        }
+        x.clone_from(y);
     }
 }
 

@@ -14,4 +14,5 @@ pub mod near_pairs;
 pub mod quadratic;
 pub mod rigidity;
 pub mod rofi;
+pub mod sparse_cholesky;
 pub mod urdf;

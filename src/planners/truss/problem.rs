@@ -15,9 +15,6 @@ use crate::units::{Dimension, quantity};
 use std::f64::consts::FRAC_PI_3;
 use std::fmt;
 
-/// The number of nodes of the largest truss whose rigidity can be limited: the eigenvalues of a larger one take
-/// minutes.
-pub const RIGIDITY_NODES_MAX: usize = 200;
 /// The least angle between struts is limited below this, rad: three struts that make a triangle can't all
 /// be farther apart in angle.
 const ANGLE_LIMIT_MAX: f64 = FRAC_PI_3;
@@ -72,11 +69,6 @@ pub enum InvalidTruss {
     AngleLimit,
     /// The limit of the singular values is negative or not a number.
     RigidityLimit,
-    /// Rigidity is limited, and there are more than [`RIGIDITY_NODES_MAX`] nodes.
-    RigidityNodes {
-        /// The number of nodes of the truss.
-        nodes: usize,
-    },
     /// A loop has fewer than two struts.
     ShortLoop,
     /// A strut is nearer to an obstacle at the start than the clearance that it has to keep.
@@ -117,10 +109,6 @@ impl fmt::Display for InvalidTruss {
                 f.write_str("an angle between struts is at least 0 and less than 60deg")
             }
             InvalidTruss::RigidityLimit => f.write_str("a singular value is not negative"),
-            InvalidTruss::RigidityNodes { nodes } => write!(
-                f,
-                "the singular values of a truss of more than {RIGIDITY_NODES_MAX} nodes take too long; this one has {nodes}"
-            ),
             InvalidTruss::ShortLoop => f.write_str("a perimeter has at least two struts"),
             InvalidTruss::NearObstacle { strut, obstacle, .. } => {
                 write!(f, "the strut {strut} is too near to obstacle {} where the truss begins", obstacle + 1)
@@ -199,9 +187,6 @@ impl TrussProblem {
         }
         if rigidity.is_nan() || *rigidity < 0.0 {
             return Err(InvalidTruss::RigidityLimit);
-        }
-        if *rigidity > 0.0 && self.nodes.len() > RIGIDITY_NODES_MAX {
-            return Err(InvalidTruss::RigidityNodes { nodes: self.nodes.len() });
         }
         if loops.iter().any(|struts| struts.len() < 2) {
             return Err(InvalidTruss::ShortLoop);

@@ -5,11 +5,11 @@
 //! at the other: R times the velocities of the nodes is the rates of length. It is the Jacobian of the
 //! lengths.
 
-use super::problem::RIGIDITY_NODES_MAX;
 use super::structure::Structure;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
 use crate::robot::truss_statics::{self as statics, Layout, Modes};
+use nalgebra::{Matrix3, Rotation3};
 
 /// The dimension of the rigid motions of the whole truss: so many singular values of R are always zero.
 const RIGID: usize = 6;
@@ -18,6 +18,24 @@ const RIGID: usize = 6;
 const KEPT: f64 = 0.05;
 /// The part of the least singular value at the start that they keep if that is less.
 const KEPT_PART: f64 = 0.125;
+
+/// The multiple of what half a step may change a singular value by that a bound asks for beyond the limit, so that it
+/// serves some steps.
+const GAIN: f64 = 6.0;
+/// The factors of that multiple where a bound held, and where it did not.
+const GAIN_CHANGES: (f64, f64) = (1.5, 0.5);
+/// The number of iterations for the bound on a change.
+const CHANGE_ITERATIONS: usize = 8;
+/// The least entry of its vector, of which the greatest is 1.
+const Z_MIN: f64 = 1e-3;
+/// The number of checks after which more than the limit is asked again.
+const MODEST_CHECKS: usize = 8;
+/// The multiple of the limit above which singular values are of no interest.
+const INTEREST: f64 = 2.0;
+
+/// The part of the limit by which a singular value may be above it at the start of a step so that it has a row in the
+/// next.
+pub(super) const NEAR: f64 = 0.7;
 
 /// A singular value of the rigidity matrix (the Jacobian of the strut lengths) with its singular vectors: over the
 /// struts (left) and over the nodes' coordinates (right).
@@ -48,25 +66,125 @@ pub(super) fn weakest(truss: &Structure, x: &[Vec3], count: usize, known: &mut M
     known.weakest(&truss.layout, x, &truss.struts, count).into_iter().map(mode).collect()
 }
 
+/// Returns modes for the search of steps, which need not know what is far above the limit of the truss.
+pub(super) fn coarse(known: Modes, truss: &Structure) -> Modes {
+    known.coarse(INTEREST * truss.limits.rigidity)
+}
+
 /// Returns the limit on the least singular value of the rigidity matrix, without unit, that the planners keep where
 /// none is stated: 0.05, or an eighth of the value at the start if that is less; 0, for no limit, for a truss that is
-/// not rigid at the start or has more than [`RIGIDITY_NODES_MAX`] nodes. `start`: the positions of the nodes, m;
-/// `struts`: the two nodes of each, which must be apart.
+/// not rigid at the start. `start`: the positions of the nodes, m; `struts`: the two nodes of each, which must be apart.
 pub fn kept(start: &[Vec3], struts: &[(usize, usize)]) -> f64 {
-    if start.len() > RIGIDITY_NODES_MAX || struts.iter().any(|&(a, b)| start[a] == start[b]) {
+    if struts.iter().any(|&(a, b)| start[a] == start[b]) {
         return 0.0;
     }
     let layout = Layout::new(start.len(), struts);
-    let modes = Modes::default().weakest(&layout, start, struts, 1);
+    let modes = Modes::default().coarse(f64::INFINITY).weakest(&layout, start, struts, 1);
     let least = modes.first().map_or(0.0, |mode| mode.value);
     if least > Tolerances::DEFAULT.not_rigid { KEPT.min(KEPT_PART * least) } else { 0.0 }
 }
 
-/// Returns true if more singular values of the rigidity matrix than the six of rigid motions are below the limit of the
-/// truss, or within rounding of it.
-pub(super) fn is_violated(truss: &Structure, x: &[Vec3]) -> bool {
-    let count = statics::below(&truss.layout, x, &truss.struts, truss.limits.rigidity);
-    count.is_none_or(|count| count > RIGID)
+/// A lower bound on the least singular value of the rigidity matrix that belongs to no rigid motion, at some positions of the
+/// nodes. It serves all positions that the nodes reach before directions of struts have changed by as much as is to
+/// spare.
+#[derive(Clone, Debug)]
+pub(super) struct Bound {
+    /// The positions, m; empty for no bound.
+    x: Vec<Vec3>,
+    /// The bound there, without unit.
+    least: f64,
+    /// The multiple that is asked for the next time.
+    gain: f64,
+    /// The number of checks for which nothing more than the limit is asked, since more did not hold.
+    modest: usize,
+}
+
+impl Default for Bound {
+    fn default() -> Bound {
+        Bound { x: Vec::new(), least: 0.0, gain: GAIN, modest: 0 }
+    }
+}
+
+impl Bound {
+    /// Returns those of the positions `y` and half-way to them from `x` (m) at which a singular value is below the limit
+    /// of the truss, or within rounding of it.
+    pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
+        let limit = truss.limits.rigidity;
+        let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
+        if self.holds(truss, y, limit) && self.holds(truss, &middle, limit) {
+            return Vec::new();
+        }
+        // As much more as serves the middle and some steps to come.
+        let back = change(truss, y, &middle);
+        if self.modest == 0 {
+            let asked = limit + self.gain * back;
+            if is_above(truss, y, asked) {
+                let gain = self.gain * GAIN_CHANGES.0;
+                *self = Bound { x: y.to_vec(), least: asked, gain, modest: 0 };
+                return Vec::new();
+            }
+            // Little more than the middle needs would not serve another step.
+            self.gain *= GAIN_CHANGES.1;
+            if self.gain < 1.0 {
+                (self.gain, self.modest) = (GAIN, MODEST_CHECKS);
+            }
+        }
+        self.modest = self.modest.saturating_sub(1);
+        self.x.clear();
+        [y.to_vec(), middle].into_iter().filter(|z| !is_above(truss, z, limit)).collect()
+    }
+
+    fn holds(&self, truss: &Structure, y: &[Vec3], limit: f64) -> bool {
+        self.x.len() == y.len() && self.least - change(truss, &self.x, y) >= limit
+    }
+}
+
+/// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.
+fn is_above(truss: &Structure, x: &[Vec3], limit: f64) -> bool {
+    statics::below(&truss.layout, x, &truss.struts, limit).is_some_and(|count| count <= RIGID)
+}
+
+/// Returns an upper bound on what any singular value of the rigidity matrix changes by between two positions of the nodes,
+/// m: the norm of the change E of the matrix (Weyl 1912), after a rotation of the whole truss, which changes none. For
+/// each strut, `(e·(v_a - v_b))² ≤ e² (|v_a| + |v_b|)²`, so that the square of that norm is at most the greatest
+/// eigenvalue of the nonnegative matrix M with e² for each strut, and the sums of these on its diagonal; which is at most
+/// the greatest of `(M z)_i / z_i`, whatever the positive vector z (Collatz 1942).
+fn change(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> f64 {
+    let along = |x: &[Vec3], &(a, b): &(usize, usize)| (x[b] - x[a]).normalize();
+    let directions: Vec<(Vec3, Vec3)> =
+        truss.struts.iter().map(|ends| (along(x, ends), along(y, ends))).collect();
+    let turn = rotation(&directions);
+    let squares: Vec<f64> = directions.iter().map(|(from, to)| (to - turn * from).norm_squared()).collect();
+    let mut z = vec![1.0; truss.nodes];
+    let mut bound = f64::INFINITY;
+    for _ in 0..CHANGE_ITERATIONS {
+        let mut next = vec![0.0; truss.nodes];
+        for (&(a, b), square) in truss.struts.iter().zip(&squares) {
+            let both = square * (z[a] + z[b]);
+            next[a] += both;
+            next[b] += both;
+        }
+        let greatest = next.iter().zip(&z).map(|(next, z)| next / z).fold(0.0, f64::max);
+        bound = greatest.min(bound);
+        // No entry may become zero.
+        z.iter_mut()
+            .zip(&next)
+            .for_each(|(z, next)| *z = (next / greatest.max(f64::MIN_POSITIVE)).max(Z_MIN));
+    }
+    bound.sqrt()
+}
+
+/// Returns the rotation that brings directions nearest to others, by least squares (Horn 1987), from the average of where
+/// they are turned to; none where that does not tell.
+fn rotation(directions: &[(Vec3, Vec3)]) -> Rotation3<f64> {
+    let sum: Matrix3<f64> = directions.iter().map(|(from, to)| to * from.transpose()).sum();
+    let svd = sum.svd(true, true);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return Rotation3::identity() };
+    let sign = (u * v).determinant().signum();
+    let weakest = svd.singular_values.imin();
+    let mut flips = Vec3::repeat(1.0);
+    flips[weakest] = sign;
+    Rotation3::from_matrix_unchecked(u * Matrix3::from_diagonal(&flips) * v)
 }
 
 /// Returns mode i (an index in `modes`) for i = j, else the normalised sum (i < j) or difference (i > j) of two modes,

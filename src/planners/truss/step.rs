@@ -12,7 +12,7 @@ use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
 use super::environment;
 use super::forces;
-use super::rigidity::{self, Mode};
+use super::rigidity::{self, Bound, Mode};
 use super::structure::Structure;
 use super::support_polygon;
 use crate::geometry::Vec3;
@@ -27,6 +27,9 @@ use std::mem;
 const ROUNDS_MAX: usize = 40;
 /// The number of singular values of the rigidity matrix that are constrained: the least often come several together.
 const MODES: usize = 4;
+/// The part of what rows of one step asked of singular values, beside their limit, that those of the next step ask at
+/// once: curvature changes little from step to step.
+const CURVATURE_KEPT: f64 = 0.8;
 
 /// The cost `½ uᵀ H u + c·u + Σ |a·u|` over the displacements u of the nodes (m), of which node k has the coordinates
 /// 3k to 3k + 2. Costs have no unit of their own: only their ratios count.
@@ -89,6 +92,10 @@ pub struct WarmStart {
     neighbours: Option<NeighbourList>,
     /// The least singular values of the rigidity matrix and their vectors.
     modes: Modes,
+    /// A bound on the least of them.
+    rigidity: Bound,
+    /// The value that rows of the last step asked of singular values for their curvature, m.
+    curvature: f64,
     /// The weights by which the forces of struts are distributed.
     weights: Weights,
 }
@@ -103,7 +110,7 @@ pub struct WarmStart {
 pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec3>, StepError> {
     let columns = columns(problem);
     let search = Search {
-        modes: mem::take(&mut warm_start.modes).coarse(),
+        modes: rigidity::coarse(mem::take(&mut warm_start.modes), problem.truss),
         weights: mem::take(&mut warm_start.weights),
     };
     let search = RefCell::new(search);
@@ -112,6 +119,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
     let problem = &StepProblem { cost: cost.as_ref().unwrap_or(problem.cost), ..*problem };
     let mut rows = Rows::new(problem, &columns, search);
     rows.forces = forces;
+    rows.curvature = CURVATURE_KEPT * warm_start.curvature;
     let found = stepped(problem, &columns, &mut rows, warm_start);
     let search = rows.search.into_inner();
     (warm_start.modes, warm_start.weights) = (search.modes, search.weights);
@@ -142,13 +150,18 @@ fn stepped(
             Err(Unsolved::Numerical) => return Err(StepError::NotConverged(rows.constraints())),
         };
         // Check all constraints at the end of the step and during it.
-        let violated = violated(problem, &y, &mut warm_start.neighbours, &rows.search);
+        let (neighbours, rigidity) = (&mut warm_start.neighbours, &mut warm_start.rigidity);
+        let violated = violated(problem, &y, (neighbours, rigidity), &rows.search);
         if violated.is_empty() {
-            let near = |constraint: &Constraint| {
-                matches!(constraint, Constraint::Rigidity(..) | Constraint::Force)
-                    || constraint.value(truss, &y) < tolerances.active_band * truss.unit
+            let near = |(constraint, asked): (&Constraint, &Asked)| match constraint {
+                // The value at the start tells enough, and costs nothing.
+                Constraint::Rigidity(..) => asked.value < rigidity::NEAR * truss.limits.rigidity * truss.unit,
+                Constraint::Force => true,
+                _ => constraint.value(truss, &y) < tolerances.active_band * truss.unit,
             };
-            warm_start.active = rows.constraints().into_iter().filter(near).collect();
+            let kept = rows.known.iter().filter(|row| near(*row)).map(|(constraint, _)| *constraint);
+            warm_start.active = kept.collect();
+            warm_start.curvature = rows.asked_of_modes();
             warm_start.neighbours.iter_mut().for_each(|list| list.moved(truss, &y));
             return Ok(y);
         }
@@ -171,6 +184,8 @@ struct Rows<'a> {
     known: BTreeMap<Constraint, Asked>,
     modes: OnceCell<Vec<Mode>>,
     forces: OnceCell<Result<Forces, ForcesError>>,
+    /// The value that rows of singular values ask for at first, m.
+    curvature: f64,
     search: RefCell<Search>,
 }
 
@@ -211,7 +226,11 @@ impl<'a> Rows<'a> {
         // Each absolute value |a·u| becomes a variable t of its own with t >= a·u and t >= -a·u.
         let free = linear.len();
         linear.resize(free + cost.absolutes.len(), 1.0);
-        let mut program = QuadraticProgram::new(hessian, linear, truss.tolerances.qp_residual * truss.unit);
+        let tolerance = truss.tolerances.qp_residual * truss.unit;
+        let order: Vec<usize> =
+            truss.layout.order().iter().filter_map(|node| Some(columns[*node]? / 3)).collect();
+        let blocks = if cost.absolutes.is_empty() { (3, Some(&order[..])) } else { (1, None) };
+        let mut program = QuadraticProgram::in_blocks(hessian, linear, tolerance, blocks);
         for (i, terms) in cost.absolutes.iter().enumerate() {
             for sign in [1.0, -1.0] {
                 let signed = |&(at, value): &(usize, f64)| Some((index(at)?, sign * value));
@@ -232,6 +251,7 @@ impl<'a> Rows<'a> {
             known: BTreeMap::new(),
             modes: OnceCell::new(),
             forces: OnceCell::new(),
+            curvature: 0.0,
             search,
         }
     }
@@ -247,7 +267,9 @@ impl<'a> Rows<'a> {
             return;
         }
         let (value, gradient) = self.linearised(constraint);
-        let wanted = tolerances.bound_inset * self.problem.truss.unit;
+        let inset = tolerances.bound_inset * self.problem.truss.unit;
+        let of_modes = matches!(constraint, Constraint::Rigidity(..));
+        let wanted = if of_modes { inset.max(self.curvature) } else { inset };
         let terms = gradient.iter().filter_map(|(node, g)| Some((self.columns[*node]?, g)));
         let terms: Row = (
             terms.flat_map(|(column, g)| (0..3).map(move |k| (column + k, -g[k]))).collect(),
@@ -316,6 +338,13 @@ impl<'a> Rows<'a> {
             self.add(constraint, 0.0);
         }
         self.add(constraint, -by);
+    }
+
+    /// Returns the greatest value that a row asks of singular values, m; 0 without such rows.
+    fn asked_of_modes(&self) -> f64 {
+        let of_modes =
+            self.known.iter().filter(|(constraint, _)| matches!(constraint, Constraint::Rigidity(..)));
+        of_modes.map(|(_, asked)| asked.wanted).fold(0.0, f64::max)
     }
 
     /// Returns the constraints that have rows.
@@ -392,7 +421,7 @@ fn displaced(problem: &StepProblem, columns: &[Option<usize>], u: &[f64]) -> (Ve
 fn violated(
     problem: &StepProblem,
     y: &[Vec3],
-    neighbours: &mut Option<NeighbourList>,
+    (neighbours, rigidity): (&mut Option<NeighbourList>, &mut Bound),
     search: &RefCell<Search>,
 ) -> Vec<(Constraint, f64)> {
     let StepProblem { truss, x, .. } = *problem;
@@ -416,21 +445,6 @@ fn violated(
     for constraint in lengths.chain(clearances).chain(heights).chain(angles).chain(loops) {
         check(constraint, constraint.value(truss, y));
     }
-    let mut search = search.borrow_mut();
-    if truss.limits.rigidity > 0.0 {
-        let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
-        for z in [y, &middle[..]].into_iter().filter(|z| rigidity::is_violated(truss, z)) {
-            for (i, mode) in rigidity::weakest(truss, z, MODES, &mut search.modes).iter().enumerate() {
-                check(Constraint::Rigidity(i, i), mode.spare(truss));
-            }
-        }
-    }
-    if truss.limits.forces.is_some() && problem.ground {
-        let end = support_polygon::standing(truss, x, y);
-        let contacts = forces::contacts(truss, &end, &support_polygon::staying(truss, x, &end));
-        let found = forces::within(truss, &end, &contacts, &mut search.weights);
-        check(Constraint::Force, forces::spare(truss, &found));
-    }
     // Conservative advancement during the step. Uneven ground comes last, once all else holds: of a long
     // step, before its rows are known, its certificate takes long.
     let between = advancement::violations(truss, x, y, &pairs, margin);
@@ -443,5 +457,40 @@ fn violated(
     for (constraint, shortfall) in between.into_iter().chain(obstacles).chain(ground) {
         violated.entry(constraint).and_modify(|known| *known = known.max(shortfall)).or_insert(shortfall);
     }
+    // What takes long comes once all else holds.
+    if violated.is_empty() {
+        violated.extend(global_violations(problem, y, rigidity, &mut search.borrow_mut()));
+    }
     violated.into_iter().collect()
+}
+
+/// Returns those of the constraints on rigidity and forces that are violated at y or half-way to it, with the shortfall
+/// of each, m.
+fn global_violations(
+    problem: &StepProblem,
+    y: &[Vec3],
+    rigidity: &mut Bound,
+    search: &mut Search,
+) -> BTreeMap<Constraint, f64> {
+    let StepProblem { truss, x, .. } = *problem;
+    let mut violated: BTreeMap<Constraint, f64> = BTreeMap::new();
+    let mut check = |constraint: Constraint, value: f64| {
+        if value < -truss.tolerances.rounding * truss.unit {
+            violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
+        }
+    };
+    if truss.limits.rigidity > 0.0 {
+        for z in rigidity.violated(truss, x, y) {
+            for (i, mode) in rigidity::weakest(truss, &z, MODES, &mut search.modes).iter().enumerate() {
+                check(Constraint::Rigidity(i, i), mode.spare(truss));
+            }
+        }
+    }
+    if truss.limits.forces.is_some() && problem.ground {
+        let end = support_polygon::standing(truss, x, y);
+        let contacts = forces::contacts(truss, &end, &support_polygon::staying(truss, x, &end));
+        let found = forces::within(truss, &end, &contacts, &mut search.weights);
+        check(Constraint::Force, forces::spare(truss, &found));
+    }
+    violated
 }
