@@ -4,7 +4,8 @@
 //! Beside it, the paper's method in Python: `benches/peers/truss.py` says how to run it.
 //!
 //! `cargo bench --bench truss`; with a number behind `--`, octets of up to so many divisions, with `around`
-//! only walks with and without looking ahead: on flat ground, through gates, over hills.
+//! only walks with and without looking ahead: on flat ground, through gates, over hills; with `orientations`, morphs to targets
+//! in many orientations.
 
 #[path = "../tests/support/trusses.rs"]
 #[allow(dead_code)]
@@ -12,13 +13,14 @@ mod trusses;
 
 use modl::geometry::pose::shifted;
 use modl::geometry::{HeightField, Placed, Shape, Solid, Vec3};
+use modl::optimize::random::SplitMix64;
 use modl::planners::locomote::{End, Objective, Settings, Travel, follow_path};
 use modl::planners::morph::{self, Descent, Target, descend};
 use modl::planners::truss::roll::settled;
-use modl::planners::truss::{Structure, Surroundings};
+use modl::planners::truss::{Limits, Structure, Surroundings, rigidity_kept};
 use modl::planners::{NoProgress, Progress};
 use std::time::{Duration, Instant};
-use trusses::{actuator, cube, ell, robot, stepping};
+use trusses::{actuator, cube, ell, robot, stepping, tee};
 
 /// The allocator that the tool has.
 #[global_allocator]
@@ -28,7 +30,9 @@ const DIVISIONS: [i64; 6] = [4, 6, 8, 10, 13, 16];
 
 /// The number of runs on an octet, of which the fastest counts: ten steps are so short that the memory that the
 /// process touches for the first time, or again after the allocator gave it back, may double their time.
-const OCTET_RUNS: usize = 8;
+const OCTET_RUNS: usize = 2;
+/// The number of steps of such a run.
+const OCTET_STEPS: usize = 100;
 
 fn each(time: Duration, steps: usize) -> f64 {
     time.as_secs_f64() * 1e3 / steps.max(1) as f64
@@ -38,47 +42,56 @@ fn main() {
     if std::env::args().any(|arg| arg == "around") {
         return around();
     }
+    if std::env::args().any(|arg| arg == "orientations") {
+        return orientations();
+    }
     let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(16);
     let (truss, start) = robot();
     println!("| 34 nodes, 108 struts | steps | ms a step | rolls, or distances there and back |");
     println!("|---|---|---|---|");
     let corners = [[8.0, 0.0], [8.0, 6.0], [0.0, 6.0], [0.0, 12.0], [8.0, 12.0]];
-    for aim in [
-        Objective::Springs,
-        Objective::Lengths { damping: 1.0 },
-        Objective::Restoring { damping: 1.0 },
-        Objective::Fewest { damping: 1e-3 },
-    ] {
-        let (travel, time) = travelled(&truss, &start, &corners, aim, usize::MAX);
-        println!(
-            "| S, {aim:?} | {} | {:.2} | {} rolls |",
-            travel.steps,
-            each(time, travel.steps),
-            travel.rolls
-        );
-    }
-    for (name, goal, steps) in [("cube", cube(), 150), ("cube", cube(), 300), ("L", ell(), 300)] {
-        let (found, made, time) = morphed(&truss, &start, &goal, steps);
-        let (there, back) = (found.distance.target_to_surface, found.distance.surface_to_target);
-        println!("| {name} | {steps} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
+    for (limits, robot) in [("", truss.clone()), (", all limits", rigid(&truss, &start))] {
+        for aim in [
+            Objective::Springs,
+            Objective::Lengths { damping: 1.0 },
+            Objective::Restoring { damping: 1.0 },
+            Objective::Fewest { damping: 1e-3 },
+        ] {
+            let (travel, time) = travelled(&robot, &start, &corners, aim, usize::MAX);
+            let Travel { steps, rolls, slip, .. } = travel;
+            let each = each(time, steps);
+            println!("| S, {aim:?}{limits} | {steps} | {each:.2} | {rolls} rolls, {slip:.2} slid |");
+        }
+        for (name, goal, steps) in [("cube", cube(), 150), ("cube", cube(), 300), ("L", ell(), 300)] {
+            let (found, made, time) = morphed(&robot, &start, &goal, steps);
+            let (there, back) = (found.distance.target_to_surface, found.distance.surface_to_target);
+            println!("| {name}{limits} | {made} | {:.2} | {there:.5}, {back:.5} |", each(time, made));
+        }
     }
     println!();
     println!("| octet | nodes | struts | locomote, ms a step | morph, ms a step |");
     println!("|---|---|---|---|---|");
     for divisions in DIVISIONS.into_iter().filter(|d| *d <= most) {
         let (truss, start) = octet(divisions);
+        let truss = rigid(&truss, &start);
         let rollout = fastest(|| {
-            let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], Objective::Springs, 10);
+            let (travel, time) = travelled(&truss, &start, &[[50.0, 0.0]], Objective::Springs, OCTET_STEPS);
             each(time, travel.steps)
         });
         let target = cube().moved(|p| p * (divisions as f64 / 4.0));
         let morph = fastest(|| {
-            let (_, made, time) = morphed(&truss, &start, &target, 10);
+            let (_, made, time) = morphed(&truss, &start, &target, OCTET_STEPS);
             each(time, made)
         });
         let (nodes, struts) = (truss.nodes, truss.struts.len());
         println!("| {divisions} | {nodes} | {struts} | {rollout:.2} | {morph:.2} |");
     }
+}
+
+/// Returns the truss with the rigidity that planners keep.
+fn rigid(truss: &Structure, start: &[Vec3]) -> Structure {
+    let rigidity = rigidity_kept(start, &truss.struts);
+    truss.clone().with_limits(start, Limits { rigidity, ..Limits::default() })
 }
 
 /// Returns the least of the times that so many runs take, milliseconds a step.
@@ -114,11 +127,47 @@ impl Progress for Counted {
 }
 
 fn morphed(truss: &Structure, start: &[Vec3], goal: &Target, steps: usize) -> (Descent, usize, Duration) {
-    let settings = morph::Settings { steps_max: steps, tolerance: 0.0, ..morph::Settings::default() };
+    let settings =
+        morph::Settings { steps_max: steps, tolerance: 0.0, orientations: 0, ..morph::Settings::default() };
     let mut made = Counted(0);
     let clock = Instant::now();
     let found = descend(truss, start, goal, &settings, &mut made).expect("it has a surface");
     (found, made.0, clock.elapsed())
+}
+
+/// The number of random orientations of each target.
+const ORIENTATIONS: usize = 15;
+
+/// Morphs to targets in random orientations with the default settings: the medians of the distances over the whole of
+/// surface and target.
+fn orientations() {
+    let (truss, start) = robot();
+    println!("| target | rms, median (least to greatest) | back | worst | s |");
+    println!("|---|---|---|---|---|");
+    for (limits, truss) in [("", truss.clone()), (", rigid", rigid(&truss, &start))] {
+        for (name, goal) in [("cube", cube()), ("L", ell()), ("T", tee())] {
+            let mut random = SplitMix64(7);
+            let mut found: [Vec<f64>; 4] = Default::default();
+            for _ in 0..ORIENTATIONS {
+                // Uniform over all rotations: a unit quaternion of any direction.
+                let mut number = || (0..12).map(|_| random.next_f64()).sum::<f64>() - 6.0;
+                let turn = nalgebra::Quaternion::new(number(), number(), number(), number());
+                let turn = nalgebra::UnitQuaternion::new_normalize(turn);
+                let goal = goal.moved(|p| turn * p);
+                let clock = Instant::now();
+                let settings = morph::Settings { tolerance: 0.0, ..morph::Settings::default() };
+                let descent = descend(&truss, &start, &goal, &settings, &mut NoProgress).expect("a surface");
+                let morph::Distance { target_to_surface, surface_to_target, worst } = descent.measured;
+                let figures = [target_to_surface, surface_to_target, worst, clock.elapsed().as_secs_f64()];
+                found.iter_mut().zip(figures).for_each(|(list, figure)| list.push(figure));
+            }
+            let words = found.map(|mut list| {
+                list.sort_by(f64::total_cmp);
+                format!("{:.4} ({:.4} to {:.4})", list[ORIENTATIONS / 2], list[0], list[ORIENTATIONS - 1])
+            });
+            println!("| {name}{limits} | {} |", words.join(" | "));
+        }
+    }
 }
 
 /// The robot with nothing around, before gates of some widths, and on hills of some heights.

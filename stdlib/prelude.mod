@@ -2558,12 +2558,12 @@ extern fn reconfigure(
 
 /// What `morph` found.
 extern type Morphing is Plan {
-  /// Root mean square distance from the target's points to the truss's outer surface, as in the
-  /// linear-actuator-robots paper.
+  /// Root mean square distance of the target from the truss's outer surface, as in the linear-actuator-robots
+  /// paper, over the whole target; of a cloud, over its points.
   rms: Length
-  /// Root mean square distance from the outer surface to the target.
+  /// Root mean square distance of the outer surface from the target, over the whole surface.
   rms_back: Length
-  /// The farthest that either is from the other.
+  /// The farthest that a point of either is from the other.
   worst: Length
   /// What `rms` was at the start.
   start_rms: Length
@@ -2582,11 +2582,12 @@ extern type Morphing is Plan {
 /// share no node, which hold between the steps, too. It is done when both distances, as root mean squares,
 /// are within `tolerance`; after `budget` steps the best so far is given, with a warning.
 ///
-/// The target keeps its orientation; with `orientations`, as many random ones are tried for some steps
-/// each, and the best is taken. Limits beside those of the struts are kept, too, and the verdict says how
+/// Where the target is not reached in its own orientation, as many others as `orientations` says are tried, spread evenly
+/// over all: each for some steps, the better ones for more, and the best two to their end. With 0 it keeps its own;
+/// `seed` turns all others. Limits beside those of the struts are kept, too, and the verdict says how
 /// nearly: `angle` between struts that share a node; `rigidity`, below which no singular value of the
 /// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, as the judge asks: `auto` is
-/// 0.05, or an eighth of the value at the start if that is less, and nothing for more than 200 nodes; `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
+/// 0.05, or an eighth of the value at the start if that is less; `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
 /// of struts whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan.
 /// There is neither gravity nor ground, as in the paper; struts move as fast as their speed allows.
 /// `obstacles` are solids in the world, in which the truss begins where its nodes were declared: struts keep
@@ -2605,7 +2606,7 @@ extern fn morph(
   target: Mesh | Cloud,
   tolerance: Length = 20mm,
   budget: Int = 300,
-  orientations: Int = 0,
+  orientations: Int = 15,
   seed: auto | Int = auto,
   angle: Angle = 0deg,
   rigidity: auto | Number = auto,

@@ -85,6 +85,29 @@ pub fn ell() -> Target {
     rectangles(&sides)
 }
 
+/// A bar of length 3 on a post of height 2, width and depth 1.
+pub fn tee() -> Target {
+    let mut sides = Vec::new();
+    for y in [0.0, 1.0] {
+        sides.push([[0.0, y, 2.0], [3.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+        sides.push([[1.0, y, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 2.0]]);
+    }
+    let across = [0.0, 1.0, 0.0];
+    for (o, u) in [
+        ([0.0, 0.0, 3.0], [3.0, 0.0, 0.0]),
+        ([0.0, 0.0, 2.0], [1.0, 0.0, 0.0]),
+        ([2.0, 0.0, 2.0], [1.0, 0.0, 0.0]),
+        ([0.0, 0.0, 2.0], [0.0, 0.0, 1.0]),
+        ([3.0, 0.0, 2.0], [0.0, 0.0, 1.0]),
+        ([1.0, 0.0, 0.0], [0.0, 0.0, 2.0]),
+        ([2.0, 0.0, 0.0], [0.0, 0.0, 2.0]),
+        ([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+    ] {
+        sides.push([o, u, across]);
+    }
+    rectangles(&sides)
+}
+
 /// The least distance of two segments, by looking: a grid of places on one, and for each the nearest of
 /// the other, again and again around the best.
 pub fn distance(p: [Vec3; 2], q: [Vec3; 2]) -> f64 {

@@ -31,14 +31,14 @@ pub(super) struct Weights {
     pub damping: f64,
 }
 
-/// The distances between the outer surface of a truss and its target, m.
+/// The distances between the outer surface of a truss and its target, m, at sample points or over the whole of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Distance {
-    /// The root mean square distance of the target's sample points from the surface, m.
+    /// The root mean square distance of the target from the surface, m.
     pub target_to_surface: f64,
-    /// The root mean square distance of sample points of the surface from the target, m.
+    /// The root mean square distance of the surface from the target, m.
     pub surface_to_target: f64,
-    /// The greatest distance of a sample point in either direction (Hausdorff distance, at the samples), m.
+    /// The greatest distance of a point in either direction (Hausdorff distance), m.
     pub worst: f64,
 }
 
@@ -46,6 +46,15 @@ impl Distance {
     /// Returns the square root of the sum of the squares of the two root mean square distances, m.
     pub fn both(&self) -> f64 {
         libm::hypot(self.target_to_surface, self.surface_to_target)
+    }
+
+    /// Returns the distances times a factor.
+    pub(super) fn scaled(&self, factor: f64) -> Distance {
+        Distance {
+            target_to_surface: self.target_to_surface * factor,
+            surface_to_target: self.surface_to_target * factor,
+            worst: self.worst * factor,
+        }
     }
 
     /// Returns true if both root mean square distances are at most `tolerance` (m).

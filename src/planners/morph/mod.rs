@@ -34,6 +34,7 @@
 
 mod descent;
 mod fit;
+mod measure;
 mod surface;
 mod target;
 
@@ -88,9 +89,10 @@ impl TargetShape {
 /// The figures of a morph: the fit at its start and at its end, and why it ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The distances between the outer surface and the target at the end.
+    /// The distances between the outer surface and the target at the end, over the whole of both.
     pub distance: Distance,
-    /// The distances between the outer surface and the target at the start, with the target in its final orientation.
+    /// The distances between the outer surface and the target at the start, over the whole of both, with the target in its
+    /// final orientation.
     pub start: Distance,
     /// The target where the truss takes it on, in the world's frame.
     pub target: TargetShape,
@@ -168,7 +170,8 @@ pub fn plan(
     let moves: Vec<Move> = found.steps.into_iter().map(Move::Linear).collect();
     let paths = node_paths(&problem.truss, &truss, start, &moves, settings.time_law, false);
     let target = problem.target.moved(&found.target);
-    let report = Report { distance: found.distance, start: found.start, target, end: found.end, ended };
+    let (distance, start) = (found.measured, found.start_measured);
+    let report = Report { distance, start, target, end: found.end, ended };
     Ok(Solution { body: Body::NodePaths(paths), program: None, report })
 }
 
