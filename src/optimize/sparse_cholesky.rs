@@ -103,7 +103,7 @@ fn decompose(
             let part = sign / root;
             own[1..].iter_mut().for_each(|value| *value *= part);
         }
-        // What it changes in the columns of its rows.
+        // Its products change the columns of its rows.
         let below = height - width;
         update.clear();
         update.resize(below * below, 0.0);

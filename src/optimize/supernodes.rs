@@ -195,7 +195,7 @@ fn columns(
     let mut columns: Vec<Vec<usize>> = vec![Vec::new(); count];
     let mut marks = vec![usize::MAX; count];
     for at in 0..count {
-        // What children have brought, and the matrix itself.
+        // The rows come from the children, and from the matrix itself.
         let mut column = std::mem::take(&mut columns[at]);
         column.extend(neighbours[order[at]].iter().map(|other| place[*other]));
         column.retain(|row| *row > at && std::mem::replace(&mut marks[*row], at) != at);

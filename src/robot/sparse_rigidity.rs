@@ -54,7 +54,7 @@ impl<'a> NormalEquations<'a> {
         rows: &'a [Vec3],
     ) -> Option<NormalEquations<'a>> {
         let mut matrix = layout.matrix(rows, struts, |_| 1.0, 0.0);
-        // What holds it spans nothing that struts do, so that it changes no self-stress.
+        // These supports span nothing that struts do, so that they change no self-stress.
         let far = |weigh: &dyn Fn(&Vec3) -> f64| {
             (0..nodes.len()).max_by(|&i, &j| weigh(&nodes[i]).total_cmp(&weigh(&nodes[j])))
         };

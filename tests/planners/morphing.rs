@@ -79,7 +79,7 @@ fn what_is_said_of_the_distance_holds() {
     near(target_to_surface / there, 1.0, 0.02);
     near(surface_to_target / back, 1.0, 0.02);
     let worst = worst.max(worst_back);
-    assert!(worst <= said * 1.0051 && said <= worst * 1.02, "{worst} and {said} said");
+    assert!(worst <= said * 1.0101 && said <= worst * 1.02, "{worst} and {said} said");
     // The points that are fitted are nearer than others.
     assert!(found.distance.surface_to_target < surface_to_target && found.distance.worst < said);
 }

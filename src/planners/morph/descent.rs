@@ -109,7 +109,7 @@ pub struct Descent {
     /// The pose of the target's own frame in the world's, as it was moved (`X_WT`).
     pub target: Pose,
     /// The distances at the start over the whole of surface and target, which are not only less at the points that are
-    /// fitted: root mean squares to about a percent, the greatest distance from below to half a percent.
+    /// fitted: root mean squares to about a percent, the greatest distance from below to a percent.
     pub start_measured: Distance,
     /// The same after the last of `steps`.
     pub measured: Distance,
@@ -118,9 +118,9 @@ pub struct Descent {
 }
 
 /// Morphs a truss with its nodes at `start` (m, in the world's frame, by index) into a target, which is moved so that
-/// its centroid is the mean of the nodes (Section V of [Usevitch et al.](crate::planners::truss)). Where it does not reach
-/// the tolerance in the target's own orientation, those of [`Settings::orientations`] are screened for some steps, and the
-/// truss descends to the best. The truss must have nodes and struts. If `progress` ends it, the result is the best of the
+/// its centroid is the mean of the nodes (Section V of [Usevitch et al.](crate::planners::truss)). The target's own
+/// orientation comes first; if the tolerance is not reached in it, those of [`Settings::orientations`] are screened for some
+/// steps, and the truss descends to the best. The truss must have nodes and struts. If `progress` ends it, the result is the best of the
 /// whole descents made, or the first as far as it came. `truss`: the truss with its limits; `settings`: the settings of the
 /// descent.
 ///

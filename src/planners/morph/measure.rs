@@ -9,17 +9,17 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// The relative change of a root mean square, with twice as many points along each side, up to which it counts as known.
-const CHANGE: f64 = 0.005;
+const CHANGE: f64 = 0.01;
 /// The part of the greatest distance by which one that is not found may be greater.
-const WORST_EXCESS: f64 = 0.005;
+const WORST_EXCESS: f64 = 0.01;
 /// The greatest number of points at which a mean is taken, and of pieces that are searched for the greatest distance.
 const POINTS_MAX: usize = 100_000;
 /// The number of pieces along the sides of a triangle of mean area, at first.
 const PIECES: f64 = 8.0;
 
 /// Returns the distances between the outer triangles `faces` (indices of nodes) with the nodes at `x` (m, by index) and the
-/// target, in one frame: root mean squares over all of both to about a percent, and the greatest distance from below to half
-/// a percent (Hausdorff distance). Of a cloud of points, the points are all there is.
+/// target, in one frame: root mean squares over all of both to about a percent, and the greatest distance from below to a
+/// percent (Hausdorff distance). Of a cloud of points, the points are all there is.
 pub(super) fn measured(faces: &[[usize; 3]], x: &[Vec3], target: &Target) -> Distance {
     let surface = Surface::new(faces.iter().map(|face| face.map(|node| x[node])).collect());
     let to_surface = |p: Vec3| surface.closest(p, None).distance;
@@ -100,7 +100,7 @@ impl Ord for Piece {
 fn worst(surface: &Surface, distance: &dyn Fn(Vec3) -> f64) -> f64 {
     let mut greatest = 0.0f64;
     let mut open = BinaryHeap::new();
-    let mut add = |corners: [Vec3; 3], greatest: &mut f64, open: &mut BinaryHeap<Piece>| {
+    let add = |corners: [Vec3; 3], greatest: &mut f64, open: &mut BinaryHeap<Piece>| {
         let middle = corners.iter().sum::<Vec3>() / 3.0;
         let apart = distance(middle);
         *greatest = greatest.max(apart);

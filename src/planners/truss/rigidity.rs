@@ -27,7 +27,7 @@ const GAIN_CHANGES: (f64, f64) = (1.5, 0.5);
 /// The number of iterations for the bound on a change.
 const CHANGE_ITERATIONS: usize = 8;
 /// The least entry of its vector, of which the greatest is 1.
-const Z_MIN: f64 = 1e-3;
+const Z_MIN: f64 = 0.01;
 /// The number of checks after which more than the limit is asked again.
 const MODEST_CHECKS: usize = 8;
 /// The multiple of the limit above which singular values are of no interest.

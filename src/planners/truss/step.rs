@@ -457,7 +457,7 @@ fn violated(
     for (constraint, shortfall) in between.into_iter().chain(obstacles).chain(ground) {
         violated.entry(constraint).and_modify(|known| *known = known.max(shortfall)).or_insert(shortfall);
     }
-    // What takes long comes once all else holds.
+    // Checks that take long come once all else holds.
     if violated.is_empty() {
         violated.extend(global_violations(problem, y, rigidity, &mut search.borrow_mut()));
     }
