@@ -46,6 +46,23 @@ install_browser() {
   fi
 }
 
+# The tree-sitter parser as a tool, and what reads TextMate grammars, for the tests of grammars (tests/editor/grammars.rs).
+install_grammars() {
+  cargo build --quiet --release --manifest-path grammar/tree-sitter/tool/Cargo.toml --target-dir target/tree-sitter \
+    && export MODL_TREE_SITTER="$PWD/target/tree-sitter/release/modl-tree-sitter" \
+    || echo "no tree-sitter: the test of its grammar will be skipped"
+  local modules="$PWD/target/textmate"
+  if [ ! -d "$modules/node_modules/vscode-textmate" ]; then
+    mkdir -p "$modules"
+    npm install --prefix "$modules" --no-save --no-audit --no-fund --silent vscode-textmate vscode-oniguruma || true
+  fi
+  if [ -d "$modules/node_modules/vscode-textmate" ]; then
+    export MODL_TEXTMATE="$modules/node_modules"
+  else
+    echo "no vscode-textmate: the test of the TextMate grammar will be skipped"
+  fi
+}
+
 # Robots that people have published, and Rerun, for the tests of files that come in and leave (tests/exchange).
 install_exchange() {
   "$PWD/target/python/bin/python" -m pip install --quiet --disable-pip-version-check example-robot-data rerun-sdk \

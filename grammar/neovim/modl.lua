@@ -16,14 +16,18 @@ vim.api.nvim_create_autocmd("FileType", {
   end,
 })
 
-local function on_program(name, ...)
-  local arguments = { ... }
-  vim.api.nvim_create_user_command(name, function()
-    vim.cmd.write()
-    vim.cmd("botright split | terminal " .. table.concat(vim.tbl_map(vim.fn.shellescape, vim.list_extend({ "modl" }, arguments)), " ")
-      .. " " .. vim.fn.shellescape(vim.fn.expand("%:p")))
-  end, { desc = "modl " .. table.concat(arguments, " ") .. " on this program" })
+--- Runs `modl` on the program that is edited, in a terminal below it: a command of Neovim, and one of lenses.
+local function on_program(name, lens, ...)
+  local words = { "modl", ... }
+  local function run()
+    vim.cmd("silent write")
+    local file = vim.fn.expand("%:p")
+    local quoted = vim.tbl_map(vim.fn.shellescape, vim.list_extend(vim.list_slice(words), { file }))
+    vim.cmd("botright split | terminal " .. table.concat(quoted, " "))
+  end
+  vim.api.nvim_create_user_command(name, run, { desc = table.concat(words, " ") .. " on this program" })
+  vim.lsp.commands[lens] = run
 end
-on_program("ModlRun", "run")
-on_program("ModlTest", "test")
-on_program("ModlShow", "show", "--open")
+on_program("ModlRun", "modl.run", "run")
+on_program("ModlTest", "modl.test", "test")
+on_program("ModlShow", "modl.show", "show", "--open")

@@ -29,7 +29,9 @@ async function restart() {
 }
 
 /** The program that is edited, saved; null where there is none. */
-async function program(uri) {
+async function program(place) {
+  // Lenses name it by a text.
+  const uri = typeof place === "string" ? vscode.Uri.parse(place) : place;
   const document = uri ? await vscode.workspace.openTextDocument(uri) : vscode.window.activeTextEditor?.document;
   if (document?.languageId !== "modl") return null;
   if (document.isDirty) await document.save();

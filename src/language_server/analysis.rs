@@ -37,6 +37,11 @@ impl Analysis {
         Some(Analysis { checked, files, file, root: project.root.clone(), name: project.name.clone() })
     }
 
+    /// Returns the same program as another file of it sees it.
+    pub(super) fn seen_from(&self, file: FileId) -> Analysis {
+        Analysis { file, ..self.clone() }
+    }
+
     /// Returns the text of a file of the program.
     pub(super) fn text(&self, file: FileId) -> &str {
         &self.checked.sources.file(file).text

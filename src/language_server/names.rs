@@ -5,6 +5,7 @@ use crate::check::summary::{self, Inside};
 use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{self, Checked, Meaning};
 use crate::source::{FileId, Files, ReadError, Span};
+use crate::syntax::{Outline, TokenKind};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -131,7 +132,7 @@ impl Analysis {
             let text = texts.entry(name).or_insert_with(|| self.text(*file).to_owned());
             text.replace_range(range.clone(), new);
         }
-        let renamed = Renamed { files: &*self.files, texts };
+        let renamed = self.with_texts(texts);
         let errors = |checked: &Checked| {
             checked
                 .diagnostics
@@ -143,6 +144,31 @@ impl Analysis {
         errors(&check::check(&renamed, &self.name)) == errors(&self.checked)
     }
 
+    /// Returns the files of the program, some with other texts, by their names.
+    pub(super) fn with_texts(&self, texts: BTreeMap<String, String>) -> Renamed<'_> {
+        Renamed { files: &*self.files, texts }
+    }
+
+    /// Returns all places in the files of the project at which a member of a declaration is named, and that of its own
+    /// declaration, in the order of files and text.
+    pub(super) fn places_of_member(&self, def: DefId, name: &str) -> Vec<(FileId, Range<usize>)> {
+        let own = self.checked.sources.files().filter(|(_, file)| !file.library);
+        let mut found = Vec::new();
+        for (id, source) in own {
+            let there = self.seen_from(id);
+            let Some(outline) = Outline::of(&source.text) else { continue };
+            let words = outline.tokens.iter().filter(|token| {
+                token.kind == TokenKind::Word && source.text[token.start..token.end] == *name
+            });
+            let same = |at: usize| {
+                let named = there.named_at(at);
+                named.is_some_and(|named| named.def == def && named.member.as_deref() == Some(name))
+            };
+            found.extend(words.filter(|token| same(token.start)).map(|token| (id, token.start..token.end)));
+        }
+        found
+    }
+
     /// Returns true if a declaration may be renamed: one of the project.
     pub(super) fn is_own(&self, def: DefId) -> bool {
         let declared = self.checked.program.def(def);
@@ -151,7 +177,7 @@ impl Analysis {
 }
 
 /// The files of a program, some with other texts.
-struct Renamed<'a> {
+pub(super) struct Renamed<'a> {
     files: &'a dyn Files,
     texts: BTreeMap<String, String>,
 }

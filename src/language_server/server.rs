@@ -3,7 +3,7 @@
 use super::analysis::Analysis;
 use super::documents::{Document, Documents, Workspace};
 use super::places::{Encoding, offset, path_of, uri_of};
-use super::{answers, elaboration, names, wire};
+use super::{answers, assistance, elaboration, names, wire};
 use crate::interrupt::CancelState;
 use crate::session::complete::{complete, signature};
 use crate::session::highlight::classes;
@@ -43,7 +43,11 @@ struct Refused(String);
 /// # Errors
 /// The protocol's words where the editor does not begin as it must.
 pub fn serve(connection: &Connection, workspace: &dyn Workspace) -> Result<bool, String> {
-    let (id, params) = connection.initialize_start().map_err(|error| error.to_string())?;
+    let silent = "it is for an editor, which speaks the Language Server Protocol with it over standard input and output; the input \
+                  ended before an editor had said `initialize`";
+    let (id, params) = connection.initialize_start().map_err(|error| {
+        if error.channel_is_disconnected() { silent.to_owned() } else { error.to_string() }
+    })?;
     let params: lsp::InitializeParams = serde_json::from_value(params).map_err(|error| error.to_string())?;
     let offered = params.capabilities.general.and_then(|general| general.position_encodings);
     let utf8 = offered.is_some_and(|offered| offered.contains(&lsp::PositionEncodingKind::UTF8));
@@ -106,7 +110,13 @@ impl Server<'_> {
                 )
             }),
             "textDocument/references" => self.at(params, |server, analysis, at| {
-                let places = analysis.declaration_at(at).map(|def| analysis.places_of(def));
+                let places = match analysis.named_at(at) {
+                    Some(named) => Some(match named.member {
+                        None => analysis.places_of(named.def),
+                        Some(member) => analysis.places_of_member(named.def, &member),
+                    }),
+                    None => None,
+                };
                 let location = |(file, range): &(_, std::ops::Range<usize>)| {
                     location(analysis, Span::new(*file, range.start, range.end), server.encoding)
                 };
@@ -142,6 +152,16 @@ impl Server<'_> {
                 let text = analysis.text(analysis.file);
                 written(Some(wire::tokens(text, &classes(text), server.encoding)))
             }),
+            "textDocument/inlayHint" => self.within(params, |server, analysis, range| {
+                let text = analysis.text(analysis.file);
+                written(Some(wire::inlays(
+                    text,
+                    &assistance::parameter_hints(analysis, range),
+                    server.encoding,
+                )))
+            }),
+            "textDocument/codeAction" => self.mends(params),
+            "textDocument/codeLens" => self.lenses(params),
             _ => {
                 let unknown = format!("modl does not know `{method}`");
                 return Response::new_err(id, ErrorCode::MethodNotFound as i32, unknown);
@@ -241,6 +261,39 @@ impl Server<'_> {
         let uri = params["textDocument"]["uri"].as_str().unwrap_or_default().to_owned();
         let analysis = self.documents.analysis(&uri);
         Ok(analysis.map_or(Value::Null, |analysis| answer(self, &analysis)))
+    }
+
+    /// Answers a question about a range of a document, bytes.
+    fn within(
+        &mut self,
+        params: Value,
+        answer: impl Fn(&Self, &Analysis, &std::ops::Range<usize>) -> Value,
+    ) -> Result<Value, Refused> {
+        let range: lsp::Range = read(params["range"].clone())?;
+        self.of(params, |server, analysis| {
+            let at = |place| offset(analysis.text(analysis.file), wire::place_of(place), server.encoding);
+            answer(server, analysis, &(at(range.start)..at(range.end)))
+        })
+    }
+
+    /// Answers with the mends that diagnostics in a range of a document hint at.
+    fn mends(&mut self, params: Value) -> Result<Value, Refused> {
+        let uri = params["textDocument"]["uri"].as_str().unwrap_or_default().to_owned();
+        self.within(params, |server, analysis, range| {
+            let text = analysis.text(analysis.file);
+            let action = |mend: &assistance::Mend| wire::mend(&uri, text, mend, server.encoding);
+            written(Some(assistance::mends(analysis, range).iter().map(action).collect::<Vec<_>>()))
+        })
+    }
+
+    /// Answers with the commands that are offered in a document.
+    fn lenses(&mut self, params: Value) -> Result<Value, Refused> {
+        let uri = params["textDocument"]["uri"].as_str().unwrap_or_default().to_owned();
+        self.of(params, |server, analysis| {
+            let text = analysis.text(analysis.file);
+            let lens = |lens: &assistance::Lens| wire::lens(&uri, text, lens, server.encoding);
+            written(Some(assistance::lenses(analysis).iter().map(lens).collect::<Vec<_>>()))
+        })
     }
 
     /// Renames a declaration of the project at all its places; refused where the program would have errors after it that it has

@@ -1,6 +1,7 @@
 //! The types of the protocol, and what the server's answers are in them.
 
 use super::answers::{Shown, Symbol};
+use super::assistance::{Lens, Mend, ParameterHint};
 use super::places::{Encoding, Place, offset, place, places};
 use crate::session::complete::{Completion, Signature};
 use crate::session::highlight::Class;
@@ -35,6 +36,9 @@ pub(super) fn capabilities(encoding: Encoding) -> lsp::ServerCapabilities {
         document_symbol_provider: Some(true.into()),
         document_formatting_provider: Some(true.into()),
         folding_range_provider: Some(true.into()),
+        inlay_hint_provider: Some(true.into()),
+        code_action_provider: Some(true.into()),
+        code_lens_provider: Some(lsp::CodeLensOptions::default()),
         semantic_tokens_provider: Some(
             lsp::SemanticTokensOptions {
                 legend: lsp::SemanticTokensLegend {
@@ -263,4 +267,50 @@ pub(super) fn folds(text: &str, found: &[Range<usize>], encoding: Encoding) -> V
         }
     };
     found.iter().map(fold).collect()
+}
+
+/// Returns the names of parameters, before their arguments.
+pub(super) fn inlays(text: &str, found: &[ParameterHint], encoding: Encoding) -> Vec<lsp::InlayHint> {
+    let hint = |hint: &ParameterHint| lsp::InlayHint {
+        position: position(place(text, hint.at, encoding)),
+        label: format!("{}:", hint.name).into(),
+        kind: Some(lsp::InlayHintKind::Parameter),
+        text_edits: None,
+        tooltip: Some(hint.declared.clone().into()),
+        padding_left: None,
+        padding_right: Some(true),
+        data: None,
+    };
+    found.iter().map(hint).collect()
+}
+
+/// Returns a change of a document that is offered.
+pub(super) fn mend(uri: &str, text: &str, mend: &Mend, encoding: Encoding) -> lsp::CodeAction {
+    let edit = lsp::TextEdit { range: range(text, &mend.range, encoding), new_text: mend.new.clone() };
+    let changes = [(lsp::Uri(uri.to_owned()), vec![edit])].into();
+    lsp::CodeAction {
+        title: mend.title.clone(),
+        kind: Some(lsp::CodeActionKind::QuickFix),
+        diagnostics: None,
+        is_preferred: None,
+        disabled: None,
+        edit: Some(lsp::WorkspaceEdit { changes: Some(changes), ..Default::default() }),
+        command: None,
+        data: None,
+        tags: None,
+    }
+}
+
+/// Returns a command that is offered at a place of a document.
+pub(super) fn lens(uri: &str, text: &str, lens: &Lens, encoding: Encoding) -> lsp::CodeLens {
+    lsp::CodeLens {
+        range: range(text, &lens.range, encoding),
+        command: Some(lsp::Command {
+            title: lens.title.to_owned(),
+            tooltip: None,
+            command: lens.command.to_owned(),
+            arguments: Some(vec![uri.into()]),
+        }),
+        data: None,
+    }
 }

@@ -224,3 +224,161 @@ fn contracts_are_shown_with_their_behaviour_and_know_states() {
         editor.ask_at("textDocument/completion", &format!("{begun}    let b = repo|\n{rest}"), json!({}));
     assert!(!labels(&elsewhere).contains(&"report"), "{:?}", labels(&elsewhere));
 }
+
+/// The hints of a text, as (name, what stands behind it).
+fn inlays(editor: &mut Client, text: &str) -> Vec<(String, String)> {
+    editor.open("main.mod", text);
+    let end = json!({ "line": text.lines().count(), "character": 0 });
+    let range = json!({ "start": { "line": 0, "character": 0 }, "end": end });
+    let found = editor
+        .ask("textDocument/inlayHint", json!({ "textDocument": { "uri": uri("main.mod") }, "range": range }));
+    let one = |hint: &Value| {
+        let place = &hint["position"];
+        let line = text.lines().nth(place["line"].as_u64().expect("a number") as usize).expect("a line");
+        let rest: String =
+            line.chars().skip(place["character"].as_u64().expect("a number") as usize).collect();
+        (hint["label"].as_str().expect("a name").to_owned(), rest)
+    };
+    found.as_array().expect("a list").iter().map(one).collect()
+}
+
+#[test]
+fn arguments_without_a_name_are_told_their_parameters() {
+    let mut editor = Client::new(&[]);
+    let text = "fn area(width: Length, height: Length = 2m, parts: Length...) = width * height
+let height = 3m
+print(area(1m, 4m))
+print(area(1m, height), area(width: 1m, 5m), area(6m))
+print(area(1m, 2m, 3m, 4m))
+";
+    let wanted = [
+        ("width:", "1m, 4m))"),
+        ("height:", "4m))"),
+        // `height` says so itself, names that are given are there, and one argument alone is plain.
+        ("width:", "1m, height), area(width: 1m, 5m), area(6m))"),
+        ("height:", "5m), area(6m))"),
+        ("width:", "1m, 2m, 3m, 4m))"),
+        ("height:", "2m, 3m, 4m))"),
+    ];
+    let wanted: Vec<(String, String)> =
+        wanted.map(|(name, rest)| (name.to_owned(), rest.to_owned())).to_vec();
+    assert_eq!(inlays(&mut editor, text), wanted);
+    // Texts that can't be read have none.
+    assert_eq!(inlays(&mut editor, "print(area(1m, "), []);
+}
+
+/// The mends that are offered at the mark `|` of a text, as (title, the text after them).
+fn mended(editor: &mut Client, marked: &str) -> Vec<(String, String)> {
+    let (before, after) = marked.split_once('|').expect("a mark");
+    let text = format!("{before}{after}");
+    editor.open("main.mod", &text);
+    let line = before.matches('\n').count();
+    let column = before.rsplit('\n').next().expect("a line").len();
+    let place = json!({ "line": line, "character": column });
+    let params = json!({
+        "textDocument": { "uri": uri("main.mod") },
+        "range": { "start": place, "end": place },
+        "context": { "diagnostics": [] },
+    });
+    let found = editor.ask("textDocument/codeAction", params);
+    let one = |action: &Value| {
+        let edit = &action["edit"]["changes"][uri("main.mod")][0];
+        let replaced = piece(&text, &edit["range"]);
+        let at = replaced.as_ptr() as usize - text.as_ptr() as usize;
+        let new = edit["newText"].as_str().expect("a text");
+        let changed = format!("{}{new}{}", &text[..at], &text[at + replaced.len()..]);
+        (action["title"].as_str().expect("a title").to_owned(), changed)
+    };
+    found.as_array().expect("a list").iter().map(one).collect()
+}
+
+#[test]
+fn what_a_hint_says_can_be_written() {
+    let mut editor = Client::new(&[]);
+    let one = |title: &str, text: &str| vec![(title.to_owned(), text.to_owned())];
+    let found = mended(&mut editor, "//! A chain.\n\nconfig C { part c: Cha|in3 }\n");
+    assert_eq!(
+        found,
+        one(
+            "Add `use std.smores.Chain3`",
+            "//! A chain.\n\nuse std.smores.Chain3\nconfig C { part c: Chain3 }\n"
+        )
+    );
+    let found = mended(&mut editor, "use std.smores.Chain3\nconfig C { part c: Chai|n4 }\n");
+    assert_eq!(
+        found,
+        one("Write `Chain3` for `Chain4`", "use std.smores.Chain3\nconfig C { part c: Chain3 }\n")
+    );
+    let found = mended(&mut editor, "let bend: Angle = 4|5\n");
+    assert_eq!(found, one("Write `45deg` for `45`", "let bend: Angle = 45deg\n"));
+    // Elsewhere, and where nothing is wrong, nothing is offered.
+    assert_eq!(mended(&mut editor, "let a = 1\nlet| bend: Angle = 45\n"), []);
+    assert_eq!(mended(&mut editor, "let bend: Angle = 4|5deg\n"), []);
+}
+
+#[test]
+fn programs_robots_and_tests_have_commands() {
+    let mut editor = Client::new(&[]);
+    let text =
+        format!("{PROGRAM}emit(pair.nod(), \"nod.plan.json\")\ntest \"it nods\" {{\n  expect true\n}}\n");
+    editor.open("main.mod", &text);
+    let found = editor.ask("textDocument/codeLens", json!({ "textDocument": { "uri": uri("main.mod") } }));
+    let one = |lens: &Value| {
+        let command = &lens["command"];
+        assert_eq!(command["arguments"], json!([uri("main.mod")]));
+        (command["command"].as_str().expect("a name").to_owned(), piece(&text, &lens["range"]).to_owned())
+    };
+    let found: Vec<(String, String)> = found.as_array().expect("a list").iter().map(one).collect();
+    for wanted in [("modl.run", "use"), ("modl.show", "Pair"), ("modl.run", "emit"), ("modl.test", "test")] {
+        let wanted = (wanted.0.to_owned(), wanted.1.to_owned());
+        assert!(found.contains(&wanted), "{wanted:?} in {found:?}");
+    }
+}
+
+#[test]
+fn members_are_found_where_they_are_named() {
+    let mut editor = Client::new(&[]);
+    let text = format!("{PROGRAM}let again = pair.nod()\nlet a = 3\nprint(a, pair.a)\n");
+    editor.open("main.mod", &text);
+    let at = text.find("nod").expect("it is declared");
+    let line = text[..at].matches('\n').count();
+    let column = text[..at].rsplit('\n').next().expect("a line").len();
+    let params = |line: usize, column: usize| {
+        json!({
+            "textDocument": { "uri": uri("main.mod") },
+            "position": { "line": line, "character": column },
+            "context": { "includeDeclaration": true },
+        })
+    };
+    let lines = |found: &Value| -> Vec<String> {
+        let list = found.as_array().expect("a list");
+        list.iter()
+            .map(|place| {
+                assert_eq!(place["uri"], uri("main.mod"));
+                let line = place["range"]["start"]["line"].as_u64().expect("a number");
+                text.lines().nth(line as usize).expect("a line").trim().to_owned()
+            })
+            .collect()
+    };
+    let found = lines(&editor.ask("textDocument/references", params(line, column)));
+    assert!(found.len() >= 2 && found.contains(&"let again = pair.nod()".to_owned()), "{found:?}");
+    assert!(found.iter().all(|line| line.contains("nod")), "{found:?}");
+    // A part, and not the value of the same name.
+    let line = text.lines().count() - 1;
+    let column = "print(a, pair.".len();
+    let found = lines(&editor.ask("textDocument/references", params(line, column)));
+    assert!(found.contains(&"print(a, pair.a)".to_owned()), "{found:?}");
+    assert!(!found.contains(&"let a = 3".to_owned()), "{found:?}");
+}
+
+#[test]
+fn without_an_editor_the_command_says_what_it_is_for() {
+    let ran = std::process::Command::new(env!("CARGO_BIN_EXE_modl"))
+        .arg("lsp")
+        .stdin(std::process::Stdio::null())
+        .output()
+        .expect("the command runs");
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(!ran.status.success() && said.contains("Language Server Protocol"), "{said}");
+    assert!(!said.contains("channel"), "{said}");
+}
