@@ -5,7 +5,7 @@ connector Dock { mates Dock, turns 4, capture 5mm 5deg }
 
 /// Half the bracket of a shoe, as it is drawn: part of a shell about the body's ball, from the angle `start` on about Y,
 /// from +X towards -Z.
-fn bracket(pitch: Length, start: Angle) -> Shape = {
+fn _bracket(pitch: Length, start: Angle) -> Shape = {
   let across = [-0.26, -0.14, 0, 0.14, 0.26]
   let around = [start + 10deg * i for i in 0..13]
   let outside = [[sqrt(0.2475 - y^2) * cos(a), y, -sqrt(0.2475 - y^2) * sin(a)] for y in across for a in around]
@@ -14,11 +14,11 @@ fn bracket(pitch: Length, start: Angle) -> Shape = {
 }
 
 /// A shoe of a module, as it is drawn: a bracket from the dock +X round the body to the dock -X. It weighs as a ball does.
-fn shoe(pitch: Length, weight: Mass) -> Shape = {
+fn _shoe(pitch: Length, weight: Mass) -> Shape = {
   let moment = 0.1 * weight * pitch^2
   union(
-    bracket(pitch, -30deg),
-    bracket(pitch, 90deg),
+    _bracket(pitch, -30deg),
+    _bracket(pitch, 90deg),
     mass: weight,
     com: [0mm, 0mm, 0mm],
     inertia: [moment, moment, moment],
@@ -43,10 +43,10 @@ module Rofi(pitch: Length = 100mm) {
   mass 500g
 
   // A shoe is drawn as a bracket; what is judged and weighed is the ball that it turns in.
-  link shoe_a = shoe(pitch, weight: 125g) collides sphere(radius: pitch / 2)
+  link shoe_a = _shoe(pitch, weight: 125g) collides sphere(radius: pitch / 2)
   link body_a = sphere(radius: 0.45 * pitch, mass: 125g)
   link body_b = sphere(radius: 0.45 * pitch, mass: 125g) at [0mm, 0mm, pitch]
-  link shoe_b = shoe(pitch, weight: 125g)
+  link shoe_b = _shoe(pitch, weight: 125g)
     collides sphere(radius: pitch / 2)
     at [0mm, 0mm, pitch] turned(Y, 180deg)
 

@@ -16,7 +16,7 @@ use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
 use crate::planners::fold::{Net, Report};
 use crate::source::{Diagnostic, code};
-use crate::view::{Look, Side};
+use crate::view::{PictureStyle, Side};
 
 /// The built-in `save`, which writes a value to a file: its key with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[Native::on_run("save", parameters![what: &Value, file: &str], save)];
@@ -34,7 +34,7 @@ fn save(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let bytes = if let Some(plot) = plot_of(what) {
         let form = match ending {
             "svg" => Form::Svg,
-            "png" => Form::Png { time: 0.0, side: Side::Corner, look: Look::Room },
+            "png" => Form::Png { time: 0.0, side: Side::Corner, look: PictureStyle::Room },
             _ => return Err(wrong_ending(call, ending, "a plot")),
         };
         picture_of(interpreter, plot, form).expect("plots are drawn in both forms")

@@ -25,7 +25,7 @@ use crate::planners::morph::{self, TargetShape};
 use crate::robot::Library;
 use crate::source::{Diagnostic, Span, code};
 use crate::view::plot::Plot;
-use crate::view::{self, Look, RenderInput, Side, SimulationInput, StillOptions};
+use crate::view::{self, PictureStyle, RenderInput, Side, SimulationInput, StillOptions};
 use std::any::Any;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub(super) const TABLE: &[Native] = &[Native::on_run(
         reserve: f64,
         slip_max: Option<f64>,
         slip: f64,
-        look: Look
+        look: PictureStyle
     ],
     show,
 )];
@@ -140,7 +140,7 @@ pub(super) enum Form {
         /// The side from which it is seen.
         side: Side,
         /// Its look.
-        look: Look,
+        look: PictureStyle,
     },
 }
 
@@ -166,8 +166,9 @@ impl Choice for Side {
     ];
 }
 
-impl Choice for Look {
-    const WORDS: &'static [(&'static str, Look)] = &[("room", Look::Room), ("figure", Look::Figure)];
+impl Choice for PictureStyle {
+    const WORDS: &'static [(&'static str, PictureStyle)] =
+        &[("room", PictureStyle::Room), ("figure", PictureStyle::Figure)];
 }
 
 impl Interpreter<'_> {

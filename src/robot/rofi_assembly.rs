@@ -38,10 +38,10 @@ pub fn module_type(pitch: f64) -> ModuleType {
     ModuleType {
         name: "Rofi".into(),
         links: vec![
-            link("shoe_a", Pose::identity(), shoe),
+            Link { shape: shoe_drawn(pitch), ..link("shoe_a", Pose::identity(), shoe) },
             link("body_a", Pose::identity(), body),
             link("body_b", far, body),
-            link("shoe_b", far * turned(Vec3::y(), PI), shoe),
+            Link { shape: shoe_drawn(pitch), ..link("shoe_b", far * turned(Vec3::y(), PI), shoe) },
         ],
         joints: vec![
             joint("alpha", (0, 1), Pose::identity(), Vec3::x(), tilt),
@@ -119,6 +119,26 @@ fn link(name: &str, pose: Pose, radius: f64) -> Link {
         friction: Link::FRICTION_DEFAULT,
         surface: Surface::default(),
     }
+}
+
+/// Returns a shoe as it is drawn: a bracket from the dock +X round the body to the dock -X, as `std.rofi` declares it. The
+/// ball is judged and weighed.
+fn shoe_drawn(pitch: f64) -> Vec<Placed> {
+    let at = |radius: f64, y: f64, degrees: f64| {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        Vec3::new(pitch * (radius * cos), pitch * y, pitch * (-radius * sin))
+    };
+    let half = |start: f64| {
+        let around = |y: f64| {
+            let radius = (0.2475 - y * y).sqrt();
+            (0..13).map(move |i| at(radius, y, start + 10.0 * f64::from(i)))
+        };
+        let outside = [-0.26, -0.14, 0.0, 0.14, 0.26].into_iter().flat_map(around);
+        let inside = [-0.24, 0.24].into_iter().flat_map(|y| [start, start + 120.0].map(|a| at(0.35, y, a)));
+        let points = outside.chain(inside).collect();
+        Placed { pose: Pose::identity(), shape: Shape::Hull { points } }
+    };
+    vec![half(-30.0), half(90.0)]
 }
 
 fn joint(

@@ -12,8 +12,6 @@ use crate::robot::{Joint, JointKind, Library, ModuleType, Port};
 /// The radius of a dock, and the depth to which it reaches into its link, as parts of the width of the link there.
 const DOCK_RADIUS: f64 = 0.34;
 const DOCK_DEPTH: f64 = 0.1;
-/// The height by which a dock stands out of its face, as a part of the width: what lies in one plane would flicker.
-const DOCK_HEIGHT: f64 = 0.004;
 /// The radius of a pin of a dock, and its distance from the middle, as parts of the dock's radius.
 const PIN_RADIUS: f64 = 0.17;
 const PIN_PLACE: f64 = 0.62;
@@ -107,7 +105,7 @@ fn fitting(library: &Library, port: &Port, points: &[Vec3]) -> Vec<Placed> {
         return vec![tube(Vec3::zeros(), hinge.axis, HINGE_RADIUS * across, HINGE_LENGTH * width(along))];
     }
     let radius = DOCK_RADIUS * across;
-    let (depth, height) = (DOCK_DEPTH * across, DOCK_HEIGHT * across);
+    let (depth, height) = (DOCK_DEPTH * across, TOLERANCES.fitting * across);
     let disc = |radius: f64, top: f64, y: f64, z: f64| {
         tube(Vec3::new((top - depth) / 2.0, y, z), Vec3::x(), radius, depth + top)
     };

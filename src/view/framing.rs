@@ -36,18 +36,25 @@ pub(super) fn camera(points: &[Vec3], direction: Vec3, aspect: f64) -> Camera {
     // The distance of the camera from the nearest point along its direction.
     let mut gap = 2.0 * size;
     for _ in 0..STEPS {
-        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
-        for p in &seen {
-            let away = nearest + gap - p[2];
-            for (k, c) in [(p[0] - x) / away, (p[1] - y) / away].into_iter().enumerate() {
-                (low[k], high[k]) = (low[k].min(c), high[k].max(c));
+        let grown = [(0, wide), (1, tall)].map(|(axis, most)| {
+            let centre = if axis == 0 { &mut x } else { &mut y };
+            // The outermost points on both sides as the camera sees them, each with its distance along the view.
+            let seen_at =
+                |p: &[f64; 3]| ((p[axis] - *centre) / (nearest + gap - p[2]), p[axis], nearest + gap - p[2]);
+            let (mut low, mut high) = (seen_at(&seen[0]), seen_at(&seen[0]));
+            for found in seen.iter().map(seen_at) {
+                if found.0 < low.0 {
+                    low = found;
+                }
+                if found.0 > high.0 {
+                    high = found;
+                }
             }
-        }
-        let middle = nearest + gap - (ranges[2].0 + ranges[2].1) / 2.0;
-        x += (low[0] + high[0]) / 2.0 * middle;
-        y += (low[1] + high[1]) / 2.0 * middle;
-        let grown = f64::max((high[0] - low[0]) / 2.0 / wide, (high[1] - low[1]) / 2.0 / tall);
-        gap = f64::max(gap * grown.clamp(0.4, 2.5), 0.05 * size);
+            // In between, where both are as far from the middle of the picture.
+            *centre = (low.1 * high.2 + high.1 * low.2) / (low.2 + high.2);
+            (high.0 - low.0) / 2.0 / most
+        });
+        gap = f64::max(gap * f64::max(grown[0], grown[1]).clamp(0.4, 2.5), 0.02 * size);
     }
     let depth = (ranges[2].0 + ranges[2].1) / 2.0;
     let target = right * x + up * y + back * depth;

@@ -24,7 +24,7 @@ const SUN_MAP_SIZE: usize = 900;
 const SKY_MAP_SIZE: usize = 160;
 
 /// The directions of the sky that each sample sees, in a fine picture.
-const DIRECTIONS_FINE: usize = 6;
+const DIRECTIONS_FINE: usize = 4;
 
 /// The number of triangles above which each sample sees one direction of the sky alone.
 const TRIANGLES_MANY: usize = 150_000;
@@ -103,10 +103,10 @@ impl Light {
     pub(super) fn new(bodies: &[Drawn], around: (Vec3, f64), fineness: Fineness) -> Light {
         let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
         let each = if fineness == Fineness::Fine && triangles < TRIANGLES_MANY { DIRECTIONS_FINE } else { 1 };
-        let suns = (0..SAMPLES).map(|i| Map::new(bodies, around, sun(i), SUN_MAP_SIZE));
         let count = SAMPLES * each;
-        let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), SKY_MAP_SIZE));
-        Light { suns: suns.collect(), skies: skies.collect(), radius: around.1 }
+        let suns = (0..SAMPLES).map(|i| Map::new(bodies, around, sun(i), SUN_MAP_SIZE)).collect();
+        let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), SKY_MAP_SIZE)).collect();
+        Light { suns, skies, radius: around.1 }
     }
 
     /// Returns the light that a sample of a pixel (0 to [`SAMPLES`] - 1) sees at the point `p` of a surface with the unit

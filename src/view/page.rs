@@ -3,7 +3,7 @@
 use super::data;
 use super::input::RenderInput;
 use super::markup::escaped;
-use super::picture::{Look, StillOptions, small_png};
+use super::picture::{PictureStyle, StillOptions, small_png};
 use super::simulation::{self, SimulationInput};
 use crate::geometry::Vec3;
 use serde_json::Value;
@@ -37,8 +37,13 @@ const SIMULATION_SCRIPTS: [&str; 2] = [include_str!("page/measured.js"), include
 const SIMULATION_LINE: &str = "//: ";
 
 /// The options of the still picture that is shown where scripts cannot run.
-const STILL: StillOptions =
-    StillOptions { time: 0.0, side: super::picture::Side::Corner, width: 480, height: 300, look: Look::Room };
+const STILL: StillOptions = StillOptions {
+    time: 0.0,
+    side: super::picture::Side::Corner,
+    width: 480,
+    height: 300,
+    look: PictureStyle::Room,
+};
 
 /// Returns the page that plays a plan as HTML, which loads nothing from elsewhere. No text of the plan can become
 /// markup: the data is JSON in which `<`, `>` and `&` are written as escapes, and the scripts put it on the page as

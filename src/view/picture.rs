@@ -53,13 +53,13 @@ pub struct StillOptions {
     pub width: usize,
     /// The height of the picture in pixels, at least 1. Default 800.
     pub height: usize,
-    /// The look of the picture. Default [`Look::Room`].
-    pub look: Look,
+    /// The look of the picture. Default [`PictureStyle::Room`].
+    pub look: PictureStyle,
 }
 
 /// The look of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
+pub enum PictureStyle {
     /// In daylight on a ground with a grid.
     Room,
     /// For print: on white without a grid, edges drawn out.
@@ -68,7 +68,7 @@ pub enum Look {
 
 impl Default for StillOptions {
     fn default() -> StillOptions {
-        StillOptions { time: 0.0, side: Side::Corner, width: 1280, height: 800, look: Look::Room }
+        StillOptions { time: 0.0, side: Side::Corner, width: 1280, height: 800, look: PictureStyle::Room }
     }
 }
 

@@ -4,7 +4,7 @@ use super::bodies::Drawn;
 use super::colour::Rgb;
 use super::framing;
 use super::light::{Fineness, Light, SAMPLES, shaded};
-use super::picture::{Look, StillOptions};
+use super::picture::{PictureStyle, StillOptions};
 use super::raster::{Camera, Canvas, Facet};
 use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
@@ -31,7 +31,7 @@ const AXES: [Rgb; 2] = [Rgb([0.706, 0.325, 0.184]), Rgb([0.184, 0.435, 0.624])];
 const EDGE_ROOM: f32 = 0.84;
 const EDGE_FIGURE: f32 = 0.25;
 
-/// What a picture shows.
+/// The content of a picture.
 pub(super) struct Content {
     /// The bodies.
     pub bodies: Vec<Drawn>,
@@ -58,7 +58,7 @@ pub(super) struct Scene {
     /// The width and height in samples.
     width: usize,
     height: usize,
-    look: Look,
+    look: PictureStyle,
 }
 
 impl Scene {
@@ -98,8 +98,8 @@ impl Scene {
     pub(super) fn pixels(&self) -> Vec<u8> {
         let bases: Vec<[f64; 3]> = self.bodies.iter().map(|body| body.colour.0.map(|c| c * c)).collect();
         let floor = Floor::new(self);
-        let mut pixels = Vec::with_capacity(self.width * self.height * 3 / SAMPLES);
-        for top in (0..self.height).step_by(BAND_HEIGHT) {
+        let band = |number: usize| {
+            let top = number * BAND_HEIGHT;
             let rows = top..(top + BAND_HEIGHT).min(self.height);
             let mut canvas = Canvas::new(self.width, self.height, rows);
             canvas.fill(&self.facets);
@@ -115,11 +115,13 @@ impl Scene {
                     self.lit(&self.bodies[body], bases[body], (mix(corners), mix(normals)), sample(x, y))
                 },
                 &|x, y| floor.over(self.sky(y), x, y).0.map(|c| c as f32),
-                if self.look == Look::Figure { EDGE_FIGURE } else { EDGE_ROOM },
+                if self.look == PictureStyle::Figure { EDGE_FIGURE } else { EDGE_ROOM },
             );
+            let mut pixels = Vec::with_capacity(canvas.width * canvas.rows.len() * 3 / SAMPLES);
             push_means(&canvas, &mut pixels);
-        }
-        pixels
+            pixels
+        };
+        (0..self.height.div_ceil(BAND_HEIGHT)).flat_map(band).collect()
     }
 
     /// Returns the shaded colour of a surface point, by its place (m) and normal.
@@ -127,12 +129,12 @@ impl Scene {
         let n = normal.normalize();
         let seen = self.light.seen(&p, &n, sample);
         let away = (self.camera.at - p).normalize();
-        shaded(base, (&n, &away), seen, body.metal, self.look == Look::Figure)
+        shaded(base, (&n, &away), seen, body.metal, self.look == PictureStyle::Figure)
     }
 
     /// Returns the colour of the sky in a row of samples.
     fn sky(&self, y: usize) -> Rgb {
-        if self.look == Look::Figure {
+        if self.look == PictureStyle::Figure {
             return WHITE;
         }
         let u = 1.0 - y as f64 / self.height as f64;
@@ -204,7 +206,7 @@ impl Floor<'_> {
     /// the point, m; `rate`: the height that a metre along the ray gains.
     fn lines(&self, p: &Vec3, away: f64, rate: f64) -> (f64, Rgb) {
         let scene = self.scene;
-        if scene.look == Look::Figure {
+        if scene.look == PictureStyle::Figure {
             return (0.0, INK);
         }
         // The footprint of a pixel: across the ray, and along the ground.

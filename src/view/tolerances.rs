@@ -32,6 +32,9 @@ pub(super) struct Tolerances {
     /// The depth below the surface in the shadow map, as a fraction of the scene's radius, from which a point is in the
     /// shade.
     pub shadow_depth: f64,
+    /// The height by which a dock stands out of its face, as a part of the width of the link there: what lies in one plane
+    /// would flicker.
+    pub fitting: f64,
     /// The part of a step between ticks within which a value lies on a tick: rounding.
     pub tick: f64,
     /// The least step between ticks that is written without an exponent, in the unit of the axis.
@@ -55,6 +58,7 @@ pub(super) const TOLERANCES: Tolerances = Tolerances {
     radius: 1e-6,
     shadow: 0.004,
     shadow_depth: 0.006,
+    fitting: 0.004,
     tick: 1e-9,
     plain_step: 1e-4,
     coverage: 0.002,

@@ -13,7 +13,9 @@ const browser = await chromium.launch({
 const page = await browser.newPage({ viewport: { width: 1200, height: 720 }, reducedMotion: "reduce" });
 await page.goto("file://" + resolve(file) + "#t=" + time);
 for (const key of keys) await page.keyboard.press(key);
-await page.waitForTimeout(500);
+await page.waitForTimeout(300);
+// A picture at rest gets better for a while.
 await page.evaluate(() => window.modl.redraw());
+await page.waitForFunction(() => !window.modl.state.more, null, { timeout: 120000 });
 await page.screenshot({ path: picture });
 await browser.close();

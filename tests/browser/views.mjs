@@ -173,6 +173,7 @@ async function measures(page, fault) {
   await page.keyboard.press("x");
   const size = await page.evaluate(() => {
     const { modl } = window;
+    modl.redraw();
     const [X, view] = [modl.places(modl.state.t), document.getElementById("view")];
     const rect = view.getBoundingClientRect();
     const hits = [];

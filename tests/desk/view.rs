@@ -8,7 +8,7 @@ use crate::support::robots::{H, LEFT, TILT, chain, walk4};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use modl::plan::{Body, Plan};
 use modl::robot::Kinematics;
-use modl::view::{Look, RenderInput, Side, StillOptions, page, png, svg};
+use modl::view::{PictureStyle, RenderInput, Side, StillOptions, page, png, svg};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -179,9 +179,11 @@ fn a_picture_shows_the_robot_from_the_side_asked_for() {
     assert!(corner != top);
     let (width, height, of_corner) = pixels(&corner);
     assert_eq!((width, height), (160, 100));
-    // The module is blue, and the paper is not; it stands in the middle and not at the rim.
-    let blue = |p: &[u8; 3]| i32::from(p[2]) > i32::from(p[0]) + 40;
-    assert!(blue(&of_corner[50 * 160 + 80]) && !blue(&of_corner[0]) && !blue(&of_corner[160 * 100 - 1]));
+    // The module is blue but for its docks, and the paper is not; it stands in the middle and not at the rim.
+    let blue = |p: &[u8; 3]| i32::from(p[2]) > i32::from(p[0]) + 30;
+    let middle = (30..70).flat_map(|y| (60..100).map(move |x| 160 * y + x));
+    assert!(middle.filter(|i| blue(&of_corner[*i])).count() > 400, "in the middle");
+    assert!(!blue(&of_corner[0]) && !blue(&of_corner[160 * 100 - 1]));
     let share = of_corner.iter().filter(|p| blue(p)).count();
     assert!((1600..8000).contains(&share), "{share} pixels of 16000");
     // From the left and from the right a module is as wide, mirrored: symmetric in y.
@@ -193,10 +195,10 @@ fn a_picture_shows_the_robot_from_the_side_asked_for() {
 /// The pixels of a picture for print that are not grey: the robot; shadows on the white ground are.
 fn coloured(plan: &Plan, side: Side, (width, height): (usize, usize)) -> Vec<(usize, usize)> {
     let input = RenderInput { title: "", plan, texts: &[], command: "" };
-    let options = StillOptions { side, width, height, look: Look::Figure, ..StillOptions::default() };
+    let options = StillOptions { side, width, height, look: PictureStyle::Figure, ..StillOptions::default() };
     let (_, _, found) = pixels(&png(&input, &options));
     let chroma = |[r, g, b]: [u8; 3]| r.max(g).max(b) - r.min(g).min(b);
-    let places = (0..width * height).filter(|i| chroma(found[*i]) > 40);
+    let places = (0..width * height).filter(|i| chroma(found[*i]) > 18);
     places.map(|i| (i % width, i / width)).collect()
 }
 
@@ -213,7 +215,7 @@ fn a_picture_is_filled_and_cuts_nothing_off() {
             let ((left, right), (top, bottom)) = (range(|p| p.0), range(|p| p.1));
             let inside = left > 0 && top > 0 && right + 1 < size.0 && bottom + 1 < size.1;
             let fill = f64::max((right - left) as f64 / size.0 as f64, (bottom - top) as f64 / size.1 as f64);
-            assert!(inside && fill > 0.75, "{side:?} of {size:?}: {left}..{right}, {top}..{bottom}");
+            assert!(inside && fill > 0.7, "{side:?} of {size:?}: {left}..{right}, {top}..{bottom}");
         }
     }
 }

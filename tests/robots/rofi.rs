@@ -4,8 +4,8 @@
 
 use crate::language::interpret::{Ran, ran};
 use crate::support::suite::MapFiles;
-use modl::geometry::Pose;
 use modl::geometry::pose::{shifted, turned};
+use modl::geometry::{Pose, Shape};
 use modl::interpret::{Mode, Options};
 use modl::source::code;
 use nalgebra::Vector3;
@@ -128,9 +128,20 @@ fn the_module_from_rust_is_the_library_s() {
         let inertia = |i: usize| (a.inertia[i] - b.inertia[i]).abs() < 1e-18;
         assert!((0..6).all(inertia), "{}", a.name);
         assert_eq!(
-            (&a.name, &a.shape, a.mass, a.com, a.friction),
-            (&b.name, &b.shape, b.mass, b.com, b.friction)
+            (&a.name, &a.collides, a.mass, a.com, a.friction),
+            (&b.name, &b.collides, b.mass, b.com, b.friction)
         );
+        // The brackets of shoes are drawn through the same points.
+        assert_eq!(a.shape.len(), b.shape.len(), "{}", a.name);
+        for (ours, theirs) in a.shape.iter().zip(&b.shape) {
+            match (&ours.shape, &theirs.shape) {
+                (Shape::Hull { points: ours }, Shape::Hull { points: theirs }) => {
+                    assert_eq!(ours.len(), theirs.len());
+                    assert!(ours.iter().zip(theirs).all(|(p, q)| (p - q).norm() < 1e-15), "{}", a.name);
+                }
+                (ours, theirs) => assert_eq!(ours, theirs),
+            }
+        }
     }
     for (a, b) in ours.ports.iter().zip(&theirs.ports) {
         assert_eq!((&a.name, a.link, a.connector), (&b.name, b.link, b.connector));

@@ -5,8 +5,11 @@ const INKS_DARK = ["#75a0e0", "#f5b628", "#4fdb9e", "#ca94bd", "#997ef3", "#d2cd
 /** Points of one curve: as many as a screen can tell apart. */
 const CURVE_POINTS = 400;
 const JOINTS_SHOWN = 6;
-/** Pixels of a row of curves, and of the axis of time below all of them. */
-const ROW_HEIGHT = 92;
+/** Pixels of a row of curves, at least and at most, and of the axis of time below all of them; the part of the window that
+    they take, so that the robot is seen above them. */
+const ROW_LEAST = 58;
+const ROW_MOST = 92;
+const CURVES_PART = 0.4;
 const TIME_HEIGHT = 20;
 
 /** Round numbers in a range, so many at most: where an axis has its ticks, and how many digits tell them apart. */
@@ -27,6 +30,7 @@ function curvesOf(plan, motion, seek) {
   const canvas = root.querySelector("canvas");
   let module = null;
   let rows = [];
+  let rowHeight = ROW_MOST;
 
   function jointRow() {
     let chosen = motion.driven;
@@ -54,7 +58,8 @@ function curvesOf(plan, motion, seek) {
     const { load } = plan.verdict;
     const judged = load === undefined || load === null ? [] : [[100 * load, "judged: at most " + (100 * load).toFixed(1) + " %"]];
     row("greatest joint load, were the ground's forces spread evenly", "", plan.loads && plan.loads.moments.map(([t, ratios]) => [t, 100 * Math.max(...ratios)]), " %", [[100, "limit of the joint"], ...judged]);
-    canvas.style.height = rows.length * ROW_HEIGHT + TIME_HEIGHT + "px";
+    rowHeight = Math.round(clamp((CURVES_PART * innerHeight - TIME_HEIGHT) / Math.max(rows.length, 1), ROW_LEAST, ROW_MOST));
+    canvas.style.height = rows.length * rowHeight + TIME_HEIGHT + "px";
     canvas.setAttribute("aria-label", "Curves over time: " + rows.map(row => visible(row.title)).join(", "));
     return rows.length > 0;
   }
@@ -72,13 +77,13 @@ function curvesOf(plan, motion, seek) {
     const inks = document.documentElement.dataset.theme === "dark" ? INKS_DARK : INKS;
     const frame = { left: GUTTER, right: w - 1, w, t, colour, inks };
     const x = time => mix(frame.left, frame.right, time / Math.max(plan.duration, 1e-9));
-    rows.forEach((row, i) => drawRow(g, row, { ...frame, x, top: i * ROW_HEIGHT, bottom: (i + 1) * ROW_HEIGHT - 8 }));
-    timeAxis(g, x, rows.length * ROW_HEIGHT - 4, plan.duration, w, colour);
+    rows.forEach((row, i) => drawRow(g, row, { ...frame, x, top: i * rowHeight, bottom: (i + 1) * rowHeight - 8 }));
+    timeAxis(g, x, rows.length * rowHeight - 4, plan.duration, w, colour);
     g.strokeStyle = colour("--ink");
     g.lineWidth = 1;
     g.beginPath();
     g.moveTo(x(t), 0);
-    g.lineTo(x(t), rows.length * ROW_HEIGHT - 6);
+    g.lineTo(x(t), rows.length * rowHeight - 6);
     g.stroke();
   }
 
@@ -102,7 +107,7 @@ function curvesOf(plan, motion, seek) {
     g.lineWidth = 1;
     g.textBaseline = "middle";
     g.textAlign = "right";
-    const { ticks, digits } = ticksOf(low, high, 5);
+    const { ticks, digits } = ticksOf(low, high, clamp((from - to) / 16, 2, 5));
     for (const tick of ticks) {
       g.strokeStyle = colour("--line");
       stroke(g, [[left, Math.round(y(tick)) + 0.5], [right, Math.round(y(tick)) + 0.5]]);
@@ -130,10 +135,12 @@ function curvesOf(plan, motion, seek) {
     });
     g.restore();
     g.textBaseline = "top";
+    let edge = right - 4;
     for (const [limit, words] of row.limits || []) {
       if (y(limit) < to - 2 || y(limit) > from + 2) continue;
       g.fillStyle = colour("--bad");
-      g.fillText(words, right - 4, y(limit) + (y(limit) < to + 14 ? 3 : -13));
+      g.fillText(words, edge, y(limit) + (y(limit) < to + 14 ? 3 : -13));
+      edge -= g.measureText(words).width + 16;
     }
     g.textAlign = "left";
     g.fillStyle = colour("--ink");

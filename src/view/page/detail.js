@@ -151,8 +151,6 @@ function sidesOf(m) {
 function batchOf(gl, mesh, capacity, closed, edged) {
   const data = new Float32Array(INSTANCE * capacity);
   const buffer = gl.createBuffer();
-  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-  gl.bufferData(gl.ARRAY_BUFFER, data.byteLength, gl.DYNAMIC_DRAW);
   const each = [4, 4, 4, 4, 1].map((size, k) => [2 + k, buffer, size, 4 * INSTANCE, 16 * k, 1]);
   const faces = arrayOf(gl, [[0, mesh.faces, 3, 36, 0, 0], [1, mesh.faces, 3, 36, 12, 0], [7, mesh.faces, 3, 36, 24, 0], ...each], mesh.index);
   const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 24, 0, 0], [7, mesh.lines, 3, 24, 12, 0], ...each]) : null;
@@ -178,7 +176,8 @@ function batchOf(gl, mesh, capacity, closed, edged) {
     upload() {
       if (!this.count) return;
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferSubData(gl.ARRAY_BUFFER, 0, data, 0, INSTANCE * this.count);
+      // Anew: a part of a buffer that is still read would be written into a copy of all of it.
+      gl.bufferData(gl.ARRAY_BUFFER, data.subarray(0, INSTANCE * this.count), gl.STREAM_DRAW);
     },
     /** Draws them as `faces` or as `lines`; says how many calls it took. */
     draw(what) {

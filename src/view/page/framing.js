@@ -95,17 +95,22 @@ function framingOf(plan, motion, X) {
       const deepest = Math.max(...points.map(p => p[2]));
       let [x, y, distance] = [0, 0, deepest + 4 * Math.max(...looks.map(look => look.radius))];
       const [tall, wide] = [FILLED * half * (1 - over - under), FILLED * half * aspect];
-      for (let i = 0; i < 12; i++) {
-        let [left, most, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
-        for (const [u, v, w] of points) {
-          const gap = Math.max(distance - w, 0.02 * distance);
-          (left = Math.min(left, (u - x) / gap)), (most = Math.max(most, (u - x) / gap));
-          (low = Math.min(low, (v - y) / gap)), (high = Math.max(high, (v - y) / gap));
-        }
-        const grown = Math.max((most - left) / 2 / wide, (high - low) / 2 / tall, 1e-6);
-        x += ((left + most) / 2) * distance;
-        y += ((low + high) / 2) * distance;
-        distance = Math.max(deepest + 0.05 * (distance - deepest), deepest + (distance - deepest) * clamp(grown, 0.4, 2.5));
+      for (let i = 0; i < 24; i++) {
+        // The outermost points on both sides as the camera sees them, each with its distance along the view.
+        const [across, upwards] = [[0, x], [1, y]].map(([k, centre]) => {
+          let [low, high] = [[Infinity], [-Infinity]];
+          for (const p of points) {
+            const gap = distance - p[2];
+            const at = (p[k] - centre) / gap;
+            if (at < low[0]) low = [at, p[k], gap];
+            if (at > high[0]) high = [at, p[k], gap];
+          }
+          // In between, where both are as far from the middle of the picture.
+          return { centre: (low[1] * high[2] + high[1] * low[2]) / (low[2] + high[2]), half: (high[0] - low[0]) / 2 };
+        });
+        [x, y] = [across.centre, upwards.centre];
+        const grown = Math.max(across.half / wide, upwards.half / tall, 1e-6);
+        distance = deepest + (distance - deepest) * clamp(grown, 0.4, 2.5);
       }
       // The middle between the rims is not that of the picture.
       y += (over - under) * half * distance;

@@ -11,7 +11,8 @@ const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
 const WATCHED_MAX = 120;
 /** So long after it was turned the picture counts as moving, ms. */
 const TURNED_FOR = 160;
-/** So long a picture at rest gets better, ms, but so often at least. */
+/** So long everything is at rest before the picture gets better, ms; so long it does, but so often at least. */
+const RESTED_FOR = 200;
 const REFINED_FOR = 5000;
 const ROUNDS_LEAST = 5;
 /** Parts in the legend over the picture; all of them stand beside it. */
@@ -190,11 +191,13 @@ function main() {
     //: showScale(plan, options, box);
   }
 
-  const pace = paceOf();
+  const pace = paceOf(Boolean(renderer && renderer.software));
   /** How coarsely it is drawn: only what moves by itself, or is turned. */
   const coarseness = () => (state.playing || performance.now() - state.moved < TURNED_FOR ? pace.level() : 0);
   let shaped = 0;
   function resize() {
+    // What lies over the picture in depth takes as long as the picture, where it is drawn in software.
+    document.body.classList.toggle("slow", coarseness() > 1);
     const ratio = Math.min(devicePixelRatio || 1, 2) * PIXELS[coarseness()];
     const [w, h] = [canvas.clientWidth, canvas.clientHeight].map(x => Math.max(Math.round(x * ratio), 1));
     const shape = w / h;
@@ -439,7 +442,7 @@ function main() {
         try { history.replaceState(null, "", address); } catch { /* nothing is lost */ }
         known = location.hash;
       }
-    } else if (state.more && renderer && !state.playing) {
+    } else if (state.more && renderer && !state.playing && performance.now() - state.began > RESTED_FOR) {
       try { refine(); } catch (error) { showStill(error); }
     }
     requestAnimationFrame(frame);

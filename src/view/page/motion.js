@@ -9,7 +9,7 @@
 //   facts(b, t)  lines about a body for the tooltip
 
 /** Smaller than this on the screen, in pixels, fittings and the plates of cells are not drawn. */
-const FITTING = 5;
+const FITTING = 7;
 const PLATE = 22;
 
 /** Numbers of a body in X: place, -, rotation, size, -, colour, glow. */

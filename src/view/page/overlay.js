@@ -85,6 +85,7 @@ function measureOf(pickPoint, touch) {
   measure.toggle = on => {
     measure.on = on === undefined ? !measure.on : on;
     measure.points = [];
+    label.hidden = !measure.on;
     button.setAttribute("aria-pressed", measure.on);
     document.body.classList.toggle("measuring", measure.on);
     touch();

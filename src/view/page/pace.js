@@ -1,12 +1,12 @@
 // Adaptive resolution while things move: where frames come too slowly for the eye, as with a renderer in
-// software, shadows and soft edges of the picture go first, then drawn edges and pixels, then the detail
-// of what is small. What stands still is drawn in full.
+// software, the shadows of the sky and soft edges of the picture go first, then those of the sun, drawn edges, pixels and the cube of
+// sides, then the detail of what is small. What stands still is drawn in full.
 
 /** Slower than this a motion is seen as single pictures, ms. */
 const FRAME_MAX = 40;
 /** Frames of one kind before it is judged; one that takes several times as long counts as several. */
 const FRAMES_JUDGED = 6;
-const FRAME_WEIGHT_MAX = 3;
+const FRAME_WEIGHT_MAX = 6;
 /** As fast as this for so long, ms, and the next finer kind is tried, so many times. */
 const FRAME_EASY = 20;
 const EASY_FOR = 3000;
@@ -15,10 +15,11 @@ const CLIMBS_MAX = 2;
 const SETTLED_AFTER = 600;
 /** What is left, from the finest on: of the pixels each way; of the size by which bodies get their detail. */
 const PIXELS = [1, 1, 0.7, 0.5];
-const DETAIL = [1, 0.4, 0.4, 0.2];
+const DETAIL = [1, 0.4, 0.3, 0.1];
 
-function paceOf() {
-  let [level, slow, easy, climbs, age] = [0, 0, 0, 0, 0];
+/** `slowly`: whether it is drawn in software, as far as is known. */
+function paceOf(slowly) {
+  let [level, slow, easy, climbs, age] = [slowly ? 1 : 0, 0, 0, 0, 0];
   const to = next => ((level = next), (slow = easy = 0), true);
   return {
     /** A frame took so long, ms; says whether the next are to be drawn otherwise. */

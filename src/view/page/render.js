@@ -4,6 +4,7 @@ const SUN = unit([0.42, -0.55, 1.05]);
 const SHADOW_SIZE = 2048;
 /** Pixels of the map of one direction of the sky. */
 const SKY_SIZE = 256;
+const SKY_DETAIL = 0.15;
 /** Pictures that are averaged while everything is at rest, each with a slightly other sun, sky and camera. */
 const REFINED = 16;
 /** How wide the sun is, rad; more than the real one, as behind thin clouds. */
@@ -50,6 +51,8 @@ function rendererOf(canvas, plan, motion) {
   const lines = lineBatch(gl);
   const flats = { buffer: gl.createBuffer() };
   flats.array = arrayOf(gl, [[0, flats.buffer, 3, 12, 0, 0]]);
+  const about = gl.getExtension("WEBGL_debug_renderer_info");
+  const software = Boolean(about && /swiftshader|llvmpipe|software|basic render/i.test(gl.getParameter(about.UNMASKED_RENDERER_WEBGL)));
   const lists = new Map();
   /** What is drawn now, of the list of solids that was chosen from last. */
   let chosen = null;
@@ -104,12 +107,13 @@ function rendererOf(canvas, plan, motion) {
   }
 
   /** The maps of the light in one of the pictures that are averaged. */
-  function lightOf(scene, round) {
+  function lightOf(scene, X, round) {
     const sunDirection = sunOf(round);
     const light = { sunDirection, sun: lightView(scene, sunDirection), skyViews: new Float32Array(16 * SKIES), skyDirections: new Float32Array(3 * SKIES) };
     const before = calls;
-    if (scene.shadow) drawMap(shadows, [[0, 0, SHADOW_SIZE, light.sun]]);
     if (scene.sky) {
+      // The maps of the sky are small, and so is what they need of the bodies' detail.
+      choose(scene.solids, X, { camera: scene.camera, detail: SKY_DETAIL * scene.detail }, null);
       const tiles = skyOf(round).map((direction, i) => {
         const view = lightView(scene, direction);
         light.skyViews.set(view, 16 * i);
@@ -118,6 +122,9 @@ function rendererOf(canvas, plan, motion) {
       });
       drawMap(skies, tiles);
     }
+    // A body outside of the picture may still throw a shadow into it.
+    choose(scene.solids, X, scene, scene.shadow ? null : scene.camera.matrix);
+    if (scene.shadow) drawMap(shadows, [[0, 0, SHADOW_SIZE, light.sun]]);
     // Maps are counted once, by direction: what is counted are the calls that it takes to draw everything.
     calls = before;
     return light;
@@ -126,14 +133,14 @@ function rendererOf(canvas, plan, motion) {
   function render(scene, X, round = 0) {
     calls = 0;
     const { camera, theme } = scene;
-    // A body outside of the picture may still throw a shadow into it.
-    choose(scene.solids, X, scene, scene.shadow || scene.sky ? null : camera.matrix);
-    const light = lightOf(scene, round);
+    const light = lightOf(scene, X, round);
     const [dx, dy] = round ? jitterOf(round) : [0, 0];
     const aside = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, (2 * dx) / canvas.width, (2 * dy) / canvas.height, 0, 1]);
     const view = times(aside, camera.matrix);
-    // What is averaged needs no soft edges of its own.
-    const target = !scene.smooth ? null : round ? sum.sized(canvas.width, canvas.height) : smooth.sized(canvas.width, canvas.height);
+    // What is averaged needs no soft edges of its own, nor does, where they take long, what will be soon.
+    const averaged = scene.smooth && sum.there && scene.sky;
+    const single = averaged && (round > 0 || software);
+    const target = !scene.smooth ? null : single ? sum.sized(canvas.width, canvas.height) : smooth.sized(canvas.width, canvas.height);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -148,7 +155,8 @@ function rendererOf(canvas, plan, motion) {
       view, ...light, eye: camera.eye, dark: theme.dark ? 1 : 0, paper: theme.figure ? 1 : 0, pixels,
       shadowed: scene.shadow ? 1 : 0, open: scene.sky ? 0 : 1, reach: 0.006 * Math.min(scene.radius, camera.distance),
     };
-    use("solid", { ...common, opacity: 1 });
+    const kind = scene.sky ? "" : "Plain";
+    use("solid" + kind, { ...common, opacity: 1 });
     draw("faces");
     gl.enable(gl.BLEND);
     // The canvas stays opaque.
@@ -169,14 +177,14 @@ function rendererOf(canvas, plan, motion) {
     gl.depthMask(true);
     gl.disable(gl.BLEND);
     gl.bindVertexArray(null);
-    return calls;
+    return { calls, averaged, single };
   }
 
   /** One of the pictures that are averaged, from the first on; says whether it is shown and another would be better. */
   function show(scene, X, round) {
-    const found = render(scene, X, round);
-    if (scene.smooth && sum.there && scene.sky) {
-      sum.add(canvas.width, canvas.height, round ? null : smooth.frame, round, (target, texture, part, added) => {
+    const { calls: found, averaged, single } = render(scene, X, round);
+    if (averaged) {
+      sum.add(canvas.width, canvas.height, single ? null : smooth.frame, round, (target, texture, part, added) => {
         gl.bindFramebuffer(gl.FRAMEBUFFER, target);
         gl.viewport(0, 0, canvas.width, canvas.height);
         gl.disable(gl.DEPTH_TEST);
@@ -199,7 +207,7 @@ function rendererOf(canvas, plan, motion) {
     gl.depthMask(false);
     const { middle, radius, camera, grain, theme } = scene;
     const width = Math.max(radius * 6, norm(sub(camera.eye, middle)) * 2.5);
-    use("ground", {
+    use(scene.sky ? "ground" : "groundPlain", {
       ...common, patch_: [middle[0], middle[1], scene.ground ? scene.floor : scene.lowest, width], slope: scene.slope, ink: theme.ink, axisX: theme.axisX, axisY: theme.axisY,
       step_: gridStep(grain), strength: theme.dark ? 1.7 : 1, there: scene.ground ? 1 : 0, lines_: scene.grid ? (scene.ground ? 1 : 0.7) : 0,
     });
@@ -272,7 +280,7 @@ function rendererOf(canvas, plan, motion) {
     return depth ? (found[3] ? value / 16777215 : -1) : value - 1;
   }
 
-  return { gl, show, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), ghosts };
+  return { gl, software, show, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), ghosts };
 }
 
 function beginProgram(gl, texts) {

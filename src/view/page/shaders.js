@@ -66,6 +66,9 @@ float sunlight(vec4 lit) {
 }
 /** What of the sky is seen from a point: of what shines on its side, and of all. */
 vec2 skylight(vec3 at, vec3 n) {
+#ifdef PLAIN
+  return vec2(1.0);
+#else
   if (open > 0.5) return vec2(1.0);
   float sum = 0.0, weights = 0.0, all = 0.0;
   for (int i = 0; i < ${SKIES}; i++) {
@@ -79,6 +82,7 @@ vec2 skylight(vec3 at, vec3 n) {
     all += seen;
   }
   return vec2(sum / weights, all / ${SKIES}.0);
+#endif
 }
 `;
 
@@ -97,12 +101,16 @@ void main() {
   vec3 ambient = mix(vec3(0.50, 0.54, 0.60), vec3(0.74), paper) * mix(1.0, 0.62, dark) * (0.35 + 0.65 * up) * mix(0.12, 1.0, sky.x);
   ambient += mix(vec3(0.26, 0.245, 0.225), vec3(0.26), paper) * mix(1.0, 0.55, dark) * (1.0 - up) * mix(0.3, 1.0, sky.y);
   ambient += side * vec3(0.17, 0.175, 0.19) * mix(0.4, 1.0, sky.y);
+  vec3 c = colour * (ambient + direct * mix(vec3(0.74, 0.705, 0.65), vec3(0.52), paper));
+#ifndef PLAIN
   // A rough surface: a broad highlight, and what the sky leaves at grazing angles.
   float rough = mix(0.42, 0.30, metal), a = rough * rough, d = dot(n, h) * dot(n, h) * (a * a - 1.0) + 1.0;
   float gloss = min(a * a / (4.0 * d * d), 6.0) * mix(0.06, 0.24, metal);
-  float rim = pow(1.0 - max(dot(n, v), 0.0), 4.0);
-  vec3 c = colour * (ambient + direct * mix(vec3(0.74, 0.705, 0.65), vec3(0.52), paper));
+  float rim = 1.0 - max(dot(n, v), 0.0);
+  rim *= rim;
+  rim *= rim;
   c += (gloss * direct + rim * 0.10 * sky.x * (0.4 + 0.6 * up)) * mix(vec3(1.0), colour * 2.2, metal * 0.5) * mix(1.0, 0.4, paper);
+#endif
   c = mix(c, colour * 1.3 + 0.10, glow);
   // Bright light is compressed, and not cut off.
   c = c / (1.0 + max(c - 0.6, 0.0) * 0.7);
@@ -249,9 +257,13 @@ uniform vec4 tint;
 out vec4 shown;
 void main() { shown = tint; }`;
 
+/** The same program without the light of the sky and without highlights, for what has to be fast. */
+const plain = text => text.replace(HEAD, HEAD + "#define PLAIN\n");
+
 /** Vertex and fragment program of each. */
 const PROGRAMS = {
   solid: [SOLID_VERTEX, SOLID_FRAGMENT], edge: [EDGE_VERTEX, EDGE_FRAGMENT], depth: [DEPTH_VERTEX, DEPTH_FRAGMENT],
   pick: [PICK_VERTEX, PICK_FRAGMENT], ground: [GROUND_VERTEX, GROUND_FRAGMENT], sky: [SKY_VERTEX, SKY_FRAGMENT],
+  solidPlain: [SOLID_VERTEX, plain(SOLID_FRAGMENT)], groundPlain: [GROUND_VERTEX, plain(GROUND_FRAGMENT)],
   line: [LINE_VERTEX, LINE_FRAGMENT], flat: [FLAT_VERTEX, FLAT_FRAGMENT], mean: [MEAN_VERTEX, MEAN_FRAGMENT],
 };

@@ -6,7 +6,7 @@ const CREASE = Math.cos((32 * Math.PI) / 180);
 
 /** Every shape, each in the finenesses in which it is drawn, the finest first. */
 function shapesOf(plan, rounds) {
-  return [[boxShape()], rounds.map(cylinderShape), rounds.map(ballShape), ...(plan.meshes || []).map(mesh => [meshShape(mesh)])];
+  return [rounds.map((round, i) => boxShape(i + 1 < rounds.length)), rounds.map((round, i) => cylinderShape(round, i + 1 < rounds.length)), rounds.map(ballShape), ...(plan.meshes || []).map(mesh => [meshShape(mesh)])];
 }
 
 /** Corners [x, y, z, normal, inset], three a triangle, as corners that are there once, and their indices. */
@@ -29,13 +29,13 @@ function fan(faces, ring) {
   for (let i = 2; i < ring.length; i++) faces.push(turned_[0], turned_[i - 1], turned_[i]);
 }
 
-/** A box with rounded edges: its faces are drawn in from the edges, strips and corners lie between them. */
-function boxShape() {
+/** A box, with rounded edges or without: its faces are drawn in from the edges, strips and corners lie between them. */
+function boxShape(rounded) {
   const faces = [];
   const lines = [];
   /** A corner of the box as a corner of its face along an axis. */
   const corner = (signs, axis) => [
-    ...signs.map(x => x / 2), ...[0, 1, 2].map(k => (k === axis ? signs[k] : 0)), ...signs.map((x, k) => (k === axis ? 0 : x)),
+    ...signs.map(x => x / 2), ...[0, 1, 2].map(k => (k === axis ? signs[k] : 0)), ...signs.map((x, k) => (k === axis || !rounded ? 0 : x)),
   ];
   for (let axis = 0; axis < 3; axis++) {
     const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
@@ -44,31 +44,32 @@ function boxShape() {
       fan(faces, [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([b, c]) => corner(signs(side, b, c), axis)));
       for (const other of [-1, 1]) {
         const ends = [signs(-1, side, other), signs(1, side, other)];
-        fan(faces, [corner(ends[0], u), corner(ends[1], u), corner(ends[1], v), corner(ends[0], v)]);
-        for (const end of ends) lines.push(...end.map(x => x / 2), ...end.map(x => x / 2));
+        if (rounded) fan(faces, [corner(ends[0], u), corner(ends[1], u), corner(ends[1], v), corner(ends[0], v)]);
+        for (const end of ends) lines.push(...end.map(x => x / 2), ...end.map(x => (rounded ? x / 2 : 0)));
       }
     }
   }
-  for (let i = 0; i < 8; i++) {
+  for (let i = 0; rounded && i < 8; i++) {
     const signs = [0, 1, 2].map(k => (i >> k & 1 ? 1 : -1));
     fan(faces, [0, 1, 2].map(axis => corner(signs, axis)));
   }
   return { ...indexed(faces), lines: new Float32Array(lines) };
 }
 
-/** A cylinder whose rims are rounded. */
-function cylinderShape(round) {
+/** A cylinder, with rounded rims or without. */
+function cylinderShape(round, rounded) {
   const faces = [];
   const lines = [];
   const out = i => [Math.cos((2 * Math.PI * (i % round)) / round), Math.sin((2 * Math.PI * (i % round)) / round)];
-  const side = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, c, s, 0, 0, 0, z]; };
-  const lid = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, 0, 0, z, c, s, 0]; };
+  const inset = rounded ? 1 : 0;
+  const side = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, c, s, 0, 0, 0, inset * z]; };
+  const lid = (i, z) => { const [c, s] = out(i); return [c / 2, s / 2, z / 2, 0, 0, z, inset * c, inset * s, 0]; };
   for (let i = 0; i < round; i++) {
     fan(faces, [side(i, -1), side(i + 1, -1), side(i + 1, 1), side(i, 1)]);
     for (const z of [-1, 1]) {
-      fan(faces, [side(i, z), side(i + 1, z), lid(i + 1, z), lid(i, z)]);
+      if (rounded) fan(faces, [side(i, z), side(i + 1, z), lid(i + 1, z), lid(i, z)]);
       if (i && i + 1 < round) fan(faces, [lid(0, z), lid(i, z), lid(i + 1, z)]);
-      for (const k of [i, i + 1]) lines.push(...side(k, z).slice(0, 3), ...out(k).map(x => x / 2), z / 2);
+      for (const k of [i, i + 1]) lines.push(...side(k, z).slice(0, 3), ...out(k).map(x => (inset * x) / 2), (inset * z) / 2);
     }
   }
   // A mark on each end, or nobody would see it turn.
