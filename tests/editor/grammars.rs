@@ -35,7 +35,9 @@ fn programs(generated: u64) -> Vec<(String, String)> {
     }
     found.sort();
     assert!(found.len() > 50, "{} programs", found.len());
-    found.extend((0..generated).map(|seed| (format!("generated_{seed:05}.mod"), forms::program(&mut Dice::new(seed)))));
+    found.extend(
+        (0..generated).map(|seed| (format!("generated_{seed:05}.mod"), forms::program(&mut Dice::new(seed)))),
+    );
     found
 }
 
@@ -80,9 +82,16 @@ fn tree_sitter_reads_every_program() {
     let said = printed(Command::new(&tool).arg("parse").arg(&folder.0));
     assert_eq!(said.lines().count(), programs.len());
     let wrong: Vec<&str> = said.lines().filter(|line| !line.ends_with(" ok")).collect();
-    let texts: BTreeMap<&str, &str> = programs.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    let texts: BTreeMap<&str, &str> =
+        programs.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
     let first = wrong.first().map(|line| texts[line.split_once(' ').expect("a name").0]);
-    assert!(wrong.is_empty(), "{} are not read, such as {:?}:\n{}", wrong.len(), wrong[0], first.expect("one"));
+    assert!(
+        wrong.is_empty(),
+        "{} are not read, such as {:?}:\n{}",
+        wrong.len(),
+        wrong[0],
+        first.expect("one")
+    );
 }
 
 /// A piece of a program: its beginning and end in bytes.
@@ -94,8 +103,10 @@ fn served(editor: &mut Client, text: &str) -> BTreeMap<String, BTreeSet<Piece>> 
     let document = json!({ "textDocument": { "uri": uri("main.mod") } });
     let tokens = editor.ask("textDocument/semanticTokens/full", document);
     let legend = editor.capabilities["semanticTokensProvider"]["legend"]["tokenTypes"].clone();
-    let numbers = tokens["data"].as_array().expect("a list").iter().map(|n| n.as_u64().expect("a number") as usize);
-    let starts: Vec<usize> = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+    let numbers =
+        tokens["data"].as_array().expect("a list").iter().map(|n| n.as_u64().expect("a number") as usize);
+    let starts: Vec<usize> =
+        std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let byte = |line: usize, column: usize| {
         let rest = &text[starts[line]..];
         let units = rest.char_indices().scan(0, |units, (at, c)| {
@@ -103,7 +114,8 @@ fn served(editor: &mut Client, text: &str) -> BTreeMap<String, BTreeSet<Piece>> 
             *units += c.len_utf16();
             Some((before, at))
         });
-        starts[line] + units.into_iter().find(|(before, _)| *before >= column).map_or(rest.len(), |(_, at)| at)
+        starts[line]
+            + units.into_iter().find(|(before, _)| *before >= column).map_or(rest.len(), |(_, at)| at)
     };
     let (mut line, mut column) = (0, 0);
     let mut found: BTreeMap<String, BTreeSet<Piece>> = BTreeMap::new();

@@ -297,7 +297,15 @@ fn descend_to(
     };
     steps.truncate(best.0);
     let none = Distance::default();
-    Descent { steps, start: first, distance: best.1, start_measured: none, measured: none, target: Pose::identity(), end }
+    Descent {
+        steps,
+        start: first,
+        distance: best.1,
+        start_measured: none,
+        measured: none,
+        target: Pose::identity(),
+        end,
+    }
 }
 
 /// Returns rotations that are spread evenly over all, on a super-Fibonacci spiral (Alexa 2022); for a seed other than 0,
