@@ -19,8 +19,12 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// The samples of a pixel, each of which sees its own part of the directions.
 pub(super) const SAMPLES: usize = 9;
 
-/// The width and height of depth maps, in texels: of a direction of the sun, and of the sky.
-const SUN_MAP_SIZE: usize = 900;
+/// The number of directions of the sun, and the width and height of their depth maps in texels: of a fine picture, and of a
+/// quick one. Samples of a pixel see them in turns.
+const SUNS_FINE: (usize, usize) = (SAMPLES, 900);
+const SUNS_QUICK: (usize, usize) = (3, 450);
+
+/// The width and height of depth maps of the sky, in texels.
 const SKY_MAP_SIZE: usize = 160;
 
 /// The directions of the sky that each sample sees, in a fine picture.
@@ -32,9 +36,9 @@ const TRIANGLES_MANY: usize = 150_000;
 /// The fineness of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fineness {
-    /// Several directions of the sky a sample: for pictures that are looked at.
+    /// Several directions of the sky a sample, and fine shadows: for pictures that are looked at.
     Fine,
-    /// One direction a sample: for small pictures, and those of a film.
+    /// One direction of the sky a sample, and coarser shadows: for small pictures, and those of a film.
     Quick,
 }
 
@@ -51,7 +55,7 @@ pub(super) struct Seen {
 
 /// The light of a scene.
 pub(super) struct Light {
-    /// The directions of the sun, [`SAMPLES`] of them.
+    /// The directions of the sun; sample `i` sees the one of index `i` modulo their number.
     suns: Vec<Map>,
     /// The directions of the sky: those of sample `i` are `i`, `i + SAMPLES`, ...
     skies: Vec<Map>,
@@ -82,19 +86,18 @@ impl Map {
         let size = self.canvas.width;
         let Some(spot) = self.camera.project(p, size, size) else { return 1.0 };
         let (x, y) = (spot.x - 0.5, spot.y - 0.5);
-        let (left, top) = (x.floor(), y.floor());
-        let lit = |x: f64, y: f64| {
-            let inside = x >= 0.0 && y >= 0.0 && x < size as f64 && y < size as f64;
-            let depth = if inside {
-                f64::from(self.canvas.depths[y as usize * size + x as usize])
-            } else {
-                f64::NEG_INFINITY
-            };
-            if depth > spot.depth + slack { 0.0 } else { 1.0 }
-        };
-        let (u, v) = (x - left, y - top);
-        let row = |y: f64| lit(left, y) * (1.0 - u) + lit(left + 1.0, y) * u;
-        row(top) * (1.0 - v) + row(top + 1.0) * v
+        let last = (size - 1) as f64;
+        // The bodies lie well within the map.
+        if !(0.0..last).contains(&x) || !(0.0..last).contains(&y) {
+            return 1.0;
+        }
+        let (left, top) = (x as usize, y as usize);
+        let (u, v) = (x - left as f64, y - top as f64);
+        let limit = (spot.depth + slack) as f32;
+        let lit = |at: usize| if self.canvas.depths[at] > limit { 0.0 } else { 1.0 };
+        let row = |at: usize| lit(at) * (1.0 - u) + lit(at + 1) * u;
+        let first = top * size + left;
+        row(first) * (1.0 - v) + row(first + size) * v
     }
 }
 
@@ -104,7 +107,8 @@ impl Light {
         let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
         let each = if fineness == Fineness::Fine && triangles < TRIANGLES_MANY { DIRECTIONS_FINE } else { 1 };
         let count = SAMPLES * each;
-        let suns = (0..SAMPLES).map(|i| Map::new(bodies, around, sun(i), SUN_MAP_SIZE)).collect();
+        let (suns, size) = if fineness == Fineness::Fine { SUNS_FINE } else { SUNS_QUICK };
+        let suns = (0..suns).map(|i| Map::new(bodies, around, sun(i, suns), size)).collect();
         let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), SKY_MAP_SIZE)).collect();
         Light { suns, skies, radius: around.1 }
     }
@@ -115,7 +119,7 @@ impl Light {
         let lifted = p + n * (TOLERANCES.shadow * self.radius);
         let slack = TOLERANCES.shadow_depth * self.radius;
         let facing = n.dot(&SUN) > 0.0;
-        let sun = if facing { self.suns[sample].seen(&lifted, 0.5 * slack) } else { 0.0 };
+        let sun = if facing { self.suns[sample % self.suns.len()].seen(&lifted, 0.5 * slack) } else { 0.0 };
         let (mut sky, mut weights, mut open, mut count) = (0.0, 0.0, 0.0, 0.0);
         for map in self.skies.iter().skip(sample).step_by(SAMPLES) {
             let seen = map.seen(&lifted, slack);
@@ -127,10 +131,10 @@ impl Light {
     }
 }
 
-/// Returns one of the directions of the sun: on a spiral over its disc.
-fn sun(i: usize) -> Vec3 {
+/// Returns one of some directions of the sun: on a spiral over its disc.
+fn sun(i: usize, count: usize) -> Vec3 {
     let (side, up) = (SUN.cross(&Vec3::z()).normalize(), SUN.cross(&Vec3::x()).normalize());
-    let radius = SUN_RADIUS * ((i as f64 + 0.5) / SAMPLES as f64).sqrt();
+    let radius = SUN_RADIUS * ((i as f64 + 0.5) / count as f64).sqrt();
     let (s, c) = libm::sincos(GOLDEN_ANGLE * i as f64);
     (SUN + side * (radius * c) + up * (radius * s)).normalize()
 }

@@ -86,7 +86,8 @@ fn stays_rigid(travel: &Travel) {
             }
             let mut values: Vec<f64> = squares.symmetric_eigenvalues().iter().copied().collect();
             values.sort_by(f64::total_cmp);
-            assert!(values[6] > (RIGIDITY - 1e-6).powi(2), "{} in step {number}", values[6].max(0.0).sqrt());
+            let least = RIGIDITY - 1e-6;
+            assert!(values[6] > least * least, "{} in step {number}", values[6].max(0.0).sqrt());
         }
         x.clone_from(y);
     }

@@ -67,7 +67,8 @@ fn what_is_said_of_the_distance_holds() {
     // The goal's middle is the middle of the nodes at the start.
     let goal = ell();
     let shift = start.iter().sum::<Vec3>() / start.len() as f64 - goal.centroid();
-    let squares = goal.points.iter().map(|p| from_all(&surface, p + shift).powi(2));
+    let squares =
+        goal.points.iter().map(|p| from_all(&surface, p + shift)).map(|distance| distance * distance);
     let rms = libm::sqrt(squares.sum::<f64>() / goal.points.len() as f64);
     near(rms, found.distance.target_to_surface, 1e-12);
     // Over the whole of both, at random points and at corners: within two percent, and never farther than said.

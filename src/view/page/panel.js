@@ -92,7 +92,7 @@ function sourcePage(plan, player) {
 }
 
 /** Words with a meaning of their own in a program. */
-const KEYWORDS = new Set(("alias allows and as at base behavior by capture cell closed collides config connect connector contact each else expect extern facing fn for "
+const KEYWORDS = new Set(("alias allows and as at base behavior by capture cell closed collides config connect connector contact each else ensure expect extern facing fn for "
   + "hinge holds if in is joint lattice let link mass mates module motor node not obstacle of on or part port record require scene set snap strut study test touch "
   + "touching truss turn turned turns type up use with world").split(" "));
 /** A comment, a text, a number with its unit, a word, in this order; what is none of them stays as it is. */
