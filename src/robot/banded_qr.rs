@@ -4,6 +4,7 @@
 //! Givens rotations make it triangular there. Unlike normal equations that does not square its condition, and the time
 //! grows with the nodes times the square of the band's width.
 
+use super::pinned_nodes::PinnedNodes;
 use super::truss::{RigidityReport, TOLERANCES, orthonormal, rigid_motions};
 use crate::geometry::Vec3;
 use crate::interrupt;
@@ -77,21 +78,10 @@ fn cuthill_mckee_order(count: usize, struts: &[(usize, usize)]) -> Vec<usize> {
 /// Returns six rows, each at one of three nodes, that pin the truss so that it can't move as a rigid body; `None` where
 /// all nodes lie on a line.
 fn pinning_rows(nodes: &[Vec3]) -> Option<Vec<Row>> {
-    let far = |weigh: &dyn Fn(&Vec3) -> f64| {
-        (0..nodes.len()).max_by(|&i, &j| weigh(&nodes[i]).total_cmp(&weigh(&nodes[j])))
-    };
-    let first = *nodes.first()?;
-    let b = far(&|p| (p - first).norm())?;
-    let along = nodes[b] - first;
-    let c = far(&|p| along.cross(&(p - first)).norm())?;
-    let normal = along.cross(&(nodes[c] - first));
-    if normal.norm() <= along.norm_squared() * TOLERANCES.on_line {
-        return None;
-    }
-    let normal = normal.normalize();
+    let PinnedNodes { second, third, along, normal } = PinnedNodes::of(nodes)?;
     let aside = normal.cross(&along).normalize();
     let mut rows: Vec<Row> = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| Row::node(0, axis)).into();
-    rows.extend([Row::node(b, normal), Row::node(b, aside), Row::node(c, normal)]);
+    rows.extend([Row::node(second, normal), Row::node(second, aside), Row::node(third, normal)]);
     Some(rows)
 }
 

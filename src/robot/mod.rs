@@ -33,6 +33,7 @@ mod mating;
 mod symmetry;
 
 mod banded_qr;
+mod pinned_nodes;
 mod sparse_rigidity;
 pub mod truss;
 mod truss_forces;

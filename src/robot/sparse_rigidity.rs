@@ -4,6 +4,7 @@
 //! Normal equations square the condition of the matrix, so that they decide only about trusses that are far from
 //! losing their rigidity; [`super::banded_qr`] takes longer and decides about others.
 
+use super::pinned_nodes::PinnedNodes;
 use super::truss::{RigidityReport, TOLERANCES, rigid_motions};
 use super::truss_layout::Layout;
 use super::truss_modes::Modes;
@@ -55,21 +56,11 @@ impl<'a> NormalEquations<'a> {
     ) -> Option<NormalEquations<'a>> {
         let mut matrix = layout.matrix(rows, struts, |_| 1.0, 0.0);
         // These supports span nothing that struts do, so that they change no self-stress.
-        let far = |weigh: &dyn Fn(&Vec3) -> f64| {
-            (0..nodes.len()).max_by(|&i, &j| weigh(&nodes[i]).total_cmp(&weigh(&nodes[j])))
-        };
-        let first = *nodes.first()?;
-        let b = far(&|p| (p - first).norm())?;
-        let along = nodes[b] - first;
-        let c = far(&|p| along.cross(&(p - first)).norm())?;
-        let normal = along.cross(&(nodes[c] - first));
-        if normal.norm() <= along.norm_squared() * TOLERANCES.on_line {
-            return None;
-        }
-        let (along, normal) = (along.normalize(), normal.normalize());
+        let PinnedNodes { second, third, along, normal } = PinnedNodes::of(nodes)?;
+        let along = along.normalize();
         layout.add(&mut matrix, 0, &Matrix3::identity());
-        layout.add(&mut matrix, b, &(Matrix3::identity() - along * along.transpose()));
-        layout.add(&mut matrix, c, &(normal * normal.transpose()));
+        layout.add(&mut matrix, second, &(Matrix3::identity() - along * along.transpose()));
+        layout.add(&mut matrix, third, &(normal * normal.transpose()));
         let factor =
             matrix.cholesky(PivotRule::Refuse(TOLERANCES.well_conditioned * TOLERANCES.well_conditioned))?;
         Some(NormalEquations { layout, struts, rows, factor })

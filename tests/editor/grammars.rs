@@ -61,7 +61,7 @@ impl Drop for Folder {
     }
 }
 
-/// What a tool prints.
+/// Returns what a tool prints.
 fn printed(command: &mut Command) -> String {
     let output = command.output().expect("the tool runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
