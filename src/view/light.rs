@@ -2,7 +2,7 @@
 //! shadows are soft and hollows dark. Pages have the same light (`page/shaders.js`).
 
 use super::bodies::Drawn;
-use super::raster::{Camera, Canvas, Facet};
+use super::raster::{Camera, Facet};
 use super::tolerances::TOLERANCES;
 use crate::geometry::Vec3;
 use std::f64::consts::TAU;
@@ -29,6 +29,9 @@ const SKY_MAP_SIZE: usize = 160;
 
 /// The directions of the sky that each sample sees, in a fine picture.
 const DIRECTIONS_FINE: usize = 4;
+
+/// The cosine of its angle from which a direction of the sky counts as faced by a surface.
+const FACING: f64 = 0.1;
 
 /// The number of triangles above which each sample sees one direction of the sky alone.
 const TRIANGLES_MANY: usize = 150_000;
@@ -65,39 +68,53 @@ pub(super) struct Light {
 
 /// The depths of a scene as light from one direction meets it.
 struct Map {
-    camera: Camera,
-    canvas: Canvas,
+    /// The unit vector from the bodies towards the light, in the world.
+    direction: Vec3,
+    /// Column, row and depth of a point p (m, in the world) are `origin[k] + axes[k] · p`.
+    axes: [Vec3; 3],
+    origin: [f64; 3],
+    /// Its width and height in texels.
+    size: usize,
+    /// The depths of texels, row by row, as in [`Canvas::depths`](super::raster::Canvas).
+    depths: Vec<f32>,
 }
 
 impl Map {
     /// Returns the map of bodies in a ball, as (centre, radius) in m, for light from a direction.
     fn new(bodies: &[Drawn], (middle, radius): (Vec3, f64), direction: Vec3, size: usize) -> Map {
         let camera = Camera::new(middle + direction * (3.0 * radius), middle, Vec3::y(), 1.1 * radius, true);
-        let mut canvas = Canvas::new(size, size, 0..size);
-        let triangles = bodies.iter().flat_map(|body| &body.mesh.triangles);
-        let facets: Vec<Facet> =
-            triangles.filter_map(|(corners, _)| Facet::new(corners, &camera, size, size)).collect();
-        canvas.fill(&facets);
-        Map { camera, canvas }
+        let mut depths = vec![f32::NEG_INFINITY; size * size];
+        for (corners, _) in bodies.iter().flat_map(|body| &body.mesh.triangles) {
+            let Some(facet) = Facet::new(corners, &camera, size, size) else { continue };
+            facet.cover(size, &(0..size), |x, y, depth| {
+                let at = &mut depths[y * size + x];
+                *at = at.max(depth);
+            });
+        }
+        let scale = size as f64 / 2.0 / camera.half;
+        let axes = [camera.right * scale, camera.up * -scale, camera.back];
+        // The depth is minus the distance to the camera, and the centre of the first texel is at the column and row 0.
+        let shifts = [size as f64 / 2.0 - 0.5, size as f64 / 2.0 - 0.5, 0.0];
+        let origin = std::array::from_fn(|k| shifts[k] - axes[k].dot(&camera.at));
+        Map { direction, axes, origin, size, depths }
     }
 
     /// Returns the part of the light that reaches a point, 0..1: interpolated between four texels.
     fn seen(&self, p: &Vec3, slack: f64) -> f64 {
-        let size = self.canvas.width;
-        let Some(spot) = self.camera.project(p, size, size) else { return 1.0 };
-        let (x, y) = (spot.x - 0.5, spot.y - 0.5);
-        let last = (size - 1) as f64;
+        let at = |k: usize| self.axes[k].dot(p) + self.origin[k];
+        let (x, y) = (at(0), at(1));
+        let last = (self.size - 1) as f64;
         // The bodies lie well within the map.
-        if !(0.0..last).contains(&x) || !(0.0..last).contains(&y) {
+        if !(x >= 0.0 && x < last && y >= 0.0 && y < last) {
             return 1.0;
         }
         let (left, top) = (x as usize, y as usize);
+        let limit = (at(2) + slack) as f32;
+        let first = top * self.size + left;
+        let lit = |texel: usize| if self.depths[texel] > limit { 0.0 } else { 1.0 };
         let (u, v) = (x - left as f64, y - top as f64);
-        let limit = (spot.depth + slack) as f32;
-        let lit = |at: usize| if self.canvas.depths[at] > limit { 0.0 } else { 1.0 };
-        let row = |at: usize| lit(at) * (1.0 - u) + lit(at + 1) * u;
-        let first = top * size + left;
-        row(first) * (1.0 - v) + row(first + size) * v
+        let row = |texel: usize| lit(texel) * (1.0 - u) + lit(texel + 1) * u;
+        row(first) * (1.0 - v) + row(first + self.size) * v
     }
 }
 
@@ -123,11 +140,15 @@ impl Light {
         let (mut sky, mut weights, mut open, mut count) = (0.0, 0.0, 0.0, 0.0);
         for map in self.skies.iter().skip(sample).step_by(SAMPLES) {
             let seen = map.seen(&lifted, slack);
-            let weight = n.dot(&map.camera.back).max(0.0) + 0.02;
+            let weight = n.dot(&map.direction).max(0.0) + 0.02;
             (sky, weights) = (sky + weight * seen, weights + weight);
             (open, count) = (open + seen, count + 1.0);
         }
-        Seen { sun, sky: sky / weights, open: open / count }
+        // Where the surface is turned away from all of them, the next direction that it faces stands for them.
+        let mut next = self.skies.iter().cycle().skip(sample).take(self.skies.len());
+        let instead = (weights < FACING * count).then(|| next.find(|map| n.dot(&map.direction) > FACING));
+        let sky = instead.flatten().map_or(sky / weights, |map| map.seen(&lifted, slack));
+        Seen { sun, sky, open: open / count }
     }
 }
 

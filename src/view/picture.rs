@@ -41,6 +41,9 @@ impl Side {
     }
 }
 
+/// The width in pixels below which a picture has the light of a quick one: it shows no difference.
+const WIDTH_FINE: usize = 600;
+
 /// The options of a still picture. [`png()`] panics for a width or height of 0.
 #[derive(Clone, Copy, Debug)]
 pub struct StillOptions {
@@ -75,7 +78,8 @@ impl Default for StillOptions {
 /// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. `input`: the
 /// plan with its title; `options`: time, viewpoint and size. Panics for a width or height of 0.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
-    encoded(options, &scene(input, options, Fineness::Fine).pixels(), None)
+    let fineness = if options.width < WIDTH_FINE { Fineness::Quick } else { Fineness::Fine };
+    encoded(options, &scene(input, options, fineness).pixels(), None)
 }
 
 /// Renders a plan at several times (s) from one viewpoint, so that the camera rests while the robot moves: `see` receives
@@ -159,7 +163,7 @@ fn encoded(options: &StillOptions, pixels: &[u8], colours: Option<&[[u8; 3]]>) -
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, options.width as u32, options.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Balanced);
     match colours {
         None => encoder.set_color(png::ColorType::Rgb),
         Some(colours) => {

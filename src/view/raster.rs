@@ -9,6 +9,9 @@ const NEAR: f64 = 0.02;
 /// Lines are drawn as if nearer by this factor, so that they are visible on the surfaces they lie on.
 const LINE_LIFT: f64 = 1.0015;
 
+/// The number of columns below which a triangle's sides are not crossed with each row: every pixel is tried.
+const NARROW: usize = 12;
+
 /// A camera in the world, perspective or orthographic, with the orthonormal axes right, up and back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
@@ -95,88 +98,112 @@ impl Camera {
     }
 }
 
-/// A triangle projected into a picture.
+/// A triangle projected into a picture. The barycentric coordinates of a point are linear in its place: `spots[0]` has the
+/// others at zero, and from there they grow by `slopes`.
 pub(super) struct Facet {
     /// Its corners in the picture.
     spots: [Projected; 3],
-    /// Twice its signed area, in square pixels; neither zero nor infinite.
-    area: f64,
+    /// The gains of the coordinates of its second and of its third corner by a pixel to the right, and by one down.
+    slopes: [[f64; 2]; 2],
     /// True for an orthographic camera, false for a perspective one.
     parallel: bool,
 }
 
 impl Facet {
     /// Projects a triangle of the world, corners in m, into a picture of this size in pixels; `None` if a corner is
-    /// behind the near plane or the triangle is seen edge on.
+    /// behind the near plane, the triangle is seen edge on, or no centre of a pixel lies in its bounding box.
     pub(super) fn new(corners: &[Vec3; 3], camera: &Camera, width: usize, height: usize) -> Option<Facet> {
-        let [a, b, c] = corners.each_ref().map(|p| camera.project(p, width, height));
-        let (a, b, c) = (a?, b?, c?);
+        let a = camera.project(&corners[0], width, height)?;
+        let b = camera.project(&corners[1], width, height)?;
+        let c = camera.project(&corners[2], width, height)?;
+        if pixels([a.x, b.x, c.x], width).is_empty() || pixels([a.y, b.y, c.y], height).is_empty() {
+            return None;
+        }
         let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        (area != 0.0 && area.is_finite()).then_some(Facet {
+        (area != 0.0 && area.is_finite()).then(|| Facet {
             spots: [a, b, c],
-            area,
+            slopes: [[(c.y - a.y) / area, (a.x - c.x) / area], [(a.y - b.y) / area, (b.x - a.x) / area]],
             parallel: camera.parallel,
         })
     }
 
-    /// Returns the pixels of its bounding box along one axis that lie within 0..`size`.
-    fn range(&self, pick: fn(&Projected) -> f64, size: usize) -> Range<usize> {
-        let values = self.spots.each_ref().map(pick);
-        let low = values.iter().copied().fold(f64::MAX, f64::min);
-        let high = values.iter().copied().fold(f64::MIN, f64::max);
-        low.floor().max(0.0) as usize..(high.ceil().max(0.0) as usize).min(size)
+    /// Returns the rows of a picture of this height whose centres lie in its bounding box.
+    pub(super) fn rows(&self, height: usize) -> Range<usize> {
+        pixels(self.spots.each_ref().map(|spot| spot.y), height)
     }
 
-    /// Returns a part of `range` outside of which no centre of a pixel of row `y` lies in the triangle, from where its
-    /// sides cross the row.
-    fn span(&self, y: usize, range: &Range<usize>) -> Range<usize> {
-        let py = y as f64 + 0.5;
-        let (mut low, mut high) = (range.start as f64, range.end as f64);
-        for side in 0..3 {
-            let [p, q] = [self.spots[side], self.spots[(side + 1) % 3]];
-            // The edge function along the row is its value at x = 0 plus x times this slope.
-            let slope = p.y - q.y;
-            let size = p.x.abs().max(q.x.abs()).max((p.y - py).abs()).max((q.y - py).abs());
-            let crossing = (p.x * (q.y - py) - (p.y - py) * q.x) / -slope;
+    /// Calls `draw` with column, row and depth for each pixel whose centre lies in the triangle, of these rows of a picture
+    /// of this width; see [`Canvas::depths`].
+    pub(super) fn cover(&self, width: usize, rows: &Range<usize>, mut draw: impl FnMut(usize, usize, f32)) {
+        let [a, b, c] = &self.spots;
+        let [[right_b, down_b], [right_c, down_c]] = self.slopes;
+        let (deep_b, deep_c) = (b.depth - a.depth, c.depth - a.depth);
+        let columns = pixels([a.x, b.x, c.x], width);
+        let own = self.rows(rows.end);
+        for y in own.start.max(rows.start)..own.end {
+            let down = y as f64 + 0.5 - a.y;
+            let (row_b, row_c) = (down_b * down, down_c * down);
+            for x in self.span(down, &columns) {
+                let right = x as f64 + 0.5 - a.x;
+                let (v, w) = (right_b * right + row_b, right_c * right + row_c);
+                if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
+                    draw(x, y, (a.depth + v * deep_b + w * deep_c) as f32);
+                }
+            }
+        }
+    }
+
+    /// Returns a part of `columns` outside of which no centre of a pixel lies in the triangle, from where its sides cross
+    /// the row this many pixels below its first corner.
+    fn span(&self, down: f64, columns: &Range<usize>) -> Range<usize> {
+        if columns.len() < NARROW {
+            return columns.clone();
+        }
+        let first = self.spots[0].x;
+        let [b, c] = self.slopes;
+        // The three coordinates along the row: their values below the first corner, and what they gain by a pixel.
+        let lines = [[b[1] * down, b[0]], [c[1] * down, c[0]], [1.0 - (b[1] + c[1]) * down, -b[0] - c[0]]];
+        let (mut low, mut high) = (columns.start as f64, columns.end as f64);
+        for [value, gain] in lines {
+            let crossing = first - value / gain;
             // Two pixels, and many times what rounding does to the crossing.
-            let margin = 2.0 + 64.0 * f64::EPSILON * size * size / slope.abs();
+            let margin = 2.0 + 64.0 * f64::EPSILON * (first.abs() + (1.0 + value.abs()) / gain.abs());
             if crossing.is_finite() && margin.is_finite() {
-                match slope * self.area > 0.0 {
+                match gain > 0.0 {
                     true => low = low.max(crossing - margin),
                     false => high = high.min(crossing + margin),
                 }
             }
         }
-        low as usize..(high.max(low).ceil() as usize).min(range.end)
+        low as usize..(high.max(low) as usize + 1).min(columns.end)
     }
 
-    /// Returns the barycentric coordinates of the centre of a pixel, from the edge functions; `None` outside the
-    /// triangle.
-    fn coordinates(&self, x: usize, y: usize) -> Option<[f64; 3]> {
-        let [a, b, c] = self.spots;
-        let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
-        let u = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / self.area;
-        let v = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / self.area;
-        let w = 1.0 - u - v;
-        (u >= 0.0 && v >= 0.0 && w >= 0.0).then_some([u, v, w])
+    /// Returns the barycentric coordinates of the centre of a pixel.
+    fn coordinates(&self, x: usize, y: usize) -> [f64; 3] {
+        let [a, ..] = &self.spots;
+        let (right, down) = (x as f64 + 0.5 - a.x, y as f64 + 0.5 - a.y);
+        let [v, w] = self.slopes.map(|[by_right, by_down]| by_right * right + by_down * down);
+        [1.0 - v - w, v, w]
     }
 
-    /// Returns the depth at barycentric coordinates; see [`Canvas::depths`].
-    fn depth(&self, [u, v, w]: [f64; 3]) -> f64 {
-        let [a, b, c] = self.spots;
-        u * a.depth + v * b.depth + w * c.depth
-    }
-
-    /// Returns the weights of its corners in the world at barycentric coordinates in the picture, correct for the
-    /// perspective.
-    fn weights(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
-        let [a, b, c] = self.spots;
-        let depth = self.depth([u, v, w]);
-        match self.parallel {
-            true => [u, v, w],
-            false => [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth],
+    /// Returns the weights of its corners in the world at the centre of a pixel, correct for the perspective.
+    fn weights(&self, x: usize, y: usize) -> [f64; 3] {
+        let [u, v, w] = self.coordinates(x, y);
+        if self.parallel {
+            return [u, v, w];
         }
+        let [a, b, c] = self.spots;
+        let depth = u * a.depth + v * b.depth + w * c.depth;
+        [u * a.depth / depth, v * b.depth / depth, w * c.depth / depth]
     }
+}
+
+/// Returns the pixels of 0..`size` whose centres lie between the least and the greatest of three coordinates.
+fn pixels(of: [f64; 3], size: usize) -> Range<usize> {
+    let low = of[0].min(of[1]).min(of[2]);
+    let high = of[0].max(of[1]).max(of[2]);
+    // A conversion cuts off the fraction, and clamps.
+    (low + 0.5) as usize..((high + 0.5) as usize).min(size)
 }
 
 impl Canvas {
@@ -199,22 +226,18 @@ impl Canvas {
         (y - self.rows.start) * self.width + x
     }
 
-    /// Rasterises triangles where they are not hidden: their depths, and which one is seen.
-    pub(super) fn fill(&mut self, facets: &[Facet]) {
-        for (index, facet) in facets.iter().enumerate() {
-            let range = facet.range(|s| s.y, self.height);
-            let columns = facet.range(|s| s.x, self.width);
-            for y in range.start.max(self.rows.start)..range.end.min(self.rows.end) {
-                for x in facet.span(y, &columns) {
-                    let Some(coordinates) = facet.coordinates(x, y) else { continue };
-                    let depth = facet.depth(coordinates) as f32;
-                    let at = self.place(x, y);
-                    if depth > self.depths[at] {
-                        self.depths[at] = depth;
-                        self.seen[at] = index as u32;
-                    }
+    /// Rasterises triangles where they are not hidden: their depths, and which one is seen. `numbers`: the indices in `facets`
+    /// of those to draw.
+    pub(super) fn fill(&mut self, facets: &[Facet], numbers: &[u32]) {
+        let (top, width) = (self.rows.start, self.width);
+        for &number in numbers {
+            facets[number as usize].cover(width, &self.rows, |x, y, depth| {
+                let at = (y - top) * width + x;
+                if depth > self.depths[at] {
+                    self.depths[at] = depth;
+                    self.seen[at] = number;
                 }
-            }
+            });
         }
     }
 
@@ -232,14 +255,11 @@ impl Canvas {
         for (y, x) in self.rows.clone().flat_map(|y| (0..self.width).map(move |x| (y, x))) {
             let at = self.colours.len();
             let index = self.seen[at] as usize;
-            let drawn = self.depths[at] > f32::NEG_INFINITY;
-            let coordinates = drawn.then(|| facets[index].coordinates(x, y)).flatten();
-            self.colours.push(match coordinates {
-                Some(coordinates) => {
-                    let kept = if self.marked[at] { edge } else { 1.0 };
-                    shade(index, facets[index].weights(coordinates), (x, y)).map(|c| c * kept)
-                }
-                None => behind(x, y),
+            self.colours.push(if self.depths[at] > f32::NEG_INFINITY {
+                let kept = if self.marked[at] { edge } else { 1.0 };
+                shade(index, facets[index].weights(x, y), (x, y)).map(|c| c * kept)
+            } else {
+                behind(x, y)
             });
         }
     }

@@ -98,11 +98,12 @@ impl Scene {
     pub(super) fn pixels(&self) -> Vec<u8> {
         let bases: Vec<[f64; 3]> = self.bodies.iter().map(|body| body.colour.0.map(|c| c * c)).collect();
         let floor = Floor::new(self);
-        let band = |number: usize| {
+        let bands = self.bands();
+        let band = |(number, facets): (usize, &Vec<u32>)| {
             let top = number * BAND_HEIGHT;
             let rows = top..(top + BAND_HEIGHT).min(self.height);
             let mut canvas = Canvas::new(self.width, self.height, rows);
-            canvas.fill(&self.facets);
+            canvas.fill(&self.facets, facets);
             for body in self.bodies.iter().filter(|body| !body.metal) {
                 canvas.mark(&body.mesh.edges, &self.camera, SUPERSAMPLING - 1);
             }
@@ -121,7 +122,18 @@ impl Scene {
             push_means(&canvas, &mut pixels);
             pixels
         };
-        (0..self.height.div_ceil(BAND_HEIGHT)).flat_map(band).collect()
+        bands.iter().enumerate().flat_map(band).collect()
+    }
+
+    /// Returns the indices of the triangles in each band of [`BAND_HEIGHT`] rows, from the top.
+    fn bands(&self) -> Vec<Vec<u32>> {
+        let mut bands = vec![Vec::new(); self.height.div_ceil(BAND_HEIGHT)];
+        for (number, facet) in self.facets.iter().enumerate() {
+            let rows = facet.rows(self.height);
+            let touched = rows.start / BAND_HEIGHT..rows.end.div_ceil(BAND_HEIGHT);
+            bands[touched].iter_mut().for_each(|band| band.push(number as u32));
+        }
+        bands
     }
 
     /// Returns the shaded colour of a surface point, by its place (m) and normal.
@@ -185,7 +197,7 @@ impl Floor<'_> {
         // The point where the ray meets the plane.
         let away = -self.height / rate;
         let p = scene.camera.at + ray * away;
-        let out = libm::hypot(p.x - scene.middle.x, p.y - scene.middle.y) / self.reach;
+        let out = (p - scene.middle).xy().norm() / self.reach;
         if out >= 0.85 {
             return behind;
         }
@@ -214,11 +226,14 @@ impl Floor<'_> {
         let long = pixel / -rate;
         let width = f64::max(pixel * SUPERSAMPLING as f64 * 0.7, long * 0.7);
         let grid = |step: f64| {
+            let strength = (step / long / SUPERSAMPLING as f64 / 8.0 - 0.25).clamp(0.0, 1.0);
             let line = |c: f64| {
-                let off = (c / step - libm::round(c / step)).abs() * step;
-                (1.5 - off / width).clamp(0.0, 1.0)
+                let part = (c / step).abs();
+                // The fraction, without a call of a library.
+                let part = part - part as u64 as f64;
+                (1.5 - part.min(1.0 - part) * step / width).clamp(0.0, 1.0)
             };
-            f64::max(line(p.x), line(p.y)) * (step / long / SUPERSAMPLING as f64 / 8.0 - 0.25).clamp(0.0, 1.0)
+            if strength > 0.0 { f64::max(line(p.x), line(p.y)) * strength } else { 0.0 }
         };
         let part = if scene.ground.is_some() { 1.0 } else { 0.7 };
         let lines = f64::max(grid(self.step) * 0.075, grid(10.0 * self.step) * 0.17) * part;
