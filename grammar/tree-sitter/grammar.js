@@ -1,5 +1,6 @@
 // The grammar of modl for tree-sitter, rule by rule that of ../modl.pest. `(`, `[`, `+` and `-` go on with an expression on the
-// line of its last token alone: the scanner (src/scanner.c) tells them from those that begin something else.
+// line of its last token alone: the scanner (src/scanner.c) tells them from those that begin something else, and `ensure` before a
+// condition from the name.
 //
 // After a change: `cargo run --manifest-path tool/Cargo.toml -- generate`, and commit what it writes.
 
@@ -13,7 +14,7 @@ module.exports = grammar({
   name: "modl",
   word: $ => $.name,
   extras: $ => [/\s/, $.line_comment, $.block_comment],
-  externals: $ => [$.block_comment, $._call, $._index, $._plus, $._minus, $._never],
+  externals: $ => [$.block_comment, $._call, $._index, $._plus, $._minus, $._ensure, $._never],
   supertypes: $ => [$._declaration, $._statement],
 
   rules: {
@@ -122,10 +123,11 @@ module.exports = grammar({
     truss_for: $ => seq("for", $.name, "in", $._expr, $.truss_body),
 
     // Statements.
-    _statement: $ => choice($.let, $.expect, $.require, $.for, $._expr),
+    _statement: $ => choice($.let, $.expect, $.require, $.ensure, $.for, $._expr),
     let: $ => seq("let", field("name", $.name), optional(seq(":", $._type)), "=", $._body),
     expect: $ => seq("expect", $._expr, optional(seq(",", $._expr))),
     require: $ => seq("require", $._expr, optional(seq(",", $._expr))),
+    ensure: $ => seq(alias($._ensure, "ensure"), $._expr, optional(seq(",", $._expr))),
     for: $ => seq("for", $.name, "in", $._expr, $.block),
     block: $ => seq("{", repeat($._statement), "}"),
     _body: $ => choice($.block, $._expr),

@@ -167,3 +167,22 @@ fn the_textmate_grammar_colours_as_the_language_server_does() {
     }
     assert!(wrong.is_empty(), "{} pieces:\n{}", wrong.len(), wrong[..wrong.len().min(30)].join("\n"));
 }
+
+#[test]
+fn tree_sitter_tells_ensure_from_a_name() {
+    let Some(tool) = std::env::var_os("MODL_TREE_SITTER") else {
+        println!("skipped: MODL_TREE_SITTER is not set (see .ci/tools.sh)");
+        return;
+    };
+    // The keyword stands where the first word, number or text of a condition follows.
+    let text = "let ensure = 3\nconfig A {\n  behavior b = {\n    ensure a.b, \"x\"\n    ensure (3)\n    ensure - 1\n    \
+                ensure and a\n    ensure in_b\n  }\n}\n";
+    let folder = Folder::of("ensure", &[("main.mod".into(), text.into())]);
+    let said = printed(Command::new(&tool).arg("classes").arg(&folder.0));
+    let keywords = said.lines().filter_map(|line| {
+        let [_, from, _, class] = line.split(' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
+        let at: usize = from.parse().expect("a number");
+        (class == "keyword" && text[at..].starts_with("ensure")).then(|| text[at..].lines().next())
+    });
+    assert_eq!(keywords.flatten().collect::<Vec<_>>(), ["ensure a.b, \"x\"", "ensure in_b"]);
+}

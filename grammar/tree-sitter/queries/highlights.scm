@@ -25,7 +25,7 @@
   "module" "mass" "touch" "contact" "link" "collides" "joint" "port" "on" "at" "turned" "facing" "up" "motor" "touching" "alias"
   "cell" "strut" "config" "scene" "closed" "part" "obstacle" "world" "base" "behavior" "allows" "connect" "turn" "set"
   "lattice" "of" "truss" "node"
-  "let" "expect" "require" "for" "in" "if" "else" "and" "or" "not" "with"
+  "let" "expect" "require" "ensure" "for" "in" "if" "else" "and" "or" "not" "with"
 ] @keyword
 (snap) @keyword
 

@@ -1,9 +1,9 @@
 // What the grammar can't say by itself: block comments that nest, and `(`, `[`, `+`, `-` that go on with an expression because
-// they stand on the line of its last token.
+// they stand on the line of its last token; and `ensure` before a condition, which elsewhere is a name.
 
 #include "tree_sitter/parser.h"
 
-enum Token { BLOCK_COMMENT, CALL, INDEX, PLUS, MINUS, NEVER };
+enum Token { BLOCK_COMMENT, CALL, INDEX, PLUS, MINUS, ENSURE, NEVER };
 
 void *tree_sitter_modl_external_scanner_create(void) { return 0; }
 void tree_sitter_modl_external_scanner_destroy(void *payload) { (void)payload; }
@@ -35,6 +35,37 @@ static bool block_comment(TSLexer *lexer) {
   return true;
 }
 
+static bool in_word(int32_t c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+// Reads `word`, which no other character of words follows.
+static bool is_word(TSLexer *lexer, const char *word) {
+  for (; *word; word++) {
+    if (lexer->lookahead != *word) return false;
+    lexer->advance(lexer, false);
+  }
+  return !in_word(lexer->lookahead);
+}
+
+// `ensure` where the first word, number or text of a condition follows on its line.
+static bool ensure(TSLexer *lexer) {
+  if (!is_word(lexer, "ensure")) return false;
+  lexer->mark_end(lexer);
+  if (lexer->lookahead != ' ' && lexer->lookahead != '\t') return false;
+  while (lexer->lookahead == ' ' || lexer->lookahead == '\t') lexer->advance(lexer, false);
+  lexer->result_symbol = ENSURE;
+  switch (lexer->lookahead) {
+    case '"': return true;
+    case 'a': return !is_word(lexer, "and");
+    case 'o': return !is_word(lexer, "or");
+    case 'w': return !is_word(lexer, "with");
+    case 'i': return !is_word(lexer, "in");
+    case 'e': return !is_word(lexer, "else");
+    default: return in_word(lexer->lookahead);
+  }
+}
+
 bool tree_sitter_modl_external_scanner_scan(void *payload, TSLexer *lexer, const bool *valid) {
   (void)payload;
   // While the parser recovers from an error, everything is valid.
@@ -49,7 +80,9 @@ bool tree_sitter_modl_external_scanner_scan(void *payload, TSLexer *lexer, const
     lexer->advance(lexer, false);
     return block_comment(lexer);
   }
-  if (!same_line || recovers) return false;
+  if (recovers) return false;
+  if (found == 'e' && valid[ENSURE]) return ensure(lexer);
+  if (!same_line) return false;
   int token = found == '(' ? CALL : found == '[' ? INDEX : found == '+' ? PLUS : found == '-' ? MINUS : NEVER;
   if (token == NEVER || !valid[token]) return false;
   lexer->advance(lexer, false);
