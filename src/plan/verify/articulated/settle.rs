@@ -224,34 +224,43 @@ fn exchanged(basis: &Basis, plane: SupportPlane, tau: f64) -> Option<Basis> {
     best
 }
 
-/// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes; `None` if a multiplier is negative or the planes are
-/// dependent.
+/// Solves `τ B Bᵀ λ + t = a`, `Σλ = 1` for up to three planes, in closed form; `None` if a multiplier is negative or the
+/// planes are dependent.
 fn solved(planes: &[SupportPlane], tau: f64) -> Option<Basis> {
-    let n = planes.len();
-    let mut matrix = nalgebra::Matrix4::<f64>::identity();
-    let mut right = nalgebra::Vector4::<f64>::zeros();
-    for i in 0..n {
-        for j in 0..n {
-            let dot = planes[i].b[0] * planes[j].b[0] + planes[i].b[1] * planes[j].b[1];
-            matrix[(i, j)] = tau * dot;
+    let dot = |p: [f64; 2], q: [f64; 2]| p[0] * q[0] + p[1] * q[1];
+    let less = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
+    let multipliers = match *planes {
+        [_] => [1.0, 0.0, 0.0],
+        [p, q] => {
+            let d = less(p.b, q.b);
+            let first = ((p.a - q.a) / tau - dot(q.b, d)) / dot(d, d);
+            [first, 1.0 - first, 0.0]
         }
-        matrix[(i, n)] = 1.0;
-        matrix[(n, i)] = 1.0;
-        right[i] = planes[i].a;
-    }
-    matrix[(n, n)] = 0.0;
-    right[n] = 1.0;
-    let solution = matrix.lu().solve(&right)?;
-    if !(0..=n).all(|i| solution[i].is_finite()) || (0..n).any(|i| solution[i] < -NUMERICS.multiplier) {
+        [p, q, r] => {
+            // All three planes meet at one turn, which is -τ times the mean of `b` weighed by the multipliers.
+            let (d, e) = (less(q.b, p.b), less(r.b, p.b));
+            let cross = d[0] * e[1] - d[1] * e[0];
+            let meet = [
+                (e[1] * (p.a - q.a) - d[1] * (p.a - r.a)) / cross,
+                (d[0] * (p.a - r.a) - e[0] * (p.a - q.a)) / cross,
+            ];
+            let mean = less([-meet[0] / tau, -meet[1] / tau], p.b);
+            let second = (mean[0] * e[1] - mean[1] * e[0]) / cross;
+            let third = (d[0] * mean[1] - d[1] * mean[0]) / cross;
+            [1.0 - second - third, second, third]
+        }
+        _ => return None,
+    };
+    if multipliers.iter().any(|value| !value.is_finite() || *value < -NUMERICS.multiplier) {
         return None;
     }
     let mut omega = [0.0; 2];
-    for (i, plane) in planes.iter().enumerate() {
-        omega[0] -= tau * solution[i] * plane.b[0];
-        omega[1] -= tau * solution[i] * plane.b[1];
+    for (multiplier, plane) in multipliers.iter().zip(planes) {
+        omega[0] -= tau * multiplier * plane.b[0];
+        omega[1] -= tau * multiplier * plane.b[1];
     }
-    let t = solution[n];
-    let value = t + (omega[0] * omega[0] + omega[1] * omega[1]) / (2.0 * tau);
+    let t = planes[0].at(&omega);
+    let value = t + dot(omega, omega) / (2.0 * tau);
     Some(Basis { planes: planes.to_vec(), omega, t, value })
 }
 
