@@ -144,7 +144,7 @@ impl Light {
             (sky, weights) = (sky + weight * seen, weights + weight);
             (open, count) = (open + seen, count + 1.0);
         }
-        // Where the surface is turned away from all of them, the next direction that it faces stands for them.
+        // The next direction that the surface faces stands for its own, where it faces none of them.
         let mut next = self.skies.iter().cycle().skip(sample).take(self.skies.len());
         let instead = (weights < FACING * count).then(|| next.find(|map| n.dot(&map.direction) > FACING));
         let sky = instead.flatten().map_or(sky / weights, |map| map.seen(&lifted, slack));

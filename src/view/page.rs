@@ -40,8 +40,8 @@ const SIMULATION_LINE: &str = "//: ";
 const STILL: StillOptions = StillOptions {
     time: 0.0,
     side: super::picture::Side::Corner,
-    width: 480,
-    height: 300,
+    width: 440,
+    height: 275,
     look: PictureStyle::Room,
 };
 

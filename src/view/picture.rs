@@ -163,10 +163,13 @@ fn encoded(options: &StillOptions, pixels: &[u8], colours: Option<&[[u8; 3]]>) -
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, options.width as u32, options.height as u32);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Balanced);
     match colours {
-        None => encoder.set_color(png::ColorType::Rgb),
+        None => {
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.set_compression(png::Compression::Balanced);
+        }
         Some(colours) => {
+            encoder.set_compression(png::Compression::High);
             encoder.set_color(png::ColorType::Indexed);
             encoder.set_palette(colours.as_flattened());
             encoder.set_filter(png::Filter::NoFilter);
