@@ -315,8 +315,8 @@ pub struct Verdict {
     pub bond_margin: Option<Worst>,
     /// The least 1 - speed / limit of joints, cells or struts; `None` if none was measured.
     pub speed_margin: Option<Worst>,
-    /// The greatest speed with which a link of a robot comes down on the ground, m/s, as a mean over 10 ms; `None` if
-    /// none does, and where none was measured.
+    /// The greatest speed with which a link of a robot comes down on the ground, m/s, as a mean over 10 ms, or as the
+    /// end of a rod that falls over where the robot tips over; `None` if none does, and where none was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impact: Option<Worst>,
     /// The least angle between struts of a truss that share a node, rad; `None` if none was measured.

@@ -1,5 +1,6 @@
 //! Robots as models of MuJoCo, and what a simulation of them shows.
 
+mod falls;
 mod gait_programs;
 mod inverse;
 mod library_reserves;

@@ -179,6 +179,16 @@ impl<'a> Posed<'a> {
         heights
     }
 
+    /// Returns the greatest height of a point of a link that the ground may bear in the posture `after`, above the lowest
+    /// point of the robot, m; 0 if it may bear none. `after` has the same links.
+    pub(super) fn height_of_landing(&self, after: &Posed, link: usize) -> f64 {
+        let (before, lowest) = self.feature_heights();
+        let (heights, ground) = after.feature_heights();
+        let own = self.model.bodies[link].features.clone();
+        let lands = own.filter(|index| heights[*index] - ground <= PARAMETERS.gap_max);
+        lands.map(|index| before[index] - lowest).fold(0.0, f64::max)
+    }
+
     /// Returns the twist of the base's own frame, at its origin, for a twist of the base at the centre of mass, both
     /// in level axes (m/s, rad/s).
     pub(super) fn of_base(&self, at_centre: &Twist) -> Twist {

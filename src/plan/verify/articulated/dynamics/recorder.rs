@@ -19,6 +19,8 @@ pub(in super::super) struct Recorded {
     pub bonds: usize,
     /// The world just after the instant.
     pub world: World,
+    /// True if the robot tips over at the instant, or since the one before.
+    pub tips: bool,
 }
 
 /// The attitudes of a rollout, recorded sample by sample: no two nearer in time than `spacing_least` of
@@ -31,6 +33,8 @@ pub(in super::super) struct Recorder {
     pub bonds: Vec<Vec<bool>>,
     /// The travel up to the last sample.
     pub travel: TravelSummary,
+    /// True if the robot has tipped over since the last attitude that was recorded.
+    tips: bool,
 }
 
 impl Recorder {
@@ -38,6 +42,7 @@ impl Recorder {
     /// order of time.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
         self.travel = sample.travel;
+        self.tips |= sample.tip.is_some();
         let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
         let bonds = known.unwrap_or_else(|| {
             self.bonds.push(sample.bonds.to_vec());
@@ -55,6 +60,7 @@ impl Recorder {
                 yaw: sample.stance.planar_pose.yaw,
                 bonds,
                 world: *sample.world,
+                tips: std::mem::take(&mut self.tips),
             });
         }
     }
@@ -68,7 +74,7 @@ pub(super) fn with_instants(recorded: Vec<Recorded>, times: &[f64]) -> Vec<Recor
     for instant in recorded {
         while let Some(time) = times.next_if(|time| *time < instant.time) {
             if let Some(last) = all.last().filter(|last| last.time < time) {
-                let between = Recorded { time, ..*last };
+                let between = Recorded { time, tips: false, ..*last };
                 all.push(between);
             }
         }

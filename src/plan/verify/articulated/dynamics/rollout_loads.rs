@@ -348,17 +348,18 @@ impl<'a> RolloutLoads<'a> {
         found.deflected
     }
 
-    /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the
-    /// mean over the time between.
+    /// Keeps the greatest speed with which links come down that bear at an instant and did not at the one before: the mean
+    /// over at least 10 ms, and where the robot tips over √(3gh), that of the end of a uniform rod that falls over.
     fn note_impacts(&self, before: usize, index: usize, landed: &[usize], ledger: &mut Ledger) {
-        if landed.is_empty() {
-            return;
-        }
-        let heights = self.posed(before).heights();
-        let (time, elapsed) =
-            (self.instants[index].time, self.instants[index].time - self.instants[before].time);
-        for &link in landed.iter().filter(|link| heights[**link].is_finite() && elapsed > 0.0) {
-            let speed = heights[link] / elapsed;
+        let Recorded { time, tips, world, .. } = self.instants[index];
+        let elapsed = (time - self.instants[before].time).max(PARAMETERS.spacing_least);
+        let Some(stood) = (!landed.is_empty()).then(|| self.posed(before)) else { return };
+        let heights = stood.heights();
+        for &link in landed.iter().filter(|link| heights[**link].is_finite()) {
+            let speed = match tips {
+                true => (3.0 * world.gravity * stood.height_of_landing(&self.posed(index), link)).sqrt(),
+                false => heights[link] / elapsed,
+            };
             let known = &mut ledger.verdict.impact;
             if known.as_ref().is_none_or(|worst| speed > worst.value) {
                 let name = self.rollout.tracks.robot.link_name(link);
