@@ -10,7 +10,7 @@ use crate::geometry::distance::{distance_of_solids, signed_distance_within};
 use crate::geometry::{Pose, Solid, Unsound, Vec3};
 use crate::plan::Obstacle;
 use crate::robot::{Assembly, Kinematics, Motion, State, mate};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 /// The robots and what stands around them, at the instant at which a motion begins.
 #[derive(Clone, Copy)]
@@ -197,10 +197,10 @@ impl<'a> FreeSpace<'a> {
             .map(|pair| pair.levers.iter().map(|&(j, r)| (to[j] - from[j]).abs() * r).sum())
             .collect();
         let moving: Vec<usize> = (0..self.pairs.len()).filter(|pair| far[*pair] > 0.0).collect();
-        // Intervals by their middle and half, the longest first.
-        let mut open = vec![(0.5, 0.5, moving)];
+        // Intervals by their middle and half, the longest first: what blocks a way is seldom small.
+        let mut open = VecDeque::from([(0.5, 0.5, moving)]);
         let mut joints = from.to_vec();
-        while let Some((middle, half, pairs)) = open.pop() {
+        while let Some((middle, half, pairs)) = open.pop_front() {
             for (joint, (a, b)) in joints.iter_mut().zip(from.iter().zip(to)) {
                 *joint = a + middle * (b - a);
             }
@@ -222,8 +222,8 @@ impl<'a> FreeSpace<'a> {
                 }
             }
             if !left.is_empty() {
-                open.push((middle + half / 2.0, half / 2.0, left.clone()));
-                open.push((middle - half / 2.0, half / 2.0, left));
+                open.push_back((middle - half / 2.0, half / 2.0, left.clone()));
+                open.push_back((middle + half / 2.0, half / 2.0, left));
             }
         }
         true
