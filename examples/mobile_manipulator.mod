@@ -59,6 +59,7 @@ let fetch = Sc(
   y.robot.drive(-2rad/s, 5s),
 )
 print(verify(fetch))
+print(simulate(fetch))
 show(fetch, "mobile_manipulator.html")
 
 test "the crate is taken back with the rover" {
