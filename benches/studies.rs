@@ -15,6 +15,9 @@ const TINY: usize = 100_000;
 /// The number of rows of a large task.
 const LARGE: usize = 8;
 
+/// The command that does the work of large tasks without a study.
+const PLAIN: &[&str] = &["run", "plain.mod", "--max-steps", "1000000000000"];
+
 /// A study of tiny rows, one of rows of about a second, and the work of the second one without a study.
 fn programs() -> (String, String) {
     let work = "fn calls(n: Int) -> Int = if n < 1 { 1 } else { calls(n - 1) + calls(n - 1) }\n";
@@ -81,15 +84,14 @@ fn main() {
     let mut depth = 12;
     let second = loop {
         write(depth);
-        let time =
-            ran(path, &["run", "plain.mod", "--max-steps", "1000000000000"]).0.as_secs_f64() / LARGE as f64;
+        let time = ran(path, PLAIN).0.as_secs_f64() / LARGE as f64;
         if time > 0.6 {
             break time;
         }
         depth += 1;
     };
     println!("{LARGE} rows of about {second:.2} s");
-    let (alone, _) = median(path, &["run", "plain.mod", "--max-steps", "1000000000000"]);
+    let (alone, _) = median(path, PLAIN);
     let (one, _) = median(path, &["study", "study.mod", "large", "--threads", "1"]);
     let (two, _) = median(path, &["study", "study.mod", "large", "--threads", "2"]);
     println!("  without a study {alone:7.2} s");

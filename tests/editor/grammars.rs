@@ -6,15 +6,12 @@
 use crate::editor::client::{Client, uri};
 use crate::language::forms;
 use crate::support::generated::Dice;
+use modl::syntax::RESERVED;
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// The words that are reserved everywhere.
-const RESERVED: &[&str] = &[
-    "and", "or", "not", "if", "else", "for", "in", "let", "fn", "use", "true", "false", "expect", "require",
-];
 
 /// The generated programs.
 const GENERATED: u64 = 2000;
@@ -61,6 +58,15 @@ impl Drop for Folder {
     }
 }
 
+/// Returns where a tool is, by the variable that says so; without it tests are skipped, with a message.
+fn tool(variable: &str) -> Option<OsString> {
+    let found = std::env::var_os(variable);
+    if found.is_none() {
+        println!("skipped: {variable} is not set (see .ci/tools.sh)");
+    }
+    found
+}
+
 /// Returns what a tool prints.
 fn printed(command: &mut Command) -> String {
     let output = command.output().expect("the tool runs");
@@ -70,10 +76,7 @@ fn printed(command: &mut Command) -> String {
 
 #[test]
 fn tree_sitter_reads_every_program() {
-    let Some(tool) = std::env::var_os("MODL_TREE_SITTER") else {
-        println!("skipped: MODL_TREE_SITTER is not set (see .ci/tools.sh)");
-        return;
-    };
+    let Some(tool) = tool("MODL_TREE_SITTER") else { return };
     let mut programs = programs(GENERATED);
     // On one line a bracket behind a value is an index or a call, unless it can be none: that an LR parser does not see.
     programs.retain(|(_, text)| !text.contains("capture 2mm 3deg [") && !text.contains("capture 2mm 3deg ("));
@@ -129,10 +132,7 @@ fn served(editor: &mut Client, text: &str) -> BTreeMap<String, BTreeSet<Piece>> 
 
 #[test]
 fn the_textmate_grammar_colours_as_the_language_server_does() {
-    let Some(modules) = std::env::var_os("MODL_TEXTMATE") else {
-        println!("skipped: MODL_TEXTMATE is not set (see .ci/tools.sh)");
-        return;
-    };
+    let Some(modules) = tool("MODL_TEXTMATE") else { return };
     let programs = programs(0);
     let folder = Folder::of("textmate", &programs);
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -170,10 +170,7 @@ fn the_textmate_grammar_colours_as_the_language_server_does() {
 
 #[test]
 fn tree_sitter_tells_ensure_from_a_name() {
-    let Some(tool) = std::env::var_os("MODL_TREE_SITTER") else {
-        println!("skipped: MODL_TREE_SITTER is not set (see .ci/tools.sh)");
-        return;
-    };
+    let Some(tool) = tool("MODL_TREE_SITTER") else { return };
     // The keyword stands where the first word, number or text of a condition follows.
     let text = "let ensure = 3\nconfig A {\n  behavior b = {\n    ensure a.b, \"x\"\n    ensure (3)\n    ensure - 1\n    \
                 ensure and a\n    ensure in_b\n  }\n}\n";
