@@ -174,7 +174,7 @@ print(plan(Sc(blocked, avoid(across))).duration)
 //                     ^^^^^^^^^^^^^ E0806 `a.m[4].holder` and `post` meet, 44.5685mm deep where the way begins
 //    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
 print(plan(Sc(aside, avoid(across, budget: 10))).duration)
-//                   ^^^^^^^^^^^^^^^^^^^^^^^^^ E0807 no way was found in | postures | of it left; straight on, `a.m[3].left_disc` and `post` meet
+//                   ^^^^^^^^^^^^^^^^^^^^^^^^^ E0807 no way was found in 18 postures | of it left; straight on, `a.m[3].left_disc` and `post` meet
 //    ~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~ planned here
 print(plan(Sc(aside, avoid(reach(c.a.hand, position: [900mm, 0mm, 100mm])))).duration)
 //                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0805 the place is 905.539mm away, and the chain is 450mm long
