@@ -27,8 +27,9 @@ const SUNS_QUICK: (usize, usize) = (3, 450);
 /// The width and height of depth maps of the sky, in texels.
 const SKY_MAP_SIZE: usize = 160;
 
-/// The directions of the sky that each sample sees, in a fine picture.
+/// The directions of the sky that each sample sees, in a fine picture and in a quick one.
 const DIRECTIONS_FINE: usize = 4;
+const DIRECTIONS_QUICK: usize = 2;
 
 /// The cosine of its angle from which a direction of the sky counts as faced by a surface.
 const FACING: f64 = 0.1;
@@ -41,7 +42,7 @@ const TRIANGLES_MANY: usize = 150_000;
 pub(super) enum Fineness {
     /// Several directions of the sky a sample, and fine shadows: for pictures that are looked at.
     Fine,
-    /// One direction of the sky a sample, and coarser shadows: for small pictures, and those of a film.
+    /// Fewer directions of the sky a sample, and coarser shadows: for small pictures, and those of a film.
     Quick,
 }
 
@@ -122,9 +123,11 @@ impl Light {
     /// Returns the light of bodies in a ball, as (centre, radius) in m.
     pub(super) fn new(bodies: &[Drawn], around: (Vec3, f64), fineness: Fineness) -> Light {
         let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
-        let each = if fineness == Fineness::Fine && triangles < TRIANGLES_MANY { DIRECTIONS_FINE } else { 1 };
-        let count = SAMPLES * each;
-        let (suns, size) = if fineness == Fineness::Fine { SUNS_FINE } else { SUNS_QUICK };
+        let (each, (suns, size)) = match fineness {
+            Fineness::Fine => (DIRECTIONS_FINE, SUNS_FINE),
+            Fineness::Quick => (DIRECTIONS_QUICK, SUNS_QUICK),
+        };
+        let count = if triangles < TRIANGLES_MANY { SAMPLES * each } else { SAMPLES };
         let suns = (0..suns).map(|i| Map::new(bodies, around, sun(i, suns), size)).collect();
         let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), SKY_MAP_SIZE)).collect();
         Light { suns, skies, radius: around.1 }

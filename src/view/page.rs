@@ -40,8 +40,8 @@ const SIMULATION_LINE: &str = "//: ";
 const STILL: StillOptions = StillOptions {
     time: 0.0,
     side: super::picture::Side::Corner,
-    width: 440,
-    height: 275,
+    width: 400,
+    height: 250,
     look: PictureStyle::Room,
 };
 

@@ -41,7 +41,7 @@ impl Side {
     }
 }
 
-/// The width in pixels below which a picture has the light of a quick one: it shows no difference.
+/// The width in pixels below which a picture has the light of a quick one: it hardly shows a difference.
 const WIDTH_FINE: usize = 600;
 
 /// The options of a still picture. [`png()`] panics for a width or height of 0.
@@ -78,8 +78,7 @@ impl Default for StillOptions {
 /// Returns a still picture of a plan as the bytes of a PNG file with red, green and blue of 8 bits each. `input`: the
 /// plan with its title; `options`: time, viewpoint and size. Panics for a width or height of 0.
 pub fn png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
-    let fineness = if options.width < WIDTH_FINE { Fineness::Quick } else { Fineness::Fine };
-    encoded(options, &scene(input, options, fineness).pixels(), None)
+    encoded(options, &scene(input, options).pixels(), None)
 }
 
 /// Renders a plan at several times (s) from one viewpoint, so that the camera rests while the robot moves: `see` receives
@@ -111,12 +110,13 @@ pub fn frames(
 /// Returns a picture as the bytes of a PNG file with at most [`palette::COLOURS_MAX`] colours, a fifth as large, for a
 /// page to hold.
 pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> {
-    let (colours, pixels) = palette::reduced(&scene(input, options, Fineness::Quick).pixels());
+    let (colours, pixels) = palette::reduced(&scene(input, options).pixels());
     encoded(options, &pixels, Some(&colours))
 }
 
 /// Returns the bodies at the time of the picture, with camera and light.
-fn scene(input: &RenderInput, options: &StillOptions, fineness: Fineness) -> Scene {
+fn scene(input: &RenderInput, options: &StillOptions) -> Scene {
+    let fineness = if options.width < WIDTH_FINE { Fineness::Quick } else { Fineness::Fine };
     let time = options.time.clamp(0.0, findings::end(input.plan));
     let bodies = drawn(input, time);
     let around = corners(&bodies);

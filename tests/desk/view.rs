@@ -187,9 +187,7 @@ fn a_picture_shows_the_robot_from_the_side_asked_for() {
     let share = of_corner.iter().filter(|p| blue(p)).count();
     assert!((1600..8000).contains(&share), "{share} pixels of 16000");
     // From the left and from the right a module is as wide, mirrored: symmetric in y.
-    let large =
-        |side| png(&input, &StillOptions { side, width: 640, height: 400, ..StillOptions::default() });
-    let wide = |side| pixels(&large(side)).2.iter().filter(|p| blue(p)).count() as f64;
+    let wide = |side| pixels(&still(0.0, side)).2.iter().filter(|p| blue(p)).count() as f64;
     let (left, right) = (wide(Side::Left), wide(Side::Right));
     assert!((left / right - 1.0).abs() < 0.05, "{left} {right}");
 }
