@@ -15,6 +15,9 @@ mod simulate;
 mod studies;
 mod support;
 
+use mimalloc::MiMalloc;
+use modl::interrupt::memory::Counting;
+
 /// The allocator of the tool, so that the tests take the time that it takes.
 #[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+static ALLOCATOR: Counting<MiMalloc> = Counting(MiMalloc);

@@ -42,6 +42,7 @@ mod typed_module;
 mod typed_study;
 mod types;
 
+use crate::interrupt;
 use crate::source::{Diagnostic, FileId, Files, Sources, Span, Symbol};
 use typed::DefId;
 
@@ -94,6 +95,7 @@ fn check_loaded((loaded, sources, diagnostics): (load::Loaded, Sources, Vec<Diag
     let mut checker = checker::Checker::new(&loaded, &sources, diagnostics);
     checker.declare();
     for index in 0..checker.defs.len() {
+        interrupt::checkpoint();
         checker.check_def(typed::DefId(index as u32));
     }
     // The names used in statements of earlier entries; their mistakes have been reported.

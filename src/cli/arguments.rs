@@ -369,6 +369,9 @@ pub(super) struct Globals {
     /// Samples that one verification may take
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub max_samples: Option<u64>,
+    /// Memory that a command may take, such as 500MB or 4GB [default: three quarters of the machine's]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = super::choices::bytes)]
+    pub max_memory: Option<usize>,
 }
 
 /// The choices of `--color`.

@@ -32,6 +32,21 @@ pub(super) fn rate(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "a rate is a positive number, such as `100Hz` or `1kHz`".to_owned())
 }
 
+/// Returns the number of bytes that a text states: a positive number, with `kB`, `MB` or `GB` behind it or nothing.
+///
+/// # Errors
+/// A message that says what is wanted.
+pub(super) fn bytes(text: &str) -> Result<usize, String> {
+    let units = [("kB", 1e3), ("MB", 1e6), ("GB", 1e9)];
+    let unit = units.iter().find_map(|(unit, factor)| Some((text.strip_suffix(unit)?, *factor)));
+    let (number, factor) = unit.unwrap_or((text, 1.0));
+    let bytes = number.trim().parse::<f64>().ok().map(|number| number * factor);
+    bytes
+        .filter(|bytes| (1.0..1e18).contains(bytes))
+        .map(|bytes| bytes as usize)
+        .ok_or_else(|| "a size is a positive number of bytes, such as `500MB` or `4GB`".to_owned())
+}
+
 /// Reads a part of a study, such as `17/64`.
 ///
 /// # Errors

@@ -212,8 +212,12 @@ impl std::fmt::Display for ReadFault {
 /// # Errors
 /// The reason why it can't be read.
 fn read_regular(path: &Path, bytes_max: usize) -> Result<Vec<u8>, ReadFault> {
-    if !fs::metadata(path)?.is_file() {
+    let found = fs::metadata(path)?;
+    if !found.is_file() {
         return Err(ReadFault::Irregular);
+    }
+    if found.len() > bytes_max as u64 {
+        return Err(ReadFault::TooLarge(bytes_max));
     }
     read_at_most(File::open(path)?, bytes_max)
 }

@@ -148,8 +148,9 @@ impl Completer for CompletionHelper {
         let Some(knowledge) = self.knowledge.clone() else { return Ok((at, Vec::new())) };
         let (sender, receiver) = channel();
         let text = line.to_owned();
-        // After a timeout the receiver is dropped; the thread ends by itself.
-        std::thread::spawn(move || drop(sender.send(complete::complete(&knowledge, &text, at))));
+        // After a timeout the receiver is dropped; the thread ends by itself. Without a thread nothing is offered.
+        let work = move || drop(sender.send(complete::complete(&knowledge, &text, at)));
+        drop(std::thread::Builder::new().spawn(work));
         let Ok(found) = receiver.recv_timeout(COMPLETION_TIMEOUT) else { return Ok((at, Vec::new())) };
         // Many candidates are listed in columns; a single one has the line for itself.
         let many = found.candidates.len() > DESCRIBED_MAX;

@@ -18,6 +18,7 @@ mod import;
 mod judge;
 mod lsp;
 mod manifest;
+mod memory;
 mod new;
 mod output;
 mod pages;
@@ -139,9 +140,12 @@ fn command() -> ExitCode {
     }
 }
 
-/// Runs the command and reports a wrong call; returns the exit code.
+/// Runs the command and reports a wrong call, and a command that takes more memory than the limit; returns the exit
+/// code.
 fn carry_out(arguments: &Arguments) -> u8 {
-    match run(arguments) {
+    memory::limit(&arguments.globals);
+    let ended = memory::within_limit(&arguments.globals, || run(arguments));
+    match ended {
         Ok(Ending::Fine) => 0,
         Ok(Ending::Wrong) => 1,
         Ok(Ending::Cancelled) => 130,

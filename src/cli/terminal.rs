@@ -74,10 +74,7 @@ pub(super) fn listen_for_interrupt() {
         *pressed = Some(Instant::now());
         let cancel_state = cancel_state();
         cancel_state.cancel();
-        std::thread::spawn(move || {
-            std::thread::park_timeout(CANCEL_GRACE_SESSION);
-            cancel_state.abandon();
-        });
+        abandon_after(CANCEL_GRACE_SESSION, cancel_state);
     };
     drop(ctrlc::set_handler(on_signal));
 }
@@ -89,6 +86,18 @@ pub(super) fn idle<T>(wait: impl FnOnce() -> T) -> T {
     *TYPED.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     BUSY.store(true, Ordering::Relaxed);
     typed
+}
+
+/// Abandons cancelled work after a grace period; at once where the system gives no thread to wait on.
+fn abandon_after(grace: Duration, work: CancelState) {
+    let overdue = work.clone();
+    let wait = move || {
+        std::thread::park_timeout(grace);
+        overdue.abandon();
+    };
+    if std::thread::Builder::new().spawn(wait).is_err() {
+        work.abandon();
+    }
 }
 
 /// Resets the cancellation token for new work. A Ctrl-C pressed since the last input still cancels it.
@@ -104,12 +113,7 @@ pub(super) fn begin_work() {
 /// Calls `settle`, which waits for cancelled work to end, and abandons that work after a grace period; returns the
 /// result of `settle`, true if the work ended. If it did not, work started from here on has a new cancellation token.
 pub(super) fn settled(settle: impl FnOnce() -> bool) -> bool {
-    let old = cancel_state();
-    let overdue = old.clone();
-    std::thread::spawn(move || {
-        std::thread::park_timeout(CANCEL_GRACE);
-        overdue.abandon();
-    });
+    abandon_after(CANCEL_GRACE, cancel_state());
     let settled = settle();
     if !settled {
         *CANCEL_STATE.lock().unwrap_or_else(PoisonError::into_inner) = CancelState::default();

@@ -38,15 +38,16 @@ pub(super) fn run(files: &[PathBuf], task: &Task, globals: &Globals) -> Result<E
         let over = AtomicBool::new(false);
         let (over, depends) = (&over, &watched);
         let ran = std::thread::scope(|scope| {
-            // A long run is cancelled for a newer text.
-            scope.spawn(move || {
+            // A long run is cancelled for a newer text; without a thread it goes on to its end.
+            let polls = move || {
                 while !over.load(Ordering::Relaxed) && !depends.poll() {
                     std::thread::park_timeout(POLL_INTERVAL);
                 }
                 if depends.stale() {
                     cancel_state().cancel();
                 }
-            });
+            };
+            drop(std::thread::Builder::new().spawn_scoped(scope, polls));
             let ran = program::run_watched(files, task, globals, &watched);
             over.store(true, Ordering::Relaxed);
             ran

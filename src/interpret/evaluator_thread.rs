@@ -5,7 +5,7 @@
 
 use super::host::{Host, WriteError};
 use super::printed::PrintedValue;
-use crate::interrupt::{self, CancelState};
+use crate::interrupt::{self, CancelState, Ended};
 use crate::source::{Files, ReadError};
 use std::cell::Cell;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
@@ -121,7 +121,7 @@ impl HostProxy {
     fn ask<T>(&self, request: impl FnOnce(Sender<T>) -> Request) -> T {
         let (sender, receiver) = channel();
         self.send(request(sender));
-        receiver.recv().unwrap_or_else(|_| interrupt::unwind())
+        receiver.recv().unwrap_or_else(|_| interrupt::unwind(Ended::Cancelled))
     }
 
     /// Sends a request to the caller's thread; unwinds the evaluation if that has dropped the receiver, since
@@ -129,7 +129,7 @@ impl HostProxy {
     fn send(&self, request: Request) {
         interrupt::checkpoint();
         if self.requests.send(request).is_err() {
-            interrupt::unwind();
+            interrupt::unwind(Ended::Cancelled);
         }
     }
 }

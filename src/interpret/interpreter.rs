@@ -5,6 +5,7 @@ use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
+use super::memory_errors::memory_limit;
 use super::plan_value::PlanValue;
 use super::recalled::Recalled;
 use super::routines::Routines;
@@ -12,7 +13,7 @@ use super::stop::{Eval, Stop};
 use super::value::{Behavior, BehaviorCall, ContractUse, Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{Def, DefId, DefKind, Program};
-use crate::interrupt;
+use crate::interrupt::{self, Ended, memory};
 use crate::plan::Plan;
 use crate::planners::tosnake::SearchCache;
 use crate::source::{Code, Diagnostic, Severity, Sources, Span, Symbol, code};
@@ -215,6 +216,9 @@ impl<'a> Interpreter<'a> {
                     .hint("`--max-steps` raises the limit"),
             );
         }
+        if memory::is_exceeded() {
+            return self.halt(memory_limit().label(span, "evaluation was here"));
+        }
         if self.shared.host.cancelled() {
             return Err(Stop::Halt);
         }
@@ -332,11 +336,12 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Reports the fault that ended a run, if one did. `ended`: the result of the run, `None` if it was
-    /// cancelled.
-    pub fn report_end(&mut self, ended: Option<Eval<()>>) {
-        if let Some(Err(Stop::Fault(diagnostic))) = ended {
-            self.report(*diagnostic);
+    /// Reports the fault or the limit that ended a run, if one did. `ended`: the result of the run, or why it has none.
+    pub fn report_end(&mut self, ended: Result<Eval<()>, Ended>) {
+        match ended {
+            Ok(Err(Stop::Fault(diagnostic))) => self.report(*diagnostic),
+            Err(Ended::OutOfMemory) => self.report(memory_limit()),
+            Ok(Ok(()) | Err(Stop::Halt)) | Err(Ended::Cancelled) => {}
         }
     }
 
@@ -473,9 +478,18 @@ impl<'a> Interpreter<'a> {
 /// Returns, by declaration, true if an error of `check` is in it.
 fn faulty(checked: &Checked) -> Vec<bool> {
     let errors = checked.diagnostics.iter().filter(|d| d.is_error());
-    let places: Vec<Span> = errors.filter_map(Diagnostic::span).collect();
+    let mut places: Vec<Span> = errors.filter_map(Diagnostic::span).collect();
+    places.sort_by_key(|place| (place.file, place.start));
+    // The first end of a place and all behind it in its file: there may be many places and many declarations.
+    let mut first_end: Vec<u32> = places.iter().map(|place| place.end).collect();
+    for index in (1..places.len()).rev() {
+        if places[index - 1].file == places[index].file {
+            first_end[index - 1] = first_end[index - 1].min(first_end[index]);
+        }
+    }
     let within = |whole: Span| {
-        places.iter().any(|p| p.file == whole.file && whole.start <= p.start && p.end <= whole.end)
+        let index = places.partition_point(|place| (place.file, place.start) < (whole.file, whole.start));
+        places.get(index).is_some_and(|place| place.file == whole.file && first_end[index] <= whole.end)
     };
     checked.program.defs.iter().map(|def| within(def.whole)).collect()
 }

@@ -16,6 +16,7 @@ pub mod value;
 pub mod eval;
 pub mod frame;
 pub mod interpreter;
+mod memory_errors;
 mod operators;
 
 pub mod argument;
@@ -58,4 +59,5 @@ mod table_text;
 pub mod session;
 
 pub use host::{Host, Limits, Mode, Options, Outcome, SilentHost, TestResult, WriteError};
+pub use memory_errors::memory_limit;
 pub use run::{run, with_interpreter};

@@ -3,12 +3,13 @@
 use super::evaluator_thread;
 use super::host::{Host, Mode, Options, Outcome};
 use super::interpreter::Interpreter;
+use super::memory_errors::no_memory;
 use super::routines::Routines;
 use super::stop::Eval;
 use crate::check::Checked;
 use crate::check::typed::DefKind;
 use crate::interrupt;
-use crate::source::{Diagnostic, Files, Severity, code};
+use crate::source::{Diagnostic, Files, Severity};
 
 /// Runs a checked program on a thread of its own and returns the outcome. Faults that `check` reported are not
 /// repeated; parts that it could not understand are passed over in silence. If the thread can't be started, that is the
@@ -41,12 +42,6 @@ pub fn run(
     ran.unwrap_or_else(|why| Outcome { diagnostics: vec![no_memory(&why)], ..Outcome::default() })
 }
 
-/// Returns the error of a system that gives no memory for the evaluator.
-pub(super) fn no_memory(why: &str) -> Diagnostic {
-    let message = format!("the system gives no memory to evaluate the program: {why}");
-    Diagnostic::error(code::NO_MEMORY, message).hint("end other programs, or raise the limit of this one")
-}
-
 /// Returns the result of `work`, which is called on a thread of its own with the interpreter of a checked program, of
 /// which nothing was run. `None` where it met a fault or a limit, reported an error or was cancelled, or where the
 /// thread can't be started. `routines`: the functions of the higher-level modules; `files` and `host` serve its
@@ -64,7 +59,7 @@ pub fn with_interpreter<T: Send>(
         let cancel_state = interpreter.shared.host.cancel_state.clone();
         let progress_sink = interpreter.shared.host.progress_sink();
         let done = interrupt::catch(&cancel_state, progress_sink, || work(&mut interpreter));
-        done.and_then(Result::ok).filter(|_| interpreter.reported.errors == 0)
+        done.ok().and_then(Result::ok).filter(|_| interpreter.reported.errors == 0)
     });
     done.ok().flatten()
 }

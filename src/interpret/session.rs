@@ -14,7 +14,7 @@ use super::stop::Eval;
 use super::value::{Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Stmt, StmtKind, Test};
-use crate::interrupt::{self, CancelState};
+use crate::interrupt::{self, CancelState, Ended};
 use crate::source::{Diagnostic, FileId, Files, Span, code};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -196,9 +196,10 @@ fn evaluate(
         interrupt::catch(&proxy.cancel_state, proxy.progress_sink(), || work(&mut interpreter))
     }));
     let defect = caught.is_err();
-    let ended = caught.ok().flatten();
-    let interrupted = !defect && (ended.is_none() || proxy.cancel_state.is_cancelled());
-    let finished = ended.as_ref().is_some_and(Result::is_ok);
+    let ended = caught.unwrap_or(Err(Ended::Cancelled));
+    let cancelled = ended.as_ref().is_err_and(|why| *why == Ended::Cancelled);
+    let interrupted = !defect && (cancelled || proxy.cancel_state.is_cancelled());
+    let finished = ended.as_ref().is_ok_and(Result::is_ok);
     if !defect {
         interpreter.report_end(ended);
         // Values of earlier entries may be unknown, and those entries said why.

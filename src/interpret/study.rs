@@ -7,6 +7,7 @@ use super::evaluator_thread;
 use super::frame::Frame;
 use super::host::{Host, Mode, Options};
 use super::interpreter::{Interpreter, Memory, Reported, Stack};
+use super::memory_errors::{memory_limit, no_memory};
 use super::record::{DeclaredRecord, Record};
 use super::routines::Routines;
 use super::stop::{Eval, Stop, fault};
@@ -14,7 +15,7 @@ use super::study_columns::{Cell, StudyColumn};
 use super::value::{Lazy, Value};
 use crate::check::Checked;
 use crate::check::typed::{DefId, DefKind, Expr, Program, SamplerDef, StudyAxis, StudyDef};
-use crate::interrupt;
+use crate::interrupt::{self, Ended};
 use crate::source::{Diagnostic, Files, Span, Symbol, code};
 use crate::study::{Coordinate, Design, Domain, Goal, POINTS_MAX, ROWS_MAX, Sampler};
 use crate::units::Dimension;
@@ -393,14 +394,17 @@ impl StudyWorker<'_, '_> {
                 || self.interpreter.study_row(&self.study, point, each, &self.before),
             )
         }));
-        let row = match caught {
-            Ok(row) => row.flatten()?,
-            Err(_) => {
-                // Nothing of the state in which it broke off is left.
-                self.interpreter.reset(&self.before);
-                StudyRow { outcome: Err(RowFault::lost()), steps: 0, written: Vec::new() }
-            }
+        let fault = match caught {
+            Ok(Ok(row)) => Ok(row?),
+            Ok(Err(Ended::Cancelled)) => return None,
+            Ok(Err(Ended::OutOfMemory)) => Err(RowFault::of(memory_limit())),
+            Err(_) => Err(RowFault::lost()),
         };
+        let row = fault.unwrap_or_else(|fault| {
+            // Nothing of the state in which it broke off is left.
+            self.interpreter.reset(&self.before);
+            StudyRow { outcome: Err(fault), steps: 0, written: Vec::new() }
+        });
         self.written = row.written;
         let sought = row.outcome.as_ref().ok().and_then(|value| self.study.sought(value));
         let axes = values.iter().map(|value| Cell::of(self.interpreter, value)).collect();
@@ -453,8 +457,10 @@ pub fn with_study<T: Send>(
             },
         );
         let (study, before) = match begun {
-            None | Some(Err(Stop::Halt)) if interpreter.reported.errors == 0 => return Ok(None),
-            Some(Ok((Some(study), before))) => (study, before),
+            Err(Ended::Cancelled) | Ok(Err(Stop::Halt)) if interpreter.reported.errors == 0 => {
+                return Ok(None);
+            }
+            Ok(Ok((Some(study), before))) => (study, before),
             other => {
                 interpreter.report_end(other.map(|ended| ended.map(drop)));
                 return Err(std::mem::take(&mut interpreter.reported.reports));
@@ -469,5 +475,5 @@ pub fn with_study<T: Send>(
             written: Vec::new(),
         })))
     });
-    ran.unwrap_or_else(|why| Err(vec![super::run::no_memory(&why)]))
+    ran.unwrap_or_else(|why| Err(vec![no_memory(&why)]))
 }

@@ -1,14 +1,17 @@
 //! Cooperative cancellation of long work, and progress reports from it.
 //!
 //! Planners and the judge return a whole result or none. A [`checkpoint`] that finds the [`CancelState`]
-//! of its thread cancelled unwinds the stack to [`catch`], which returns `None`; no partial result can be
-//! mistaken for a whole one. The caller of `catch` restores what the work changed outside of itself.
+//! of its thread cancelled, or more memory in use than the [limit](memory::limit), unwinds the stack to [`catch`], which
+//! says so; no partial result can be mistaken for a whole one. The caller of `catch` restores what the work changed
+//! outside of itself.
 //!
 //! If no checkpoint is passed for a while (inside a foreign solver), the waiting thread may abandon the
 //! work ([`CancelState::abandon`]): it stops waiting, the work ends at its next checkpoint, and its result
 //! is dropped.
 //!
 //! A progress report never changes what is computed.
+
+pub mod memory;
 
 use std::cell::RefCell;
 use std::fmt;
@@ -111,8 +114,14 @@ impl fmt::Debug for CancelState {
     }
 }
 
-/// The payload that unwinds from a checkpoint to [`catch`].
-struct Cancelled;
+/// The reason that work ended without a result: what unwinds from a checkpoint to [`catch`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// The user cancelled it.
+    Cancelled,
+    /// More memory is in use than the [limit](memory::limit).
+    OutOfMemory,
+}
 
 /// The work on a thread.
 #[derive(Clone)]
@@ -128,23 +137,27 @@ thread_local! {
     static WORK: RefCell<Option<Work>> = const { RefCell::new(None) };
 }
 
-/// Runs `work` on this thread under a cancellation token, and returns its result, or `None` when it was cancelled.
-/// `progress_sink` receives each progress report as one line of text. Calls may nest: the inner token and sink
-/// replace the outer ones until the inner work ends. A panic of the work goes on to the caller. `cancel_state`: the
-/// token.
+/// Runs `work` on this thread under a cancellation token, and returns its result. `progress_sink` receives each progress
+/// report as one line of text. Calls may nest: the inner token and sink replace the outer ones until the inner work ends.
+/// A panic of the work goes on to the caller. `cancel_state`: the token.
+///
+/// # Errors
+/// The reason that a checkpoint ended the work.
 pub fn catch<T>(
     cancel_state: &CancelState,
     progress_sink: impl Fn(String) + 'static,
     work: impl FnOnce() -> T,
-) -> Option<T> {
+) -> Result<T, Ended> {
     let (cancel_state, progress_sink) = (cancel_state.clone(), Rc::new(progress_sink));
     let before = WORK.replace(Some(Work { cancel_state, progress_sink, task: String::new() }));
     let ended = catch_unwind(AssertUnwindSafe(work));
     WORK.set(before);
     match ended {
-        Ok(result) => Some(result),
-        Err(thrown) if thrown.is::<Cancelled>() => None,
-        Err(panic) => resume_unwind(panic),
+        Ok(result) => Ok(result),
+        Err(thrown) => match thrown.downcast_ref::<Ended>() {
+            Some(&why) => Err(why),
+            None => resume_unwind(thrown),
+        },
     }
 }
 
@@ -173,7 +186,7 @@ pub fn join<A, B: Send>(here: impl FnOnce() -> A, beside: impl FnOnce() -> B + S
         received.into_iter().for_each(report_progress);
         let b = helper.join().unwrap_or_else(|panic| resume_unwind(panic));
         drop(cancels);
-        (a, b.unwrap_or_else(|| unwind()))
+        (a, b.unwrap_or_else(|why| unwind(why)))
     })
 }
 
@@ -186,11 +199,17 @@ impl Drop for CancelOnDrop<'_> {
     }
 }
 
-/// Unwinds to [`catch`] if the work of this thread is cancelled; does nothing outside of `catch`. It costs
-/// a few nanoseconds; every loop that may take long passes one at least every few milliseconds.
+/// Unwinds to [`catch`] if the work of this thread is cancelled, or more memory is in use than the limit; does nothing
+/// outside of `catch`. It costs a few nanoseconds; every loop that may take long passes one at least every few
+/// milliseconds.
 pub fn checkpoint() {
-    if WORK.with_borrow(|work| work.as_ref().is_some_and(|work| work.cancel_state.is_cancelled())) {
-        unwind();
+    let why = WORK.with_borrow(|work| match work {
+        Some(work) if work.cancel_state.is_cancelled() => Some(Ended::Cancelled),
+        Some(_) if memory::is_exceeded() => Some(Ended::OutOfMemory),
+        _ => None,
+    });
+    if let Some(why) = why {
+        unwind(why);
     }
 }
 
@@ -199,10 +218,10 @@ pub fn current() -> Option<CancelState> {
     WORK.with_borrow(|work| work.as_ref().map(|work| work.cancel_state.clone()))
 }
 
-/// Unwinds to [`catch`], cancelled or not. Outside of `catch` it unwinds the thread, as a panic does, without a
+/// Unwinds to [`catch`], which returns the reason. Outside of `catch` it unwinds the thread, as a panic does, without a
 /// message.
-pub fn unwind() -> ! {
-    resume_unwind(Box::new(Cancelled));
+pub fn unwind(why: Ended) -> ! {
+    resume_unwind(Box::new(why));
 }
 
 /// Starts a task by name (`folding 20 panels`), which stands before the progress reports from here on, and reports

@@ -97,6 +97,7 @@ codes! {
     LOST_VALUE = "E0508", "a value that was lost: a defect of modl";
     NO_MEMORY = "E0509", "too little memory to evaluate";
     NO_ROW = "E0510", "a row of a study that was not computed";
+    MEMORY_LIMIT = "E0511", "more memory than the limit";
     // E06xx: verification.
     COLLISION = "E0601", "two modules meet";
     FALL = "E0602", "the robot falls";

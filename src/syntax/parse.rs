@@ -4,6 +4,7 @@ use super::ast;
 use super::build::Builder;
 use super::recover::Parser;
 use super::scan::scan;
+use crate::interrupt;
 use crate::source::{Diagnostic, FileId, Span, code};
 use pest::Parser as _;
 use pest::error::ErrorVariant;
@@ -15,8 +16,9 @@ pub const NESTING_MAX: usize = 200;
 /// The greatest height of the tree of one expression, in nodes from the root to a leaf, both counted; later rooms walk
 /// it by recursion.
 pub const HEIGHT_MAX: usize = 500;
-/// The greatest length of a text, in bytes: 8 MiB. A longer one is not parsed.
-pub const TEXT_MAX: usize = 8 << 20;
+/// The greatest length of a text, in bytes. A longer one is not parsed. Checking a text of this length takes less than
+/// 256 MB and, of most, less than a second.
+pub const TEXT_MAX: usize = 750_000;
 
 #[derive(pest_derive::Parser)]
 #[grammar = "../grammar/modl.pest"]
@@ -49,6 +51,7 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
     let mut parser = Parser::new(Builder::new(id, text, &scan.text, &scan.comments), &scan);
     let mut items = Vec::new();
     for range in scan.ranges() {
+        interrupt::checkpoint();
         parser.chunk(range, &mut items);
     }
     let doc = parser.builder.file_doc();

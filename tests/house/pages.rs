@@ -20,6 +20,7 @@ const NOT_BY_TEXT: &[Code] = &[
     code::OFF_PATH,
     code::LOST_VALUE,
     code::NO_MEMORY,
+    code::MEMORY_LIMIT,
     code::CANNOT_WRITE,
     code::CANNOT_READ,
     code::BAD_PLAN_FILE,

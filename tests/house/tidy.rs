@@ -27,7 +27,7 @@ const ROOMS: &[Room] = &[
     room("interrupt", &[], &[]),
     room("source", &[], &[]),
     room("units", &[], &[]),
-    room("syntax", &["source"], &[]),
+    room("syntax", &["source", "interrupt"], &[]),
     room("format", &["syntax"], &[]),
     room("check", &["units", "syntax"], &[]),
     room("geometry", &["units"], &[]),

@@ -16,6 +16,7 @@ pub(super) fn print_script(arguments: &StudyArguments, name: &str, globals: &Glo
         ("--max-steps", globals.max_steps),
         ("--max-modules", globals.max_modules),
         ("--max-samples", globals.max_samples),
+        ("--max-memory", globals.max_memory.map(|bytes| bytes as u64)),
     ] {
         if let Some(value) = value {
             settings.push_str(&format!(" {option} {value}"));

@@ -57,22 +57,27 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
     let next = AtomicUsize::new(sequential);
     let (sender, results) = channel();
     thread::scope(|scope| {
-        for _ in 0..threads.min(jobs.len() - sequential) {
+        let worker = |_| {
             let (sender, next, cancel_state, done) = (sender.clone(), &next, &cancel_state, &done);
-            scope.spawn(move || {
+            let work = move || {
                 let scene = Scene { tree, docked: docked.clone(), load_limit: None };
-                let work = || {
-                    loop {
-                        let job = next.fetch_add(1, Ordering::Relaxed);
-                        if job >= jobs.len() || sender.send(done(job, &scene)).is_err() {
-                            return;
-                        }
+                loop {
+                    let job = next.fetch_add(1, Ordering::Relaxed);
+                    if job >= jobs.len() || sender.send(done(job, &scene)).is_err() {
+                        return;
                     }
-                };
-                interrupt::catch(cancel_state, |_| {}, work)
-            });
-        }
+                }
+            };
+            let work = move || interrupt::catch(cancel_state, |_| {}, work);
+            thread::Builder::new().spawn_scoped(scope, work).ok()
+        };
+        // The system may give fewer threads.
+        let workers: Vec<_> = (0..threads.min(jobs.len() - sequential)).map_while(worker).collect();
         drop(sender);
+        if workers.is_empty() {
+            (sequential..jobs.len()).any(|job| take(done(job, &scene)));
+            return;
+        }
         // However this scope is left, the threads end.
         let _cancels = interrupt::CancelOnDrop(&cancel_state);
         // Results that came early wait for those before them.
@@ -87,7 +92,11 @@ pub(super) fn in_order(state: &State, jobs: &[Job], threads: usize, take: &mut d
                 }
             }
         }
-        // Before all results came only the user's cancellation ends the threads.
+        // Before all results came only the user's cancellation, or a limit, ends the threads.
         interrupt::checkpoint();
+        for worker in workers {
+            let ended = worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            ended.unwrap_or_else(|why| interrupt::unwind(why));
+        }
     });
 }
