@@ -52,6 +52,10 @@ pub(super) enum ImportTarget {
 /// Calls of built-in functions whose results are made of what a file of the library declares, with that file.
 const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
 
+/// The greatest number of files that import each other in a chain, the program included; loading follows the chain by
+/// recursion.
+pub const IMPORT_DEPTH_MAX: usize = 100;
+
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
 /// session the file to run is the newest entry, and an entry never changes the indices of those before it.
 #[derive(Default)]
@@ -234,7 +238,8 @@ impl<'a> Loader<'a> {
         }
     }
 
-    /// Reads a text and adds it to the sources; one that is not UTF-8 is reported and read as empty.
+    /// Reads a text and adds it to the sources; one that is not UTF-8, or longer than [`syntax::TEXT_MAX`], is reported and
+    /// read as empty.
     ///
     /// # Errors
     /// The reason why it can't be read.
@@ -246,6 +251,12 @@ impl<'a> Loader<'a> {
             }
             FilePlace::Project(path) => self.files.read(path)?,
         };
+        if bytes.len() > syntax::TEXT_MAX {
+            // Only its name is needed: the text may be very long.
+            let id = self.sources.add(shown, "", false);
+            self.diagnostics.push(syntax::too_large(id, bytes.len()));
+            return Ok((id, String::new()));
+        }
         match String::from_utf8(bytes) {
             Ok(text) => Ok((self.sources.add(shown, &text, false), text)),
             Err(error) => {
@@ -379,6 +390,15 @@ impl<'a> Loader<'a> {
         }
         if let Some(start) = self.open.iter().position(|open| open.name == shown) {
             self.cycle(start, &shown);
+            return None;
+        }
+        if self.open.len() >= IMPORT_DEPTH_MAX {
+            let message = format!("files import files {IMPORT_DEPTH_MAX} deep, which is the limit");
+            self.diagnostics.push(
+                Diagnostic::error(code::TOO_DEEP, message)
+                    .label(span, "imported here")
+                    .hint("import from one file what the files of a chain need"),
+            );
             return None;
         }
         match self.load(place) {

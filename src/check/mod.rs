@@ -46,7 +46,7 @@ use crate::interrupt;
 use crate::source::{Diagnostic, FileId, Files, Sources, Span, Symbol};
 use typed::DefId;
 
-pub use load::{Entry, why_unreadable};
+pub use load::{Entry, IMPORT_DEPTH_MAX, why_unreadable};
 pub use meaning::Meaning;
 pub use typed::Program;
 pub use types::{Choice, Type};

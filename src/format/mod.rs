@@ -34,7 +34,7 @@ pub fn format(id: FileId, text: &str) -> Option<Formatted> {
     if outline.chunks.iter().all(|chunk| chunk.sound) {
         let meaning = skeleton(text);
         // A line stays wide where a break would change what the program means.
-        let formatted = [true, false].map(laid_out).into_iter().find(|text| skeleton(text) == meaning)?;
+        let formatted = [true, false].into_iter().map(laid_out).find(|text| skeleton(text) == meaning)?;
         return Some(Formatted { text: formatted, diagnostics: Vec::new() });
     }
     let formatted = laid_out(true);

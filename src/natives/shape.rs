@@ -13,6 +13,9 @@ use crate::robot::{JointKind, Limits, Servo, Surface};
 use crate::source::{Diagnostic, code};
 use std::rc::Rc;
 
+/// The greatest number of shapes of one solid.
+const SHAPES_MAX: usize = 1000;
+
 /// Lists the parameters of a solid: its own, and those that all solids have.
 macro_rules! solid_parameters {
     ($($name:ident: $type:ty),*) => {
@@ -104,6 +107,10 @@ fn union(_: &mut Interpreter, call: &Call) -> Eval<Value> {
     for shape in call.get::<&[Value]>("shapes")?.iter() {
         if let Value::Shape(shape) = shape {
             parts.extend(shape.parts.iter().cloned());
+        }
+        if parts.len() > SHAPES_MAX {
+            let message = format!("a union of more than {SHAPES_MAX} shapes");
+            return Err(fault(code::SIZE_LIMIT, call.span, message, "the limit is passed here"));
         }
     }
     if parts.is_empty() {

@@ -27,5 +27,5 @@ mod words;
 
 pub use lex::{Token, TokenKind};
 pub use outline::{Chunk, Outline, Role, Skeleton, skeleton};
-pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, breaks_off, parse};
+pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, breaks_off, parse, too_large};
 pub use words::{CONFIG, DECLARING, ITEMS, MODULE, RESERVED, STATEMENTS, TRUSS};

@@ -79,7 +79,12 @@ impl Outline {
 /// The tree of a text without positions: the rule and depth of each node, and the text of leaves. Texts that differ
 /// only in white space without meaning have equal skeletons.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Skeleton(Vec<(Rule, usize, String)>);
+pub struct Skeleton {
+    /// The rule of each node, its depth, and the length of its text, bytes; 0 unless it is a leaf.
+    nodes: Vec<(Rule, u32, u32)>,
+    /// The texts of the leaves, one after the other.
+    leaves: String,
+}
 
 /// Returns the skeleton of a text; `None` if the text has a syntax error.
 pub fn skeleton(text: &str) -> Option<Skeleton> {
@@ -98,16 +103,20 @@ pub fn skeleton(text: &str) -> Option<Skeleton> {
 
 impl Skeleton {
     /// Adds a node with its children.
-    fn add(&mut self, node: Node, depth: usize) {
+    fn add(&mut self, node: Node, depth: u32) {
         let (rule, text) = (node.as_rule(), node.as_str());
         let inner = node.into_inner();
-        let leaf = match (inner.len(), rule) {
-            (0, Rule::text_chars | Rule::escape | Rule::raw_text | Rule::plain_text) => text.to_owned(),
+        let before = self.leaves.len();
+        match (inner.len(), rule) {
+            (0, Rule::text_chars | Rule::escape | Rule::raw_text | Rule::plain_text) => {
+                self.leaves.push_str(text)
+            }
             // White space in a leaf, such as between a label and its colon, has no meaning.
-            (0, _) => text.split_whitespace().collect(),
-            _ => String::new(),
-        };
-        self.0.push((rule, depth, leaf));
+            (0, _) => self.leaves.extend(text.split_whitespace()),
+            _ => {}
+        }
+        // No text is as long as 4 GiB.
+        self.nodes.push((rule, depth, (self.leaves.len() - before) as u32));
         for child in inner {
             self.add(child, depth + 1);
         }

@@ -45,7 +45,8 @@ pub struct Parsed {
 /// tree.
 pub fn parse(id: FileId, text: &str) -> Parsed {
     if text.len() > TEXT_MAX {
-        return too_large(id, text);
+        let file = ast::File { id, doc: None, items: Vec::new(), comments: Vec::new(), unread: Vec::new() };
+        return Parsed { file, diagnostics: vec![too_large(id, text.len())] };
     }
     let scan = scan(id, text);
     let mut parser = Parser::new(Builder::new(id, text, &scan.text, &scan.comments), &scan);
@@ -62,14 +63,12 @@ pub fn parse(id: FileId, text: &str) -> Parsed {
     Parsed { file: ast::File { id, doc, items, comments: scan.comments, unread }, diagnostics }
 }
 
-/// Returns the empty tree of a text that is too large.
-fn too_large(id: FileId, text: &str) -> Parsed {
-    let message = format!("the text has {} bytes, and {TEXT_MAX} is the limit", text.len());
-    let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
+/// Returns the diagnostic of a text that is longer than [`TEXT_MAX`]. `bytes`: its length.
+pub fn too_large(id: FileId, bytes: usize) -> Diagnostic {
+    let message = format!("the text has {bytes} bytes, and {TEXT_MAX} is the limit");
+    Diagnostic::error(code::TOO_LARGE, message)
         .label(Span::new(id, 0, 0), "")
-        .hint("put parts of it into files of their own and import them with `use`");
-    let file = ast::File { id, doc: None, items: Vec::new(), comments: Vec::new(), unread: Vec::new() };
-    Parsed { file, diagnostics: vec![diagnostic] }
+        .hint("put parts of it into files of their own and import them with `use`")
 }
 
 /// Returns the root of pest's parse of a whole text by a rule; `None` if it cannot be parsed.
