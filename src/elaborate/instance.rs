@@ -38,7 +38,7 @@ impl Interpreter<'_> {
         }
         let Some(body) = self.shared.program.def(def).kind.instantiable() else { return Ok(None) };
         let Some((args, shown)) = self.fill_params(def, body.params, args)? else { return Ok(None) };
-        let known = self.memory.designs[def.0 as usize].iter().find(|d| same_args(&d.args, &args)).cloned();
+        let known = self.memory.designs[def.0 as usize].find(&args);
         match known {
             Some(design) => self.check_complete(&design, span).map(|()| Some(design)),
             None => self.elaborate(def, args, &shown, span).map(Some),
@@ -188,8 +188,4 @@ impl Interpreter<'_> {
         }
         self.design_of(def, Args { values: vec![None; params.len()], spans: Vec::new() }, declared.span)
     }
-}
-
-fn same_args(a: &[Value], b: &[Value]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.same(y) == Some(true))
 }

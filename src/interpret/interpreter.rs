@@ -3,6 +3,7 @@
 use super::capability::Capabilities;
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
+use super::designs::Designs;
 use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
 use super::memory_errors::memory_limit;
@@ -95,7 +96,7 @@ pub struct Memory {
     /// The values of top-level lets, by the declaration's [`DefId`]; others stay [`Lazy::Waiting`].
     pub globals: Vec<Lazy>,
     /// The designs, by the declaration's [`DefId`]: one for each list of arguments.
-    pub designs: Vec<Vec<Rc<Design>>>,
+    pub designs: Vec<Designs>,
     /// The connectors, by the declaration's [`DefId`]; `None` for those not elaborated yet, `Some(None)` for those
     /// that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
@@ -117,7 +118,7 @@ impl Memory {
     /// Makes room for the values of `declarations` declarations; those of any beyond them are dropped.
     pub fn resize(&mut self, declarations: usize) {
         self.globals.resize(declarations, Lazy::Waiting);
-        self.designs.resize(declarations, Vec::new());
+        self.designs.resize(declarations, Designs::default());
         self.connectors.resize(declarations, None);
     }
 }

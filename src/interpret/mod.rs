@@ -27,6 +27,7 @@ pub mod nesting;
 mod statements;
 
 pub mod design;
+pub mod designs;
 mod groups;
 pub mod identity;
 pub mod module_map;

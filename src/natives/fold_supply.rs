@@ -173,7 +173,7 @@ impl<'c> Supply<'c> {
             Ok(Some(design)) if !design.broken.get() && found.is_empty() => design,
             // Forgotten, so that it says again what is wrong when it is asked for again.
             Ok(Some(design)) => {
-                interpreter.memory.designs[design.def.0 as usize].retain(|known| !Rc::ptr_eq(known, &design));
+                interpreter.memory.designs[design.def.0 as usize].remove(&design);
                 return Err(refuse(said(found)));
             }
             Ok(None) | Err(Stop::Fault(_)) => return Err(refuse(said(found))),

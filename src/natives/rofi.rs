@@ -40,8 +40,8 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let path = call.get::<&str>("file")?.to_string();
     let (kind, loaded) = library(interpreter, call)?;
     let (file, bytes) = interpreter.project_file(call, "file")?;
-    let known = |design: &&Rc<Design>| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
-    if let Some(design) = interpreter.memory.designs[loaded.0 as usize].iter().find(known).cloned() {
+    let known = |args: &[Value]| matches!(args, [Value::Text(text)] if **text == *file);
+    if let Some(design) = interpreter.memory.designs[loaded.0 as usize].find_by(known) {
         return Ok(instance(interpreter, &design));
     }
     let text = String::from_utf8(bytes).map_err(|_| {
