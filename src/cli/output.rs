@@ -3,13 +3,15 @@
 use super::disk::system_words;
 use crate::interpret::WriteError;
 use crate::source::files::join;
-use std::fs;
+use std::collections::BTreeSet;
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::NamedTempFile;
 
 /// The prefix of temporary files.
-const PREFIX: &str = ".modl-";
+const PREFIX: &str = ".modl-tmp-";
 
 /// Writes `bytes` to `path`, relative to `folder` and with forward slashes, making folders as needed, and returns the
 /// path to show. The file appears whole or not at all: it is written under a temporary name in the same folder, then
@@ -98,7 +100,7 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     let parent = target.parent().unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new().prefix(PREFIX).tempfile_in(parent)?;
+    let mut file = begun(parent)?;
     file.as_file().set_permissions(found.permissions())?;
     file.write_all(bytes)?;
     persisted(file, &target)
@@ -137,17 +139,20 @@ pub(super) fn write_folder<'f>(
             true
         }
     };
+    sweep(&root);
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
     let made = builder.tempdir_in(&root).map_err(failed)?;
+    let _lock = locked(made.path());
     for (path, bytes) in files {
         write(made.path(), path, bytes)?;
     }
     if there {
         // Nobody sees a mixture: the former folder, none for an instant, or the new one.
         let old = builder.tempdir_in(&root).map_err(failed)?;
+        let _lock = locked(old.path());
         let aside = old.path().join(name);
         fs::rename(&target, &aside).map_err(failed)?;
         if let Err(e) = fs::rename(made.path(), &target) {
@@ -218,7 +223,34 @@ pub(super) fn begun(folder: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    sweep(folder);
+    let file = builder.tempfile_in(folder)?;
+    // Where there are no locks, the file may be swept away while it is written, and can then not be renamed.
+    drop(file.as_file().try_lock());
+    Ok(file)
+}
+
+/// Returns a lock on a folder, which is freed when it is dropped; `None` where the system has none.
+fn locked(folder: &Path) -> Option<File> {
+    let folder = File::open(folder).ok()?;
+    folder.try_lock().ok().map(|()| folder)
+}
+
+/// Removes temporary files and folders that processes left in a folder when they were killed: those that nobody has
+/// locked. A failure is of no consequence but that they stay. A folder is looked at once in the life of a process.
+fn sweep(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+        return;
+    }
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX)) {
+        let (path, Ok(kind)) = (entry.path(), entry.file_type()) else { continue };
+        // Links and pipes are nothing that was begun here.
+        if (kind.is_file() || kind.is_dir()) && locked(&path).is_some() {
+            drop(if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) });
+        }
+    }
 }
 
 /// Renames a file that was [`begun`]. Bytes and name are on the disk when it returns: after a failure of the machine the
@@ -238,7 +270,7 @@ pub(super) fn persisted(file: NamedTempFile, target: &Path) -> io::Result<()> {
 /// The failure of the system.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
-    match fs::File::open(folder)?.sync_all() {
+    match File::open(folder)?.sync_all() {
         Err(e) if matches!(e.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
         synced => synced,
     }

@@ -191,12 +191,13 @@ fn kills_cost_what_was_not_written_and_nothing_else() {
     let folder = folder(&s, "out", "slow");
     let kept = shards(&folder);
     let one = read(&folder.join(kept.first().expect("a shard was written")));
-    fs::write(folder.join(".modl-abcdef"), &one).expect("a file can be written");
-    fs::write(folder.join(".modl-ghijkl"), &one[..one.len() / 2]).expect("a file can be written");
+    fs::write(folder.join(".modl-tmp-abcdef"), &one).expect("a file can be written");
+    fs::write(folder.join(".modl-tmp-ghijkl"), &one[..one.len() / 2]).expect("a file can be written");
     for i in [4, 3, 2, 1] {
         fine(&s, &["study", "slow.mod", "slow", "-o", "out", "--shard", &shard(i)]);
     }
     assert!(shards(&folder).is_superset(&kept), "what was written stays");
+    assert!(!folder.join(".modl-tmp-abcdef").exists() && !folder.join(".modl-tmp-ghijkl").exists());
     assert_eq!(table(&s, "out", "slow"), wanted);
 }
 
@@ -363,7 +364,7 @@ mod unix {
             let folder = folder(&s, "out", "slow");
             let names = fs::read_dir(&folder).expect("a folder").flatten().map(|e| e.file_name());
             assert!(
-                names.into_iter().any(|name| name.to_string_lossy().starts_with(".modl-")),
+                names.into_iter().any(|name| name.to_string_lossy().starts_with(".modl-tmp-")),
                 "it was written"
             );
             assert!(kept.contains(&shards(&folder).len()), "{} of {kept:?}", shards(&folder).len());
