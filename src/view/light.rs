@@ -136,10 +136,9 @@ impl Light {
     /// Returns the light that a sample of a pixel (0 to [`SAMPLES`] - 1) sees at the point `p` of a surface with the unit
     /// normal `n`.
     pub(super) fn seen(&self, p: &Vec3, n: &Vec3, sample: usize) -> Seen {
-        let lifted = p + n * (TOLERANCES.shadow * self.radius);
+        let lifted = self.lifted(p, n);
         let slack = TOLERANCES.shadow_depth * self.radius;
-        let facing = n.dot(&SUN) > 0.0;
-        let sun = if facing { self.suns[sample % self.suns.len()].seen(&lifted, 0.5 * slack) } else { 0.0 };
+        let sun = self.sun(p, n, sample);
         let (mut sky, mut weights, mut open, mut count) = (0.0, 0.0, 0.0, 0.0);
         for map in self.skies.iter().skip(sample).step_by(SAMPLES) {
             let seen = map.seen(&lifted, slack);
@@ -152,6 +151,30 @@ impl Light {
         let instead = (weights < FACING * count).then(|| next.find(|map| n.dot(&map.direction) > FACING));
         let sky = instead.flatten().map_or(sky / weights, |map| map.seen(&lifted, slack));
         Seen { sun, sky, open: open / count }
+    }
+
+    /// Returns the visible part of the sun, 0..1, as [`Self::seen`] has it.
+    pub(super) fn sun(&self, p: &Vec3, n: &Vec3, sample: usize) -> f64 {
+        let map = &self.suns[sample % self.suns.len()];
+        let slack = TOLERANCES.shadow_depth * self.radius;
+        if n.dot(&SUN) > 0.0 { map.seen(&self.lifted(p, n), 0.5 * slack) } else { 0.0 }
+    }
+
+    /// Returns the visible part of the sky that shines on the point `p` of a surface with the unit normal `n`, 0..1, by all
+    /// directions.
+    pub(super) fn sky_over(&self, p: &Vec3, n: &Vec3) -> f64 {
+        let (lifted, slack) = (self.lifted(p, n), TOLERANCES.shadow_depth * self.radius);
+        let (mut sky, mut weights) = (0.0, 0.0);
+        for map in &self.skies {
+            let weight = n.dot(&map.direction).max(0.0);
+            (sky, weights) = (sky + weight * map.seen(&lifted, slack), weights + weight);
+        }
+        sky / weights
+    }
+
+    /// Returns a point of a surface lifted off it, so that the surface does not shade itself.
+    fn lifted(&self, p: &Vec3, n: &Vec3) -> Vec3 {
+        p + n * (TOLERANCES.shadow * self.radius)
     }
 }
 

@@ -29,6 +29,7 @@ mod truss;
 
 mod framing;
 mod light;
+mod openness;
 mod picture;
 mod scene;
 

@@ -4,6 +4,7 @@ use super::bodies::Drawn;
 use super::colour::Rgb;
 use super::framing;
 use super::light::{Fineness, Light, SAMPLES, shaded};
+use super::openness::Openness;
 use super::picture::{PictureStyle, StillOptions};
 use super::raster::{Camera, Canvas, Facet};
 use super::tolerances::TOLERANCES;
@@ -172,6 +173,8 @@ struct Floor<'a> {
     reach: f64,
     /// The distance between grid lines, m: the power of ten below the size of the scene.
     step: f64,
+    /// The part of the sky that it sees; `None` where nothing shades it.
+    openness: Option<Openness>,
 }
 
 impl Floor<'_> {
@@ -182,7 +185,10 @@ impl Floor<'_> {
         let reach = f64::max(6.0 * scene.radius, 2.5 * scene.camera.distance);
         let step = libm::pow(10.0, libm::floor(libm::log10(scene.radius * 0.9)));
         let normal = Vec3::new(-slope[0], -slope[1], 1.0).normalize();
-        Floor { scene, slope, normal, height, reach, step }
+        let point = |x: f64, y: f64| Vec3::new(x, y, slope[0] * x + slope[1] * y);
+        let around = (scene.middle, scene.radius);
+        let openness = scene.ground.map(|_| Openness::new(&scene.light, around, &normal, point));
+        Floor { scene, slope, normal, height, reach, step, openness }
     }
 
     /// Returns the colour of the ground at a sample of the picture: grid lines and shadow over what lies behind.
@@ -203,15 +209,16 @@ impl Floor<'_> {
         }
         let u = ((out - 0.10) / 0.75).clamp(0.0, 1.0);
         let fade = 1.0 - u * u * (3.0 - 2.0 * u);
-        let shade = if scene.ground.is_some() { self.shade(&p, sample(x, y)) } else { 0.0 };
+        let shade = if self.openness.is_some() { self.shade(&p, sample(x, y)) } else { 0.0 };
         let (lines, ink) = self.lines(&p, away, rate);
         behind.mixed(INK, shade * fade).mixed(ink, lines * fade)
     }
 
     /// Returns the darkness of the shadow at a point of the ground, 0..1.
     fn shade(&self, p: &Vec3, sample: usize) -> f64 {
-        let seen = self.scene.light.seen(p, &self.normal, sample);
-        1.0 - (1.0 - (1.0 - seen.sun) * 0.24) * (1.0 - 0.55 * (1.0 - seen.sky))
+        let sun = self.scene.light.sun(p, &self.normal, sample);
+        let sky = self.openness.as_ref().map_or(1.0, |openness| openness.at(p));
+        1.0 - (1.0 - (1.0 - sun) * 0.24) * (1.0 - 0.55 * (1.0 - sky))
     }
 
     /// Returns the strength of the line of the grid at a point of the ground, 0..1, and its colour. `away`: the distance of
