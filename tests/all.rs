@@ -5,6 +5,7 @@ mod desk;
 mod dynamics;
 mod editor;
 mod exchange;
+mod hostile;
 mod house;
 mod judge;
 mod language;
