@@ -171,6 +171,17 @@ fn what_cannot_be_read_stays_as_it_is() {
     assert!(!found.diagnostics.is_empty());
 }
 
+/// Blank lines before what can't be read become one, and none at the beginning of the file, at the first time.
+#[test]
+fn blank_lines_before_what_cannot_be_read_are_few() {
+    for (text, wanted) in
+        [("    \n\n   ^ no\n", "   ^ no\n"), ("let a = 1\n\n\n   ^ no\n", "let a = 1\n\n   ^ no\n")]
+    {
+        let once = formatted(text);
+        assert_eq!((once.as_str(), formatted(&once).as_str()), (wanted, wanted));
+    }
+}
+
 /// By hand: what each rule of the style does.
 #[test]
 fn the_style_is_as_the_documentation_says() {
