@@ -140,10 +140,11 @@ impl<'d> Reader<'d, '_> {
                 return Err(ImportFault::at_node(*node, format!("the joint `{name}` is there twice")));
             }
         }
-        for node in nodes {
-            let joint = self.joint(node, &links, &joints)?;
+        for node in &nodes {
+            let joint = self.joint(*node, &links, &joints)?;
             self.urdf.joints.push(joint);
         }
+        self.check_mimics(&nodes)?;
         self.check_tree(root)
     }
 
@@ -364,6 +365,20 @@ impl<'d> Reader<'d, '_> {
         let range = (bounded && low < high && limits).then_some((low, high));
         let origin = self.origin(node)?;
         Ok(UrdfJoint { name, kind, parent, child, origin, axis, range, effort, speed, damping, mimic })
+    }
+
+    /// Checks that no joint follows itself, directly or over others.
+    fn check_mimics(&self, nodes: &[Node]) -> Result<(), ImportFault> {
+        let joints = &self.urdf.joints;
+        let followed = |joint: &usize| joints[*joint].mimic.map(|(followed, ..)| followed);
+        for (joint, node) in nodes.iter().enumerate() {
+            let chain = std::iter::successors(followed(&joint), followed);
+            if chain.take(joints.len()).any(|other| other == joint) {
+                let message = format!("the joint `{}` follows itself", joints[joint].name);
+                return Err(ImportFault::at_node(*node, message));
+            }
+        }
+        Ok(())
     }
 
     /// Checks that the joints make one tree of the links.
