@@ -8,6 +8,9 @@ use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, QUANTITY_MAX};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
+/// The greatest magnitude of a number that counts as finite: sums and products of a few such numbers are finite, too.
+const NUMBER_MAX: f64 = 1e30;
+
 /// A robot description.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Urdf {
@@ -171,7 +174,7 @@ impl<'d> Reader<'d, '_> {
         let read: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let count = text.split_whitespace().count();
         match <[f64; N]>::try_from(read) {
-            Ok(all) if count == N && all.iter().all(|x| x.is_finite()) => Ok(all),
+            Ok(all) if count == N && all.iter().all(|x| x.abs() <= NUMBER_MAX) => Ok(all),
             _ => {
                 Err(ImportFault::at_node(node, format!("`{key}=\"{text}\"`: {N} finite numbers are wanted")))
             }
