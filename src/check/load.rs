@@ -58,8 +58,8 @@ const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
 type Tree = (Arc<ast::File>, Vec<Diagnostic>);
 
 /// The trees of texts that stay in memory, which are those of the library: every program needs the prelude, and a program
-/// that is edited is checked again and again. By the identity of the file, which stands in the tree, and the
-/// place and length of the text.
+/// that is edited is checked again and again. Keys are the identity of the
+/// file, which stands in the tree, and the place and length of the text.
 static TREES: Mutex<BTreeMap<(u32, usize, usize), Tree>> = Mutex::new(BTreeMap::new());
 
 /// The files whose trees are kept are the first of a program, so that those kept are few.
