@@ -1,14 +1,13 @@
-//! Any text parses without a panic, and every place that is told lies within it.
+//! Any target under a fuzzer that follows coverage: its bytes are the choices of the generator. The name of the program is
+//! that of the target.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use modl::source::FileId;
+#[path = "../mod.rs"]
+mod fuzz;
 
-fuzz_target!(|text: &str| {
-    let parsed = modl::syntax::parse(FileId(0), text);
-    for diagnostic in &parsed.diagnostics {
-        for label in &diagnostic.labels {
-            assert!(text.get(label.span.range()).is_some());
-        }
-    }
+use fuzz::targets::Target;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    Target::named(env!("CARGO_BIN_NAME")).expect("each program has the name of a target").check_bytes(bytes);
 });
