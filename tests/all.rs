@@ -5,6 +5,9 @@ mod desk;
 mod dynamics;
 mod editor;
 mod exchange;
+#[path = "../fuzz/mod.rs"]
+mod fuzz;
+mod fuzzing;
 mod hostile;
 mod house;
 mod judge;

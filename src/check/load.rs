@@ -5,12 +5,14 @@ use crate::source::library;
 use crate::source::suggest::suggest;
 use crate::source::{Diagnostic, FileId, Files, ReadError, Sources, Span, Symbol, code};
 use crate::syntax::{self, ast};
-use std::collections::HashMap;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A parsed file with its imports.
 pub(super) struct LoadedFile {
     /// The syntax tree of the file.
-    pub ast: ast::File,
+    pub ast: Arc<ast::File>,
     /// The names that the file imports, in the order of the text.
     pub imports: Vec<Import>,
     /// True if the file is an entry of a session: all entries have one scope.
@@ -55,6 +57,33 @@ const NEEDED: &[(&str, &str)] = &[("load(", "rofi.mod")];
 /// The greatest number of files that import each other in a chain, the program included; loading follows the chain by
 /// recursion.
 pub const IMPORT_DEPTH_MAX: usize = 100;
+
+/// A syntax tree with the diagnostics of its text.
+type Tree = (Arc<ast::File>, Vec<Diagnostic>);
+
+/// The trees of texts that stay in memory, which are those of the library: every program needs the prelude, and a program
+/// that is edited is checked again and again. Keys are the identity of the
+/// file, which stands in the tree, and the place and length of the text.
+static TREES: Mutex<BTreeMap<(u32, usize, usize), Tree>> = Mutex::new(BTreeMap::new());
+
+/// The files whose trees are kept are the first of a program, so that those kept are few.
+const KEPT_FILES: u32 = 8;
+
+/// Returns the syntax tree of a text, and what is wrong in it.
+fn tree(id: FileId, text: &Cow<'static, str>) -> Tree {
+    let parse = |text: &str| {
+        let parsed = syntax::parse(id, text);
+        (Arc::new(parsed.file), parsed.diagnostics)
+    };
+    match text {
+        Cow::Borrowed(text) if id.0 < KEPT_FILES && !text.is_empty() => {
+            let mut trees = TREES.lock().unwrap_or_else(PoisonError::into_inner);
+            let place = (id.0, text.as_ptr().addr(), text.len());
+            trees.entry(place).or_insert_with(|| parse(text)).clone()
+        }
+        text => parse(text),
+    }
+}
 
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
 /// session the file to run is the newest entry, and an entry never changes the indices of those before it.
@@ -183,10 +212,12 @@ impl<'a> Loader<'a> {
         let id = self.sources.add_piece(&entry.name, &entry.text, false, entry.first_line);
         // Paths in an entry are relative to the project.
         let place = FilePlace::Project(String::new());
-        let index = self.take(&place, id, &entry.text);
+        let index = self.take(&place, id, &Cow::Owned(entry.text.clone()));
         let file = self.loaded[index].as_mut().expect("just closed");
         (file.entry, file.last) = (true, entry.last);
-        if let (Some(name), Some(item)) = (entry.value, file.ast.items.last_mut()) {
+        if let Some(name) = entry.value
+            && let Some(item) = Arc::make_mut(&mut file.ast).items.last_mut()
+        {
             name_value(item, name);
         }
         index
@@ -208,14 +239,14 @@ impl<'a> Loader<'a> {
     }
 
     /// Parses a text and loads all that it imports; returns its index.
-    fn take(&mut self, place: &FilePlace, id: FileId, text: &str) -> usize {
-        let parsed = syntax::parse(id, text);
-        self.diagnostics.extend(parsed.diagnostics);
+    fn take(&mut self, place: &FilePlace, id: FileId, text: &Cow<'static, str>) -> usize {
+        let (ast, diagnostics) = tree(id, text);
+        self.diagnostics.extend(diagnostics);
         let index = self.loaded.len();
         self.loaded.push(None);
         self.open.push(OpenFile { name: place.shown(), via: None });
         let mut imports = Vec::new();
-        for item in &parsed.file.items {
+        for item in &ast.items {
             if let ast::ItemKind::Use(u) = &item.kind {
                 self.import(place, u, &mut imports);
             }
@@ -224,7 +255,7 @@ impl<'a> Loader<'a> {
         if let FilePlace::Project(_) = place {
             self.load_needed(text);
         }
-        self.loaded[index] = Some(LoadedFile { ast: parsed.file, imports, entry: false, last: None });
+        self.loaded[index] = Some(LoadedFile { ast, imports, entry: false, last: None });
         index
     }
 
@@ -243,11 +274,11 @@ impl<'a> Loader<'a> {
     ///
     /// # Errors
     /// The reason why it can't be read.
-    fn read(&mut self, place: &FilePlace, shown: &str) -> Result<(FileId, String), ReadError> {
+    fn read(&mut self, place: &FilePlace, shown: &str) -> Result<(FileId, Cow<'static, str>), ReadError> {
         let bytes = match place {
             FilePlace::Library(path) => {
                 let text = self.files.library(path).ok_or(ReadError::NotFound)?;
-                return Ok((self.sources.add(shown, &text, true), text.into_owned()));
+                return Ok((self.sources.add(shown, &text, true), text));
             }
             FilePlace::Project(path) => self.files.read(path)?,
         };
@@ -255,10 +286,10 @@ impl<'a> Loader<'a> {
             // Only its name is needed: the text may be very long.
             let id = self.sources.add(shown, "", false);
             self.diagnostics.push(syntax::too_large(id, bytes.len()));
-            return Ok((id, String::new()));
+            return Ok((id, Cow::Borrowed("")));
         }
         match String::from_utf8(bytes) {
-            Ok(text) => Ok((self.sources.add(shown, &text, false), text)),
+            Ok(text) => Ok((self.sources.add(shown, &text, false), Cow::Owned(text))),
             Err(error) => {
                 let offset = error.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
@@ -273,7 +304,7 @@ impl<'a> Loader<'a> {
                         .hint("save the file as UTF-8"),
                 );
                 // Errors in a text of another encoding mean nothing.
-                Ok((id, String::new()))
+                Ok((id, Cow::Borrowed("")))
             }
         }
     }

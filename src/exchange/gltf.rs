@@ -117,18 +117,24 @@ fn links(plan: &Plan, tracks: &Tracks) -> Result<Scene, Refusal> {
         nodes.push(Node { name: names[link].clone(), mesh });
         drawn.push(link);
     }
+    let links_drawn = nodes.len();
     for obstacle in &*tracks.obstacles {
-        meshes.push((geometries.len(), OBSTACLE));
-        geometries.push(triangles(&obstacle.shapes));
-        nodes.push(Node { name: obstacle.name.clone(), mesh: meshes.len() - 1 });
+        let drawn = triangles(&obstacle.shapes);
+        // A mesh of the format has corners.
+        if !drawn.is_empty() {
+            meshes.push((geometries.len(), OBSTACLE));
+            geometries.push(drawn);
+            nodes.push(Node { name: obstacle.name.clone(), mesh: meshes.len() - 1 });
+        }
     }
+    let obstacles_drawn = nodes.len() - links_drawn;
     let paths = LinkPaths::of(plan).ok_or(Refusal::NoJoints { format: "a scene of links" })?;
     let one = Vec3::repeat(1.0);
     let at = |time: &f64| {
         let poses = paths.at(*time);
         let links = drawn.iter().map(|link| Place { pose: poses[*link], scale: one });
         let fast = Place { pose: Pose::identity(), scale: one };
-        links.chain(tracks.obstacles.iter().map(|_| fast)).collect()
+        links.chain(std::iter::repeat_n(fast, obstacles_drawn)).collect()
     };
     let places = times.iter().map(at).collect();
     Ok(Scene { geometries, meshes, nodes, times, places })

@@ -262,6 +262,10 @@ fn corners(points: &[Vec3]) -> Vec<Vec3> {
 
 /// Returns a call that lacks its last bracket with more arguments, and closed.
 fn joined(call: &str, facts: Vec<String>) -> String {
+    // Parts on lines of their own end with a comma already.
+    if facts.is_empty() && call.ends_with(' ') {
+        return format!("{}\n  )", call.trim_end());
+    }
     let between = if call.ends_with([' ', '(']) || facts.is_empty() { "" } else { ", " };
     let end = if call.contains('\n') { ",\n  )" } else { ")" };
     format!("{call}{between}{}{end}", facts.join(", "))

@@ -8,6 +8,9 @@ use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, QUANTITY_MAX};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
+/// The greatest magnitude of a number that counts as finite: sums and products of a few such numbers are finite, too.
+const NUMBER_MAX: f64 = 1e30;
+
 /// A robot description.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Urdf {
@@ -140,10 +143,11 @@ impl<'d> Reader<'d, '_> {
                 return Err(ImportFault::at_node(*node, format!("the joint `{name}` is there twice")));
             }
         }
-        for node in nodes {
-            let joint = self.joint(node, &links, &joints)?;
+        for node in &nodes {
+            let joint = self.joint(*node, &links, &joints)?;
             self.urdf.joints.push(joint);
         }
+        self.check_mimics(&nodes)?;
         self.check_tree(root)
     }
 
@@ -170,7 +174,7 @@ impl<'d> Reader<'d, '_> {
         let read: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let count = text.split_whitespace().count();
         match <[f64; N]>::try_from(read) {
-            Ok(all) if count == N && all.iter().all(|x| x.is_finite()) => Ok(all),
+            Ok(all) if count == N && all.iter().all(|x| x.abs() <= NUMBER_MAX) => Ok(all),
             _ => {
                 Err(ImportFault::at_node(node, format!("`{key}=\"{text}\"`: {N} finite numbers are wanted")))
             }
@@ -364,6 +368,20 @@ impl<'d> Reader<'d, '_> {
         let range = (bounded && low < high && limits).then_some((low, high));
         let origin = self.origin(node)?;
         Ok(UrdfJoint { name, kind, parent, child, origin, axis, range, effort, speed, damping, mimic })
+    }
+
+    /// Checks that no joint follows itself, directly or over others.
+    fn check_mimics(&self, nodes: &[Node]) -> Result<(), ImportFault> {
+        let joints = &self.urdf.joints;
+        let followed = |joint: &usize| joints[*joint].mimic.map(|(followed, ..)| followed);
+        for (joint, node) in nodes.iter().enumerate() {
+            let chain = std::iter::successors(followed(&joint), followed);
+            if chain.take(joints.len()).any(|other| other == joint) {
+                let message = format!("the joint `{}` follows itself", joints[joint].name);
+                return Err(ImportFault::at_node(*node, message));
+            }
+        }
+        Ok(())
     }
 
     /// Checks that the joints make one tree of the links.

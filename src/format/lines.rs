@@ -149,10 +149,16 @@ impl<'t> Layout<'t> {
         !(anew || otherwise || before.opens() || before.text == ",")
     }
 
-    /// Adds unreadable lines, without the white space around them.
+    /// Adds unreadable lines, without the white space around them; blank lines at their beginning become one, or none at
+    /// the beginning of the file.
     fn as_it_is(&mut self, text: &str) {
         let blanks = text.len() - text.trim_end().len();
-        for line in text.trim_end().split('\n') {
+        let first = text.len() - text.trim_start().len();
+        let begin = text[..first].rfind('\n').map_or(0, |at| at + 1);
+        if begin > 0 && !self.lines.is_empty() {
+            self.lines.push(Line::blank());
+        }
+        for line in text[begin..].trim_end().split('\n') {
             self.lines.push(Line { indent: 0, text: line.trim_end_matches('\r').to_owned(), comment: None });
         }
         if text[text.len() - blanks..].matches('\n').count() > 1 {

@@ -10,6 +10,9 @@ use crate::syntax::{self, ast};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+/// The signs with which a statement may not begin right below another: it would seem to continue that.
+const CONTINUING: [char; 4] = ['+', '-', '(', '['];
+
 impl Session {
     /// Returns the entries of the session as the text of a program, formatted: imports first, then the entries without
     /// what later ones replaced. `_`, the last value, is replaced by a name.
@@ -28,8 +31,10 @@ impl Session {
         let mut text = imports.iter().map(|line| format!("{line}\n")).collect::<String>();
         let mut before = imports.join("\n");
         for (i, piece) in pieces.iter().enumerate() {
-            // Single lines are joined; longer pieces are separated by blank lines.
-            let apart = i == 0 || piece.contains('\n') || before.contains('\n');
+            // Single lines are joined; longer pieces are separated by blank lines, and those that would seem to continue the
+            // line before.
+            let long = piece.contains('\n') || before.contains('\n');
+            let apart = i == 0 || long || piece.starts_with(CONTINUING);
             text.push_str(if apart && !text.is_empty() { "\n" } else { "" });
             text.push_str(&format!("{piece}\n"));
             before.clone_from(piece);
@@ -70,9 +75,11 @@ impl<'c> Saved<'c> {
                     edits.push((range, String::new()));
                 }
                 ast::ItemKind::Statement(_) => {
-                    // A value to which a later entry refers by `_` needs a name.
+                    // A value to which a later entry refers by `_` needs a name, and one that would seem to continue the
+                    // line before.
                     let value = entry.value.filter(|_| i + 1 == count);
-                    if let Some(name) = value.filter(|name| self.is_used(*name)) {
+                    let seems = entry.text[range.clone()].starts_with(CONTINUING);
+                    if let Some(name) = value.filter(|name| seems || self.is_used(*name)) {
                         edits.push((range.start..range.start, format!("let {name} = ")));
                     }
                 }

@@ -107,6 +107,21 @@ fn piped(sandbox: &Sandbox, input: &str) -> crate::desk::cli::Ran {
     sandbox.run_with_input(&["repl"], input.as_bytes())
 }
 
+/// Values that begin with a sign which could continue the line before them are saved as a program all the same.
+#[test]
+fn what_begins_with_a_sign_is_saved_as_it_was_meant() {
+    let sandbox = Sandbox::new(&[]);
+    let fine = piped(&sandbox, "let a = 2\n[1, 2] ++ [3]\n-a\n(a + 1) * 2\n:save saved.mod\n");
+    assert_eq!(fine.code, 0, "{}", fine.err);
+    let ran = sandbox.run(&["check", "saved.mod"]);
+    let saved = std::fs::read_to_string(sandbox.path("saved.mod")).expect("it was saved");
+    assert_eq!(ran.code, 0, "{}\n{saved}", ran.err);
+    assert!(
+        saved.contains("[1, 2] ++ [3]") && saved.contains("-a") && saved.contains("(a + 1) * 2"),
+        "{saved}"
+    );
+}
+
 #[test]
 fn pipes_get_no_colours_and_the_exit_code_tells() {
     let sandbox = Sandbox::new(&[]);

@@ -4,8 +4,8 @@
 //! vscode-textmate and vscode-oniguruma (`.ci/tools.sh` installs both).
 
 use crate::editor::client::{Client, uri};
-use crate::language::forms;
-use crate::support::generated::Dice;
+use crate::fuzz::inputs::dice::Dice;
+use crate::fuzz::inputs::forms;
 use modl::syntax::RESERVED;
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};

@@ -296,6 +296,20 @@ fn descriptions_with_careless_numbers_make_sound_modules() {
     }
 }
 
+/// Shapes beside the origins of links none of which states a mass.
+#[test]
+fn descriptions_without_masses_are_modules_of_a_kilogram() {
+    let ball =
+        "<collision><origin xyz=\"0.1 0 0\"/><geometry><sphere radius=\"0.05\"/></geometry></collision>";
+    let text = format!("<robot name=\"light\"><link name=\"a\">{ball}</link></robot>");
+    let main = "use \"light.mod\".{Light}\nprint(mass(Light()))\n";
+    let sandbox = Sandbox::new(&[("light.urdf", text.as_bytes()), ("main.mod", main.as_bytes())]);
+    let ran = sandbox.run(&["import", "light.urdf", "-o", "."]);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = sandbox.run(&["run", "main.mod"]);
+    assert_eq!((ran.code, ran.out.as_str()), (0, "1kg\n"), "{}", ran.err);
+}
+
 #[test]
 fn what_is_left_out_is_told() {
     let name = "gripper_description/urdf/gripper.urdf";
@@ -345,6 +359,10 @@ fn descriptions_that_modules_can_not_be_are_refused_where_they_say_so() {
         (
             robot(&format!("<joint name=\"j\" type=\"fixed\">{ends}<mimic joint=\"k\"/></joint>")),
             "which is no joint",
+        ),
+        (
+            robot(&format!("<joint name=\"j\" type=\"revolute\">{ends}<mimic joint=\"j\"/></joint>")),
+            "the joint `j` follows itself",
         ),
     ];
     for (text, wanted) in cases {

@@ -42,6 +42,15 @@ fn commands_keep_their_signs_times_and_units() {
     ));
 }
 
+/// A speed that lasts no time is left out, since no motion lasts none.
+#[test]
+fn speeds_without_time_move_nothing() {
+    let gait = "Module_0 s0.5 i i i [0] ; Module_1 i s0.5 i i [100] ;";
+    let robot = imported(&[("row.conf", &row()), ("g.gait", gait)]);
+    assert_eq!(robot.text.matches("spin(").count(), 1, "{}", robot.text);
+    assert!(robot.text.contains("spin(module_1.left, 0.5rad/s, for: 0.1s)"), "{}", robot.text);
+}
+
 /// The pairs of moves of which one runs before the other in a behaviour that the writer wrote, by the targets of moves in whole degrees.
 fn before(text: &str) -> BTreeSet<(i64, i64)> {
     fn part(
@@ -258,6 +267,7 @@ fn gaits_that_make_no_motion_are_refused_where_they_say_so() {
         ("$ + &Module_0 &Module_2 #0 ;", "two faces are wanted", 1),
         ("$ + &Module_0 &Module_2 #0 #5 ;", "`#5` is no face", 1),
         ("$ &Module_0 &Module_2 ;", "`+` or `-` is wanted", 1),
+        ("$ + &Module_0 &Module_0 #1 #2 ;", "both ends are of one module", 1),
         ("$ - &Module_0 ;", "two modules are wanted", 1),
         (&many, "more than 10000 commands", 1),
         ("<RobotState/>", "`<Behavior>` is wanted", 1),

@@ -2,7 +2,7 @@
 
 use super::{exported, planned, text};
 use modl::exchange::{Export, PLAN_FORMATS, PlanFormat};
-use modl::plan::{Body, Plan};
+use modl::plan::{Body, Obstacle, Plan};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -76,6 +76,25 @@ fn links_without_mass_have_some() {
     );
     let moments = values(text(&files, "plan.urdf"), "ixx");
     assert!(moments.iter().all(|m| m.parse::<f64>().is_ok_and(|m| m > 0.0)));
+}
+
+/// The number of meshes of a plan's scene in glTF.
+fn meshes(plan: &Plan) -> usize {
+    let bytes = &exported(plan, "glb")[0].bytes;
+    let long = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    let scene: serde_json::Value = serde_json::from_slice(&bytes[20..20 + long]).expect("it is JSON");
+    scene["meshes"].as_array().map_or(0, Vec::len)
+}
+
+/// A file may state an obstacle without shapes: no mesh stands for it, since a mesh has corners.
+#[test]
+fn obstacles_without_shapes_have_no_mesh() {
+    let mut plan = chain();
+    let before = meshes(&plan);
+    assert!(before > 0);
+    let Body::Tracks(tracks) = &mut plan.body else { unreachable!("the robot has joints") };
+    tracks.obstacles = Arc::new([Obstacle { name: "none".to_owned(), shapes: Vec::new() }]);
+    assert_eq!(meshes(&plan), before);
 }
 
 #[test]

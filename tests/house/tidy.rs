@@ -250,7 +250,7 @@ fn small_numbers_are_found() {
 #[test]
 fn files_have_one_subject_and_say_it_first() {
     let mut faults = Vec::new();
-    for (file, text) in ["src", "tests", "benches"].into_iter().flat_map(rust) {
+    for (file, text) in ["src", "tests", "benches", "fuzz"].into_iter().flat_map(rust) {
         if !text.starts_with("//!") {
             faults.push(format!("{file}: begins without `//!`"));
         }

@@ -2,8 +2,10 @@
 //! never what it means.
 
 use crate::desk::cli::Sandbox;
+use crate::fuzz::inputs::dice::Dice;
+use crate::fuzz::inputs::forms;
+use crate::fuzz::inputs::programs::program;
 use crate::support::fences::fences;
-use crate::support::generated::{Dice, program};
 use crate::support::properties::seeds;
 use modl::format::format;
 use modl::source::FileId;
@@ -151,8 +153,7 @@ fn programs_with_comments_anywhere_keep_their_meaning() {
     for seed in seeds(GENERATED) {
         let mut dice = Dice::new(seed);
         // Programs that mean something, and those that have every form of the grammar.
-        let plain =
-            if seed % 2 == 0 { program(&mut dice) } else { crate::language::forms::program(&mut dice) };
+        let plain = if seed % 2 == 0 { program(&mut dice) } else { forms::program(&mut dice) };
         let text = commented(&plain, &mut dice, 1 + (seed % 40) as usize);
         let once = formatted(&text);
         assert_eq!(once, formatted(&once), "the second time is another:\n{text}");
@@ -169,6 +170,13 @@ fn what_cannot_be_read_stays_as_it_is() {
     assert!(found.text.starts_with("let a = 1\n"), "{}", found.text);
     assert!(found.text.contains("let b = (1 +\n  2 ]]\n"), "{}", found.text);
     assert!(!found.diagnostics.is_empty());
+}
+
+/// Blank lines at the beginning of a file that can't be read are left out at the first time.
+#[test]
+fn blank_lines_before_what_cannot_be_read_are_left_out() {
+    let once = formatted("    \n\n   ^ no\n");
+    assert_eq!((once.as_str(), formatted(&once).as_str()), ("   ^ no\n", "   ^ no\n"));
 }
 
 /// By hand: what each rule of the style does.
@@ -396,7 +404,7 @@ fn wide_programs_keep_their_meaning_and_fit_where_they_can() {
     let (mut broken, mut wide) = (0, 0);
     for seed in seeds(GENERATED / 5) {
         let mut dice = Dice::new(seed);
-        let forms = crate::language::forms::program(&mut dice);
+        let forms = forms::program(&mut dice);
         // Long names make wide lines.
         let text = unbroken(&forms)
             .replace("Int", "IntIntIntIntIntIntIntIntIntInt")

@@ -3,86 +3,29 @@
 //!
 //! A part of them here; a thousand with `MODL_WHOLE=1`, from another seed with `MODL_SEED`.
 
-use crate::support::generated::Dice;
+use crate::fuzz::inputs::dice::Dice;
+use crate::fuzz::inputs::json::Altered;
+use crate::fuzz::inputs::plans::{FOLDS, HELD, MORPHS, ROLLS, SQUEEZES, UNWINDS, WALKS};
 use crate::support::properties::whole;
 use crate::support::recount;
 use modl::behavior::unfaithful;
 use modl::plan::facts::{self, declarations};
 use modl::plan::{self, Body, CauseId, Plan, Provenance, verify::verify};
-use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 /// The longest that the judge may compute for one file, s.
 const SECONDS_MAX: f64 = 10.0;
 
-/// A robot whose joints hold weight, one of which follows others, and one of which slides.
-const HELD: &str = r#"
-connector Face { mates Face, turns 4, holds 200N, holds 20N*m, capture 2mm 5deg }
-module Arm {
-  mass 500g
-  link body = box(40mm, 40mm, 40mm)
-  link hand = box(38mm, 30mm, 30mm) at [40mm, 0mm, 0mm]
-  link pin = box(10mm, 10mm, 10mm) at [0mm, 0mm, 30mm]
-  link flag = box(4mm, 4mm, 20mm) at [0mm, 30mm, 0mm]
-  joint bend: body -> hand = revolute(axis: Y, range: -45deg..45deg, max_speed: 2rad/s, max_accel: 40rad/s^2, max_torque: 3N*m)
-  joint slide: body -> pin = prismatic(axis: Z, range: -4mm..6mm, max_speed: 20mm/s, max_force: 20N)
-  joint turn: body -> flag = revolute(axis: Y)
-  joint turn = 2 * bend
-  touching body hand
-  touching body pin
-  touching body flag
-  port back: Face on body at [-20mm, 0mm, 0mm] facing -X up +Z
-  port front: Face on hand at [19mm, 0mm, 0mm] facing +X up +Z
-}
-config Three {
-  part m[3]: Arm
-  for i in 0..2 { connect m[i].front -- m[i + 1].back }
-  base m[0]
-  behavior bow = Sc(Pc(move(m[0].bend, to: 20deg), move(m[1].slide, to: 5mm)), move(m[2].bend, to: -30deg))
-}
-emit(plan(Three().bow(), world: world(ground: held)), "p.plan.json")
-"#;
+/// Half of the alterations are in what moves, a third in the library, the rest anywhere.
+const PARTS: &[&str] = &["/body", "/body", "/body", "/library", "/library", ""];
 
-const ROLLS: &str = "use std.smores.Driver1\nemit(plan(Driver1().drive(t: 1s)), \"p.plan.json\")\n";
-
-const UNWINDS: &str = "use std.rofi.Chair\nemit(tosnake(Chair()), \"p.plan.json\")\n";
-
-const FOLDS: &str = "use std.shapes.tetrahedron\nuse std.mori.Mori
-emit(fold(tetrahedron(edge: 80mm), module: Mori), \"p.plan.json\")\n";
-
-const SQUEEZES: &str = r#"
-use std.crystal.ExpandingCube
-lattice Row of ExpandingCube = cells("""
-  ######
-""")
-lattice Block of ExpandingCube = cells("""
-  ###
-  ###
-""")
-emit(squeeze(Row, Block), "p.plan.json")
-"#;
-
-const MORPHS: &str = r#"
-use std.shapes.cube
-use std.truss.PneumaticReel
-truss Octahedron of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
-emit(morph(Octahedron, cube(edge: 1.2m), tolerance: 200mm, budget: 12), "p.plan.json")
-"#;
-
-const WALKS: &str = r#"
-use std.truss.PneumaticReel
-truss Octahedron of PneumaticReel = octet(edge: 2m, divisions: 2, interior: false)
-emit(locomote(Octahedron, path: [[1m, 0m, 0m]], budget: 10, obstacles: [placed(box(1m, 1m, 1m), at: [0m, 6m, 500mm])]), "p.plan.json")
-"#;
-
-/// A plan that is right, with the places of its file by kind: a place's kind has stars for numbers.
+/// A plan that is right, with its file to be altered.
 struct Family {
     name: &'static str,
-    file: Value,
+    file: Altered,
     plan: Plan,
-    kinds: Vec<(String, Vec<String>)>,
 }
 
 fn families(whole: bool) -> Vec<Family> {
@@ -108,114 +51,10 @@ fn families(whole: bool) -> Vec<Family> {
         assert!(verify(&plan).ok() && unfaithful(&plan).is_none(), "{name} is right");
         assert_eq!(recount::wrongs(&plan), Vec::<String>::new(), "{name}: the second look agrees");
         let file: Value = serde_json::from_str(text).expect("plans are JSON");
-        let mut places = BTreeMap::new();
-        collect("", "", &file, &mut places);
-        Family { name, file, plan, kinds: places.into_iter().collect() }
+        Family { name, file: Altered::new(file), plan }
     };
     // The judge takes a second for a robot of so many modules.
     programs.into_iter().filter(|(name, _)| whole || *name != "unwinds").map(family).collect()
-}
-
-fn collect(place: &str, kind: &str, value: &Value, places: &mut BTreeMap<String, Vec<String>>) {
-    if !place.is_empty() {
-        places.entry(kind.to_owned()).or_default().push(place.to_owned());
-    }
-    match value {
-        Value::Object(map) => {
-            map.iter().for_each(|(key, value)| {
-                collect(&format!("{place}/{key}"), &format!("{kind}/{key}"), value, places)
-            });
-        }
-        Value::Array(list) => {
-            list.iter()
-                .enumerate()
-                .for_each(|(i, value)| collect(&format!("{place}/{i}"), &format!("{kind}/*"), value, places));
-        }
-        _ => {}
-    }
-}
-
-/// One alteration, in words; the file is altered in place.
-fn alter(family: &Family, file: &mut Value, dice: &mut Dice) -> String {
-    // Half of them in what moves, a third in the library, the rest anywhere.
-    let part = ["/body", "/body", "/body", "/library", "/library", ""][dice.below(6)];
-    let kinds: Vec<_> = family.kinds.iter().filter(|(kind, _)| kind.starts_with(part)).collect();
-    let (_, places) = kinds[dice.below(kinds.len())];
-    let place = &places[dice.below(places.len())];
-    let other = &places[dice.below(places.len())];
-    let twin = family.file.pointer(other).cloned().unwrap_or_default();
-    let Some(value) = file.pointer_mut(place) else { return format!("{place} is gone") };
-    let before = value.clone();
-    match value {
-        Value::Number(number) => *value = altered_number(number, twin, dice),
-        Value::Bool(flag) => *value = json!(!*flag),
-        Value::String(_) => *value = if dice.below(3) == 0 { json!("") } else { twin },
-        Value::Null => *value = [json!(0.0), json!(1), json!([]), json!([0.0, 1.0])][dice.below(4)].clone(),
-        Value::Array(list) => alter_list(list, twin, dice),
-        Value::Object(map) => {
-            let keys: Vec<String> = map.keys().cloned().collect();
-            match (dice.below(3), keys.is_empty()) {
-                (0, false) => drop(map.remove(&keys[dice.below(keys.len())])),
-                (1, false) => drop(map.insert(keys[dice.below(keys.len())].clone(), Value::Null)),
-                _ => *value = twin,
-            }
-        }
-    }
-    let short = |value: &Value| value.to_string().chars().take(60).collect::<String>();
-    format!("{place}: {} -> {}", short(&before), file.pointer(place).map_or_else(String::new, short))
-}
-
-fn altered_number(number: &serde_json::Number, twin: Value, dice: &mut Dice) -> Value {
-    let x = number.as_f64().unwrap_or(0.0);
-    if number.is_i64() || number.is_u64() {
-        let n = number.as_i64().unwrap_or(i64::MAX);
-        let near = [
-            n.wrapping_add(1),
-            n.wrapping_sub(1),
-            -n.max(-i64::MAX),
-            n.wrapping_mul(2),
-            0,
-            i64::MAX,
-            i64::MIN,
-            1 << 40,
-        ];
-        return match dice.below(10) {
-            k @ 0..8 => json!(near[k]),
-            8 => twin,
-            _ => json!(x + 0.5),
-        };
-    }
-    match dice.below(16) {
-        0 => json!(-x),
-        1 => json!(2.0 * x),
-        2 => json!(x / 2.0),
-        3 => json!(1.01 * x),
-        4 => json!(0.99 * x),
-        5 => json!(x * (1.0 + 1e-12)),
-        6 => json!(0.0),
-        7 => json!(1e308),
-        8 => json!(-1e308),
-        9 => json!(1e20),
-        10 => json!(1e-300),
-        11 => json!(x + 1.0),
-        12 => json!(100.0 * x),
-        13 => json!(1e3),
-        14 => twin,
-        _ => json!(x + 1e-3),
-    }
-}
-
-fn alter_list(list: &mut Vec<Value>, twin: Value, dice: &mut Dice) {
-    let (i, j) = (dice.below(list.len().max(1)), dice.below(list.len().max(1)));
-    match dice.below(6) {
-        _ if list.is_empty() => *list = twin.as_array().cloned().unwrap_or_default(),
-        0 => drop(list.remove(i)),
-        1 => list.insert(i, list[j].clone()),
-        2 => list.swap(i, j),
-        3 => list.reverse(),
-        4 => list.clear(),
-        _ => *list = twin.as_array().cloned().unwrap_or_default(),
-    }
 }
 
 /// A plan without what no judge rests on: who made it, who is to blame, names of stages, what it says of itself.
@@ -294,9 +133,9 @@ fn altered_files_are_accepted_only_where_they_are_right() {
     for k in 0..count {
         let family = &families[k % families.len()];
         let mut dice = Dice::new(seed.wrapping_mul(1_000_003).wrapping_add(k as u64));
-        let mut file = family.file.clone();
+        let mut file = family.file.file.clone();
         let mut done = vec![family.name.to_owned()];
-        (0..1 + dice.below(2)).for_each(|_| done.push(alter(family, &mut file, &mut dice)));
+        (0..1 + dice.below(2)).for_each(|_| done.push(family.file.alter(&mut file, &mut dice, PARTS)));
         let done = done.join("\n    ");
         let begun = computed(test_began);
         let outcome = catch_unwind(AssertUnwindSafe(|| judged(&file.to_string())));

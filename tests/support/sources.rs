@@ -19,7 +19,8 @@ pub fn files() -> BTreeMap<String, Vec<u8>> {
             let path: PathBuf = entry.expect("the repository can be read").path();
             let name =
                 path.strip_prefix(root()).expect("below the root").to_string_lossy().replace('\\', "/");
-            if [".git", "target", "out", "corpus", "artifacts"].contains(&name.as_str()) {
+            const MADE: &[&str] = &[".git", "target", "out", "fuzz/target", "fuzz/found", "fuzz/artifacts"];
+            if MADE.contains(&name.as_str()) {
                 continue;
             }
             if path.is_dir() {

@@ -259,6 +259,9 @@ fn bond(words: &[&Word], names: &BTreeMap<&str, usize>) -> Result<(usize, What),
     let [a, b] = modules[..] else {
         return Err(fault(first.place, "two modules are wanted: `$ - &A &B ;`"));
     };
+    if a == b {
+        return Err(fault(first.place, "both ends are of one module"));
+    }
     let what = match (sign, &faces[..]) {
         (Some(true), [of_a, of_b]) => What::Dock([(a, *of_a), (b, *of_b)]),
         (Some(true), _) => return Err(fault(first.place, "two faces are wanted: `$ + &A &B #0 #3 ;`")),
@@ -315,6 +318,8 @@ fn actions(commands: &[Command], robot: &mut Robot) -> Result<Vec<Vec<Action>>, 
                             own.push(Action::Move { module: command.module, joint, to, time });
                             state[joint] = to;
                         }
+                        // A speed that lasts no time moves nothing.
+                        Some((false, _)) if command.time == Some(0.0) => {}
                         Some((false, speed)) => {
                             let time = command.time.unwrap_or(SPEED_TIME);
                             own.push(Action::Spin { module: command.module, joint, speed, time });
