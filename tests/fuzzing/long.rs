@@ -1,18 +1,17 @@
 //! Fresh inputs for hours: `fuzz/run`. Without its variables these tests do nothing.
 
 use super::tried::{self, Tried};
-use super::watch::{AtHand, Memory, Patience, Watch};
+use super::watch::{AtHand, Patience, Watch};
 use super::{holds, kept};
 use crate::fuzz::targets::{TARGETS, Target};
+use modl::interrupt::memory;
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// The seconds that one target is tried before the next.
 const TURN: f64 = 20.0;
-/// The inputs after which memory is looked at.
-const BATCH: u64 = 100;
 /// The memory that an input may take, bytes.
-const MEMORY_MAX: u64 = 1 << 30;
+const MEMORY_MAX: usize = 1 << 30;
 
 /// The inputs of one turn that are kept: more of them tell the same.
 const KEPT_MAX: u64 = 5;
@@ -45,27 +44,16 @@ fn turn(target: &'static Target, tried: &mut Tried, at_hand: &mut AtHand, second
     };
     let (first, mut next) = (tried.next, tried.next);
     while began.elapsed().as_secs_f64() < seconds {
-        let before = Memory::begin();
-        let batch = next..next + BATCH;
-        while next < batch.end && began.elapsed().as_secs_f64() < seconds {
-            if !try_one(next, at_hand) {
-                broken(next, "breaks a property");
-            }
-            next += 1;
+        memory::reset_peak();
+        let before = memory::in_use();
+        if !try_one(next, at_hand) {
+            broken(next, "breaks a property");
         }
-        let grown = |before: Option<u64>| {
-            Memory::most().zip(before).map_or(0, |(most, before)| most.saturating_sub(before))
-        };
-        if grown(before) > MEMORY_MAX {
-            for seed in batch.start..next {
-                let before = Memory::begin();
-                try_one(seed, at_hand);
-                let grown = grown(before);
-                if grown > MEMORY_MAX {
-                    broken(seed, &format!("takes {grown} bytes"));
-                }
-            }
+        let grown = memory::peak().saturating_sub(before);
+        if grown > MEMORY_MAX {
+            broken(next, &format!("takes {grown} bytes"));
         }
+        next += 1;
     }
     tried.next = next;
     tried.inputs += next - first;

@@ -73,28 +73,6 @@ pub fn processor_seconds() -> Option<f64> {
     ticks.map(|ticks| ticks / 100.0)
 }
 
-/// The memory of this process, bytes, by what Linux tells of it.
-pub struct Memory;
-
-impl Memory {
-    /// Begins to measure anew, and returns what is in use now; `None` where the system does not tell.
-    pub fn begin() -> Option<u64> {
-        std::fs::write("/proc/self/clear_refs", "5").ok()?;
-        status("VmRSS:")
-    }
-
-    /// Returns the most that was in use since the last beginning.
-    pub fn most() -> Option<u64> {
-        status("VmHWM:")
-    }
-}
-
-fn status(key: &str) -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix(key))?;
-    Some(line.split_whitespace().next()?.parse::<u64>().ok()? << 10)
-}
-
 /// The file that names the input at hand, for whoever finds that the program has ended: no panic tells of a stack that is full.
 pub struct AtHand(std::fs::File);
 
