@@ -1,9 +1,11 @@
 //! The judge: plans that must fail, each with a twin that must pass.
 
+mod adversary;
 pub mod collision;
 mod docking;
 pub mod ground;
 pub mod lattice_judge;
+mod missed;
 mod momentum;
 pub mod oracle;
 pub mod parting;

@@ -93,6 +93,55 @@ fn joints_keep_to_their_speed() {
     assert!((margin - (1.0 - 2.0 / 2.4086)).abs() < 1e-12);
 }
 
+/// The fastest of a joint's pieces counts, wherever it stands.
+#[test]
+fn a_joint_is_as_fast_as_its_fastest_piece() {
+    let spins = |rates: [f64; 3]| {
+        let turn = |m: Motion, (i, rate): (usize, f64)| {
+            m.spin("m0", LEFT, rate, i as f64, i as f64 + 1.0).spin(
+                "m0",
+                RIGHT,
+                rate,
+                i as f64,
+                i as f64 + 1.0,
+            )
+        };
+        judged(rates.into_iter().enumerate().fold(Motion::new(robots::chain(1)), turn))
+    };
+    for rates in [[2.0, 1.0, 1.5], [1.0, 2.0, 1.5], [1.0, 1.5, 2.0]] {
+        let verdict = spins(rates);
+        passes(&verdict);
+        let margin = verdict.speed_margin.expect("wheels have a greatest speed").value;
+        assert!((margin - (1.0 - 2.0 / 2.4086)).abs() < 1e-12, "{rates:?}: {margin}");
+        fails(&spins(rates.map(|rate| 1.5 * rate)), CheckKind::Speed);
+    }
+}
+
+/// Joints that stop at once where no acceleration is limited are counted in words.
+#[test]
+fn joints_that_stop_at_once_are_told_and_counted() {
+    let words = |wheels: &[usize]| {
+        let turn = |m: Motion, wheel: &usize| m.spin("m0", *wheel, 2.0, 0.0, 1.0);
+        let verdict = judged(wheels.iter().fold(Motion::new(robots::chain(1)), turn));
+        match status(&verdict, CheckKind::Rest) {
+            Status::NotChecked(words) => words.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let rest = "and no greatest acceleration is stated";
+    assert_eq!(words(&[LEFT]), format!("m0.left stops at once from 2rad/s at the end, {rest}"));
+    assert!(words(&[LEFT, RIGHT]).ends_with(&format!("from 2rad/s at the end (and 1 more), {rest}")));
+}
+
+/// Without ground nothing is touched, and the history says so.
+#[test]
+fn the_history_of_what_floats_has_no_contacts() {
+    let plan = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(World::FREE);
+    let moments = modl::plan::verify::articulated::history(&plan, 1.0);
+    assert!(moments.len() > 10);
+    assert!(moments.iter().all(|m| m.contacts.is_empty() && m.support.is_empty() && m.margin.is_none()));
+}
+
 fn dig(arm: usize) -> Plan {
     let m = Motion::new(robots::backhoe(arm)).set("a0", TILT, 90.0);
     m.linear("a1", TILT, -90.0, 0.0, 2.0).plan(STATICS)
