@@ -2,11 +2,12 @@
 //!
 //! All drawn mutants are compiled into one copy of the project, and an environment variable chooses one, because building
 //! the project once for each of a thousand would take weeks. `modl-mutants [--seed N] [--count N] [--first N]
-//! [--workers N] [--longest SECONDS] [--survivors] [--list]` draws, builds and runs, and writes `target/mutants/report.md`:
+//! [--workers N] [--longest SECONDS] [--survivors] [--built] [--list]` draws, builds and runs, and writes `target/mutants/report.md`:
 //!
 //! - `--count` mutants are drawn by `--seed` and compiled; of them the `--first` so many are tried (default: all);
 //! - tests that take longer than `--longest` are left out; `--workers` tests run at a time;
 //! - `--survivors` tries again those that survived the run before, for tests that were written since;
+//! - `--built` takes the program of the run before as it is, to go on with a run that ended early;
 //! - `--list` prints the first `--count` of the draw, compiled or not, and does no more.
 
 mod build;
@@ -54,6 +55,7 @@ struct Options {
     longest: f64,
     survivors: bool,
     list: bool,
+    built: bool,
 }
 
 impl Options {
@@ -66,11 +68,18 @@ impl Options {
             longest: 20.0,
             survivors: false,
             list: false,
+            built: false,
         };
         let mut rest = arguments.iter();
         while let Some(name) = rest.next() {
-            if name == "--survivors" || name == "--list" {
-                *if name == "--list" { &mut options.list } else { &mut options.survivors } = true;
+            let flag = match name.as_str() {
+                "--survivors" => Some(&mut options.survivors),
+                "--list" => Some(&mut options.list),
+                "--built" => Some(&mut options.built),
+                _ => None,
+            };
+            if let Some(flag) = flag {
+                *flag = true;
                 continue;
             }
             let value = rest.next().ok_or_else(|| format!("{name} wants a value"))?;
@@ -133,6 +142,27 @@ fn save(path: &Path, value: &impl serde::Serialize) -> Result<(), String> {
     fs::write(path, text).map_err(|why| format!("{}: {why}", path.display()))
 }
 
+/// Returns the tests with what they reach, and a line for each that is left out; those of the run before, if the program is
+/// still the same.
+fn reach(
+    folders: &Folders,
+    program: &Path,
+    work: &Path,
+    options: &Options,
+) -> Result<(Vec<trial::Test>, Vec<String>), String> {
+    let built = fs::metadata(program).and_then(|data| data.modified()).map_err(|why| why.to_string())?;
+    let stamp = format!("{} {built:?} {}", program.display(), options.longest);
+    let (before, tests, left_out): (String, _, _) = read(&work.join("tests.json"));
+    if before == stamp {
+        return Ok((tests, left_out));
+    }
+    let names = trial::list(folders, program, TESTS)?;
+    let limits = (options.workers, options.longest);
+    let (tests, left_out) = trial::reach(folders, program, &names, &work.join("reached"), limits)?;
+    save(&work.join("tests.json"), &(stamp, &tests, &left_out))?;
+    Ok((tests, left_out))
+}
+
 fn run(options: &Options) -> Result<(), String> {
     let root =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().map_err(|why| why.to_string())?;
@@ -153,26 +183,34 @@ fn run(options: &Options) -> Result<(), String> {
             .for_each(|mutant| println!("{}:{} {}", mutant.file, mutant.line, mutant.key()));
         return Ok(());
     }
-    let mut instrumented = files.clone();
-    instrumented.insert("src/lib.rs".to_owned());
-    build::copy(&folders, &instrumented)?;
     let mut refused: BTreeSet<String> = read(&work.join("refused.json"));
-    let drawn = build::draw(&folders, &files, &order, options.count, &mut refused);
-    save(&work.join("refused.json"), &refused)?;
-    let drawn = drawn?;
-    let program = build::tests(&folders)?;
+    let (drawn, program) = if options.built {
+        let known = order.iter().filter(|mutant| !refused.contains(&mutant.key()));
+        (known.take(options.count).cloned().collect(), read::<PathBuf>(&work.join("program.json")))
+    } else {
+        let mut instrumented = files.clone();
+        instrumented.insert("src/lib.rs".to_owned());
+        build::copy(&folders, &instrumented)?;
+        let drawn = build::draw(&folders, &files, &order, options.count, &mut refused);
+        save(&work.join("refused.json"), &refused)?;
+        let drawn = drawn?;
+        let program = build::tests(&folders)?;
+        save(&work.join("program.json"), &program)?;
+        (drawn, program)
+    };
 
     let begin = Instant::now();
-    let names = trial::list(&folders, &program, TESTS)?;
-    let limits = (options.workers, options.longest);
-    let (tests, left_out) = trial::reach(&folders, &program, &names, &work.join("reached"), limits)?;
+    let (tests, left_out) = reach(&folders, &program, &work, options)?;
     let reaching = begin.elapsed().as_secs_f64();
     eprintln!("{} tests in {reaching:.0} s; {} are left out", tests.len(), left_out.len());
 
     let results = work.join(format!("results.{}.json", options.seed));
-    let before: BTreeMap<String, Fate> = if options.survivors { read(&results) } else { BTreeMap::new() };
+    let before: BTreeMap<String, Fate> =
+        if options.survivors || options.built { read(&results) } else { BTreeMap::new() };
     let first = options.first.min(drawn.len());
-    let wanted = |id: &usize| !before.get(&drawn[id - 1].key()).is_some_and(Fate::noticed);
+    // The same program ends for no mutant otherwise than before.
+    let again = options.survivors || !options.built;
+    let wanted = |id: &usize| before.get(&drawn[id - 1].key()).is_none_or(|fate| again && !fate.noticed());
     let chosen: Vec<usize> = (1..=first).filter(wanted).collect();
     let save_all = |fates: &BTreeMap<String, Fate>| {
         let all: BTreeMap<_, _> = before.iter().chain(fates).collect();

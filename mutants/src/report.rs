@@ -16,6 +16,8 @@ pub struct Reason {
     pub original: Option<String>,
     /// The text in its place, with single spaces.
     pub mutated: Option<String>,
+    /// The number among those of the same texts in the function, from 0.
+    pub ordinal: Option<usize>,
     pub reason: String,
 }
 
@@ -26,6 +28,7 @@ impl Reason {
             && self.function == mutant.function
             && same(&self.original, &mutant.original)
             && same(&self.mutated, &mutant.mutated)
+            && self.ordinal.is_none_or(|ordinal| ordinal == mutant.ordinal)
     }
 }
 

@@ -19,7 +19,7 @@ const MEMORY: u64 = 8_000_000;
 const PATIENCE: (f64, f64) = (10.0, 10.0);
 
 /// A test, with its duration (s) and the numbers of the mutants that it reaches.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Test {
     pub name: String,
     pub seconds: f64,

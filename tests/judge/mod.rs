@@ -10,6 +10,7 @@ mod momentum;
 pub mod oracle;
 pub mod parting;
 mod random_scenes;
+mod rolling;
 mod slip_spread;
 pub mod slopes;
 mod snapping;
