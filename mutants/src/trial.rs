@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::os::unix::process::CommandExt as _;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::Mutex;
+use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, mpsc};
 use std::time::{Duration, Instant};
 
 /// The most memory that a test may have under a mutant, KiB: one that asks for more is noticed.
@@ -73,24 +73,20 @@ fn run(
         .process_group(0)
         .spawn()
         .map_err(|why| format!("{test}: {why}"))?;
-    let (begin, mut pause) = (Instant::now(), 1);
-    loop {
-        if let Some(status) = child.try_wait().map_err(|why| format!("{test}: {why}"))? {
-            return Ok(if status.success() { End::Passed } else { End::Failed });
-        }
-        if begin.elapsed().as_secs_f64() > limit {
-            end_group(&mut child);
-            return Ok(End::TimedOut);
-        }
-        std::thread::sleep(Duration::from_millis(pause));
-        pause = (pause * 2).min(50);
+    let (group, (sender, receiver)) = (child.id(), mpsc::channel());
+    let waiter = std::thread::spawn(move || sender.send(child.wait()));
+    let ended = receiver.recv_timeout(Duration::from_secs_f64(limit));
+    if ended.is_err() {
+        // With all programs that it started.
+        let _ = Command::new("kill").args(["-KILL", "--", &format!("-{group}")]).status();
     }
-}
-
-/// Ends a test with all programs that it started.
-fn end_group(child: &mut Child) {
-    let _ = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
-    let _ = child.wait();
+    let _ = waiter.join();
+    match ended {
+        Ok(Ok(status)) if status.success() => Ok(End::Passed),
+        Ok(Ok(_)) => Ok(End::Failed),
+        Ok(Err(why)) => Err(format!("{test}: {why}")),
+        Err(_) => Ok(End::TimedOut),
+    }
 }
 
 /// Works through `count` items with several threads, in order, each item once.

@@ -30,7 +30,7 @@ fn ground_features_are_as_low_as_the_solid() {
     for round in 0..200 {
         for shape in shapes(&mut n) {
             let placed = Placed { pose: shifted(n.vector() * 0.2) * n.rotation(), shape };
-            let (all, up) = (features(&[placed.clone()]), n.direction());
+            let (all, up) = (features(std::slice::from_ref(&placed)), n.direction());
             let solid = Solid::new(&[placed]).expect("sound");
             let lowest = all.iter().map(|feature| feature.lowest(&up)).fold(f64::INFINITY, f64::min);
             let of_part = solid.parts.iter().map(|part| part.support(&-up).dot(&up));
