@@ -87,7 +87,8 @@ fn collisions_that_are_not_decided_within_the_limit_refuse_the_plan() {
     assert_eq!(curled(100_000).failures.iter().find(undecided), None);
     let verdict = curled(100);
     let failure = verdict.failures.iter().find(undecided).expect("it takes hundreds of intervals");
-    assert_eq!((failure.kind, failure.limit), (CheckKind::Form, 100.0));
+    assert_eq!((failure.kind, failure.value, failure.limit), (CheckKind::Form, 100.0, 100.0));
+    assert!(failure.message.contains("within 100 stretches of time"), "{}", failure.message);
 }
 
 /// An arm that its motor can't hold lies against its stop, a degree lower. Its servo's spring, of 100 N·m/rad, then bears what a
