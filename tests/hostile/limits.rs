@@ -90,7 +90,7 @@ fn digits(n: u64) -> (MapFiles, Mode) {
 }
 
 fn calls(n: u64) -> (MapFiles, Mode) {
-    text(&format!("fn f(n: Int) -> Int = if n < 2 {{ 0 }} else {{ f(n - 1) }}\nlet a = f({n})\n"))
+    text(&format!("fn f(n: Int) -> Int = if n < 2 {{ 0 }} else {{ f(n - 1) }}\nprint(f({n}))\n"))
 }
 
 fn carried(n: u64) -> (MapFiles, Mode) {
@@ -165,7 +165,7 @@ fn limits_of_a_run_hold_where_they_are_set() {
     };
     let counted = "print(sum([i for i in 0..100]))\n";
     let spun = "use std.smores.Smores\nconfig C { part m: Smores part n: Smores connect m.top -- n.bottom }\nlet c = C()\n\
-                emit(move(c.m.tilt, to: 40deg), \"a.plan.json\", world: world(ground: off, gravity: off))\n";
+                emit(plan(move(c.m.tilt, to: 40deg), world: world(ground: off, gravity: off)), \"a.plan.json\")\n";
     // The least limit at which a program runs: at it, and at any above, it does; below it, at none.
     let least = |limited: &dyn Fn(u64) -> Limits, program: &str, code: &str| {
         let (mut none, mut all) = (0, 1 << 20);
@@ -227,6 +227,11 @@ fn the_table_of_limits_is_that_of_the_code() {
             continue;
         }
         assert!(row.flag == "–" || row.flag.starts_with("--max-"), "{}", row.flag);
+        if row.value.is_none() {
+            // It depends on the machine, and an option states it.
+            assert_eq!(row.flag, "--max-memory");
+            continue;
+        }
         // A constant that is private stands in a file of its path under its name, with this value.
         let (folder, name) = row.constant.rsplit_once("::").expect("a path has a name");
         let folder = format!("src/{}", folder.replace("::", "/"));

@@ -113,6 +113,50 @@ fn sizes_and_gaps_are_judged() {
     assert!(squeezed_to(Ratio(3, 2), Ratio(3, 2)).contains(&CheckKind::JointRange));
 }
 
+/// Neighbours of a row that end up in each other are named.
+#[test]
+fn cells_in_each_other_are_named() {
+    let end = row(3, Ratio(9, 20), HALF);
+    let plan = plan_of(stages(&row(3, Ratio::ONE, Ratio::ONE), &[(Ratio(8, 1), end)], PAPER));
+    let verdict = judged_plan(&plan);
+    let meeting = verdict.failures.iter().find(|f| f.kind == CheckKind::Collision).expect("they overlap");
+    assert_eq!(meeting.at, ["cell 0", "cell 1"]);
+}
+
+/// Margins are parts of limits: with cells of half a metre and other units of time they stay, if their limits do.
+#[test]
+fn margins_do_not_depend_on_units() {
+    let mut plan = plan_of(to_halves(8, Ratio(8, 1)));
+    let of = |plan: &Plan| {
+        let verdict = judged_plan(plan);
+        assert_eq!(kinds(&verdict), []);
+        (verdict.speed_margin.expect("speeds are limited").value, verdict.torque_margin.map(|m| m.value))
+    };
+    let unit = of(&plan);
+    let Body::Stages(stages) = &mut plan.body else { unreachable!("a lattice") };
+    stages.time_unit = 0.25;
+    // Half a metre in a quarter of a second, which is gained in as long.
+    let cell = Cell { name: "Other".into(), size: 0.5, shrinks_to: 0.25, mass: 3.0, force: 24.0, speed: 2.0 };
+    plan.library = Arc::new(Library { cells: vec![cell], ..Library::default() });
+    let other = of(&plan);
+    assert!((unit.0 - other.0).abs() < 1e-12, "{unit:?} {other:?}");
+    assert!(0.0 < unit.0 && unit.0 < 1.0);
+}
+
+/// No motion between two shapes is faster than the bound, which knows nothing of where a shape stands: of two cells that come
+/// apart by two more one moves by one, from rest to rest in 2.
+#[test]
+fn the_lower_bound_is_that_of_shapes_wherever_they_stand() {
+    use modl::plan::lattice::lower_bound::lower_bound;
+    for shift in [0, 2, -14] {
+        let along_x =
+            |places: [i64; 2]| move |axis: usize| if axis == 0 { places.to_vec() } else { vec![0, 0] };
+        let found = lower_bound(along_x([0, 2]), along_x([shift, 6 + shift]), 1, None);
+        assert!((found - 2.0).abs() < 1e-12, "{found}");
+        assert_eq!(lower_bound(along_x([0, 2]), along_x([shift, 2 + shift]), 1, None), 0.0);
+    }
+}
+
 #[test]
 fn the_shifts_that_lemma_4_prints_make_cells_meet() {
     // One row of eight, squeezed; then each pair to the middle of its box, or as printed: the pairs of

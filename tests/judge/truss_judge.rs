@@ -65,6 +65,20 @@ fn limited(limits: TrussLimits, keyframes: Vec<Keyframe>) -> Verdict {
     verify::verify(&plan)
 }
 
+/// A plan of one keyframe is that of a truss that only is there: it is judged as it is, from the start.
+#[test]
+fn a_truss_that_only_stands_is_judged_where_it_stands() {
+    let first = |verdict: &Verdict| verdict.failures.first().map(|failure| (failure.kind, failure.time));
+    assert_eq!(first(&tetra(STANDING, vec![straight(0.0, &[A, B, C, TOP])])), None);
+    // A strut of 3.2 m, where 3 m is the longest; and a top that is beyond all feet.
+    let far = [0.5, HIGH / 3.0, 3.2];
+    assert_eq!(first(&tetra(FREE, vec![straight(0.0, &[A, B, C, far])])), Some((CheckKind::JointRange, 0.0)));
+    let aside = || vec![straight(0.0, &[A, B, C, [2.5, HIGH / 3.0, 0.8]])];
+    assert_eq!(first(&tetra(STANDING, aside())), Some((CheckKind::Stability, 0.0)));
+    // Without weight it doesn't topple.
+    assert_eq!(first(&tetra(World { gravity: 0.0, ..STANDING }, aside())), None);
+}
+
 #[test]
 fn angles_sums_and_rigidity_are_judged_where_a_plan_keeps_them() {
     let sunk = [0.5, HIGH / 3.0, 0.3];

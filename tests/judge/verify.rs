@@ -93,6 +93,64 @@ fn joints_keep_to_their_speed() {
     assert!((margin - (1.0 - 2.0 / 2.4086)).abs() < 1e-12);
 }
 
+/// The fastest of a joint's pieces counts, wherever it stands.
+#[test]
+fn a_joint_is_as_fast_as_its_fastest_piece() {
+    let spins = |rates: [f64; 3]| {
+        let turn = |m: Motion, (i, rate): (usize, f64)| {
+            m.spin("m0", LEFT, rate, i as f64, i as f64 + 1.0).spin(
+                "m0",
+                RIGHT,
+                rate,
+                i as f64,
+                i as f64 + 1.0,
+            )
+        };
+        judged(rates.into_iter().enumerate().fold(Motion::new(robots::chain(1)), turn))
+    };
+    for rates in [[2.0, 1.0, 1.5], [1.0, 2.0, 1.5], [1.0, 1.5, 2.0]] {
+        let verdict = spins(rates);
+        passes(&verdict);
+        let margin = verdict.speed_margin.expect("wheels have a greatest speed").value;
+        assert!((margin - (1.0 - 2.0 / 2.4086)).abs() < 1e-12, "{rates:?}: {margin}");
+        fails(&spins(rates.map(|rate| 1.5 * rate)), CheckKind::Speed);
+    }
+}
+
+/// Joints that stop at once where no acceleration is limited are counted in words.
+#[test]
+fn joints_that_stop_at_once_are_told_and_counted() {
+    let words = |wheels: &[usize]| {
+        let turn = |m: Motion, wheel: &usize| m.spin("m0", *wheel, 2.0, 0.0, 1.0);
+        let verdict = judged(wheels.iter().fold(Motion::new(robots::chain(1)), turn));
+        match status(&verdict, CheckKind::Rest) {
+            Status::NotChecked(words) => words.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    let rest = "and no greatest acceleration is stated";
+    assert_eq!(words(&[LEFT]), format!("m0.left stops at once from 2rad/s at the end, {rest}"));
+    assert!(words(&[LEFT, RIGHT]).ends_with(&format!("from 2rad/s at the end (and 1 more), {rest}")));
+}
+
+/// Without ground nothing is touched, and the history says so.
+#[test]
+fn the_history_of_what_floats_has_no_contacts() {
+    let plan = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(World::FREE);
+    let moments = modl::plan::verify::articulated::history(&plan, 1.0);
+    assert!(moments.len() > 10);
+    assert!(moments.iter().all(|m| m.contacts.is_empty() && m.support.is_empty() && m.margin.is_none()));
+}
+
+/// Loads take longer than poses, and a history has them at every eighth of its moments.
+#[test]
+fn the_history_has_loads_at_every_eighth_moment() {
+    let plan = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(STATICS);
+    let moments = modl::plan::verify::articulated::history(&plan, 1.0);
+    let loaded: Vec<usize> = (0..moments.len()).filter(|i| !moments[*i].loads.is_empty()).collect();
+    assert!(loaded.len() > 5 && loaded.iter().all(|i| i % 8 == 0), "{loaded:?}");
+}
+
 fn dig(arm: usize) -> Plan {
     let m = Motion::new(robots::backhoe(arm)).set("a0", TILT, 90.0);
     m.linear("a1", TILT, -90.0, 0.0, 2.0).plan(STATICS)
@@ -187,6 +245,63 @@ fn bonds_hold_what_they_hold() {
     let verdict = judged(on_two_legs(robots::walk4()));
     fails(&verdict, CheckKind::BondLoad);
     passes(&judged(standing(robots::walk4())));
+}
+
+/// What excuses motors excuses no bond.
+#[test]
+fn an_overload_that_is_excused_is_one_of_joints() {
+    let lifted = ["fl", "br"].iter().fold(standing(robots::walk4()), |m, leg| {
+        let (knee, ankle) = (format!("{leg}_knee"), format!("{leg}_ankle"));
+        let m = m.smooth(&knee, TILT, 30.0, 0.0, 1.0).smooth(&ankle, TILT, -30.0, 0.0, 1.0);
+        m.smooth(&knee, TILT, 0.0, 1.0, 2.0).smooth(&ankle, TILT, 0.0, 1.0, 2.0)
+    });
+    let mut plan = lifted.plan(STATICS);
+    let kind = ExemptionKind::Overload(None);
+    plan.exemptions = vec![Exemption { from: 0.0, to: 1.9, kind, cause: CauseId(0) }];
+    let verdict = verify(&plan);
+    fails(&verdict, CheckKind::BondLoad);
+    assert!(!kinds(&verdict).contains(&CheckKind::Torque), "{:#?}", verdict.failures);
+}
+
+/// An overload is excused as an overload until the end, and by what is for another check not at all.
+#[test]
+fn an_overload_is_excused_by_its_own_kind_alone() {
+    let begins = |kind| {
+        let verdict = excused(6, kind, 0.0, 2.0);
+        verdict.failures.iter().find(|f| f.at == ["a1.tilt"]).expect("it is too heavy").time
+    };
+    assert_eq!(begins(ExemptionKind::Overload(None)), 2.0);
+    for kind in [ExemptionKind::Acceleration, ExemptionKind::Traction, ExemptionKind::Unstable] {
+        assert!(begins(kind.clone()) < 1.9, "{kind:?}");
+    }
+}
+
+/// A start that can't be held is the fault of the lines that set the joints of who can't.
+#[test]
+fn a_start_that_does_not_hold_is_blamed_on_the_lines_that_set_it() {
+    let robot = hold_nothing(robots::backhoe(8));
+    let m = Motion::new(robot).set("a0", TILT, 90.0).set("a1", TILT, -90.0);
+    let ids = ["a1", "a7"].map(|module| modl::robot::JointId(m.joint(module, TILT) as u32));
+    let mut plan = m.plan(World { ground: Ground::Held, ..STATICS });
+    plan.causes = (0..2).map(motions::cause).collect();
+    let Body::Tracks(tracks) = &mut plan.body else { unreachable!("a plan of modules") };
+    tracks.start_causes = vec![(ids[0], CauseId(0)), (ids[1], CauseId(1))];
+    let verdict = verify(&plan);
+    let overload = verdict.failures.iter().find(|f| f.at == ["a1.tilt"]).expect("it is too heavy");
+    assert!(overload.blames_start && overload.blame == [CauseId(0)], "{overload:?}");
+}
+
+/// Values that are nothing but rounding are told as zero.
+#[test]
+fn rounding_is_no_travel() {
+    let there = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0);
+    for motion in [there.there_and_back(), square()] {
+        let verdict = judged(motion);
+        let values = verdict.worst_values().map(|(_, worst)| worst.value);
+        let all: Vec<f64> = values.chain(verdict.travel).chain([verdict.heading]).collect();
+        assert!(all.iter().all(|value| *value == 0.0 || value.abs() >= 1e-9), "{all:?}");
+        assert!(all.contains(&0.0), "{all:?}");
+    }
 }
 
 #[test]

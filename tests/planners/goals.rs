@@ -355,9 +355,12 @@ fn a_plan_that_was_bent_is_off_its_line() {
     }
     // A tighter statement than the motion keeps is refused, too.
     let mut plan = line_plan("free");
-    plan.paths[0].within = 0.5 * off_line(&plan);
-    assert!(verify(&plan).failures.iter().any(|failure| failure.kind == CheckKind::Path));
-    plan.paths[0].within = 1.01 * off_line(&plan);
+    let off = off_line(&plan);
+    for part in [0.5, 0.9, 0.99, 0.999] {
+        plan.paths[0].within = part * off;
+        assert!(verify(&plan).failures.iter().any(|failure| failure.kind == CheckKind::Path), "{part}");
+    }
+    plan.paths[0].within = 1.01 * off;
     assert!(matches!(path_check(&verify(&plan)), Some(Status::Proved)));
 }
 

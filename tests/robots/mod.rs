@@ -14,5 +14,6 @@ pub mod near_pairs;
 pub mod quadratic;
 pub mod rigidity;
 pub mod rofi;
+mod shared;
 pub mod sparse_cholesky;
 pub mod urdf;

@@ -120,7 +120,7 @@ fn sticks_out(drawn: &[modl::geometry::Placed], judged: &[modl::geometry::Placed
 }
 
 /// A robot in motion.
-struct Robot<'a> {
+pub struct Robot<'a> {
     plan: &'a Plan,
     tracks: &'a Tracks,
     solids: Vec<Vec<Solid>>,
@@ -128,13 +128,13 @@ struct Robot<'a> {
 }
 
 /// A link and the link that carries it, each as (module, link).
-type Carried = ((usize, usize), (usize, usize));
+pub type Carried = ((usize, usize), (usize, usize));
 
 /// The links of a robot at a time: by module and link.
-type Poses = Vec<Vec<Option<Pose>>>;
+pub type Poses = Vec<Vec<Option<Pose>>>;
 
 impl<'a> Robot<'a> {
-    fn new(plan: &'a Plan, tracks: &'a Tracks) -> Robot<'a> {
+    pub fn new(plan: &'a Plan, tracks: &'a Tracks) -> Robot<'a> {
         let of = |module: &ModuleType| {
             module.links.iter().map(|l| Solid::new(&l.collides).unwrap_or_default()).collect()
         };
@@ -176,12 +176,17 @@ impl<'a> Robot<'a> {
     }
 
     /// Poses of the links over joints and bonds that hold, from the base on; and the carrier of each link.
-    fn poses(&self, t: f64) -> (Poses, Vec<Carried>) {
+    pub fn poses(&self, t: f64) -> (Poses, Vec<Carried>) {
+        self.poses_from(t, self.tracks.start.base)
+    }
+
+    /// The same with the base at another pose.
+    pub fn poses_from(&self, t: f64, base: Pose) -> (Poses, Vec<Carried>) {
         let robot = &self.tracks.robot;
         let mut poses: Poses =
             (0..robot.modules.len()).map(|m| vec![None; robot.module_type(m).links.len()]).collect();
         let mut carried = Vec::new();
-        poses[robot.base][0] = Some(self.tracks.start.base);
+        poses[robot.base][0] = Some(base);
         let holds = self.holds(t);
         let mut open = vec![(robot.base, 0)];
         while let Some((module, link)) = open.pop() {
@@ -333,8 +338,19 @@ impl<'a> Robot<'a> {
         if self.excused(t, |kind| matches!(kind, ExemptionKind::Overload(_))) {
             return;
         }
+        for (name, moment, effort) in self.held(t, poses, carried) {
+            if moment > effort * (1.0 + SLACK) {
+                found.push(format!("at {t} {name} holds {moment} N·m"));
+            }
+        }
+    }
+
+    /// The absolute moment that each joint with a limit holds, N·m, with its name and its limit: the weight beyond it, of a
+    /// robot that is held at its base and has no loops.
+    pub fn held(&self, t: f64, poses: &Poses, carried: &[Carried]) -> Vec<(String, f64, f64)> {
         let robot = &self.tracks.robot;
         let gravity = world(self.plan, t).gravity;
+        let mut held = Vec::new();
         for module in 0..robot.modules.len() {
             let kind = robot.module_type(module);
             for joint in kind
@@ -372,11 +388,10 @@ impl<'a> Robot<'a> {
                         lever.cross(&Vec3::new(0.0, 0.0, -gravity * link.mass))
                     })
                     .sum();
-                if axis.dot(&moment).abs() > effort * (1.0 + SLACK) {
-                    found.push(format!("at {t} {} holds {} N·m", joint.name, axis.dot(&moment)));
-                }
+                held.push((joint.name.clone(), axis.dot(&moment).abs(), effort));
             }
         }
+        held
     }
 
     fn dockings(&self, found: &mut Vec<String>) {
