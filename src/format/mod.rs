@@ -12,6 +12,9 @@ mod spacing;
 use crate::source::{Diagnostic, FileId};
 use crate::syntax::{Outline, parse, skeleton};
 
+/// The most times that a text which can't be read as a whole is laid out.
+const PASSES_MAX: usize = 8;
+
 /// The result of [`format()`]: the text, laid out as far as it could be read, and what was wrong in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formatted {
@@ -37,6 +40,16 @@ pub fn format(id: FileId, text: &str) -> Option<Formatted> {
         let formatted = [true, false].into_iter().map(laid_out).find(|text| skeleton(text) == meaning)?;
         return Some(Formatted { text: formatted, diagnostics: Vec::new() });
     }
-    let formatted = laid_out(true);
-    Some(Formatted { text: formatted, diagnostics: parse(id, text).diagnostics })
+    let diagnostics = parse(id, text).diagnostics;
+    // The borders of what can't be read may move with the lines around it, so it is laid out until it stays.
+    let mut formatted = laid_out(true);
+    for _ in 0..PASSES_MAX {
+        let Some(outline) = Outline::of(&formatted) else { break };
+        let again = columns::aligned(lines::lines(&formatted, &outline, true));
+        if again == formatted {
+            break;
+        }
+        formatted = again;
+    }
+    Some(Formatted { text: formatted, diagnostics })
 }

@@ -171,6 +171,9 @@ impl Hasher for NameHasher {
 /// Returns a span extended to whole characters. The text that the grammar reads may have several characters
 /// in place of one.
 pub(super) fn whole_characters(text: &str, mut span: Span) -> Span {
+    // A place behind the end, of what is missing there, is the end.
+    let end = text.len() as u32;
+    (span.start, span.end) = (span.start.min(end), span.end.min(end));
     while !text.is_char_boundary(span.start as usize) {
         span.start -= 1;
     }

@@ -123,11 +123,13 @@ impl<'t> Lexer<'t> {
     /// Reads digits with a fraction, an exponent and a simple unit. A unit such as `m/s` continues in
     /// further tokens.
     fn number(&mut self) -> TokenKind {
+        let start = self.at;
         self.skip_word();
-        if matches!(self.bytes[self.at - 1], b'e' | b'E')
-            && matches!(self.peek(0), b'+' | b'-')
-            && self.peek(1).is_ascii_digit()
-        {
+        // An `e` behind letters belongs to a unit.
+        let exponent = self.bytes[start..self.at].split_last().is_some_and(|(last, before)| {
+            matches!(last, b'e' | b'E') && before.iter().all(|b| !b.is_ascii_alphabetic())
+        });
+        if exponent && matches!(self.peek(0), b'+' | b'-') && self.peek(1).is_ascii_digit() {
             self.at += 1;
             self.skip_word();
         }
