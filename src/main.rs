@@ -3,8 +3,8 @@
 use mimalloc::MiMalloc;
 use modl::interrupt::memory::Counting;
 
-/// A program is a tree of many small pieces: with this allocator it is read a fifth faster. What it hands out is counted,
-/// for the limit of memory.
+/// A program is a tree of many small pieces: with this allocator it is read a fifth faster. Its memory is counted, for the
+/// limit.
 #[global_allocator]
 static ALLOCATOR: Counting<MiMalloc> = Counting(MiMalloc);
 

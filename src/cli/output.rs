@@ -225,7 +225,7 @@ pub(super) fn begun(folder: &Path) -> io::Result<NamedTempFile> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     sweep(folder);
     let file = builder.tempfile_in(folder)?;
-    // Where there are no locks, the file may be swept away while it is written, and can then not be renamed.
+    // Another process may sweep the file away while it is written where there are no locks; it can then not be renamed.
     drop(file.as_file().try_lock());
     Ok(file)
 }

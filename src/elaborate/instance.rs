@@ -8,7 +8,7 @@ use crate::interpret::interpreter::Interpreter;
 use crate::interpret::routines::Args;
 use crate::interpret::scene::SceneDesign;
 use crate::interpret::stop::Eval;
-use crate::interpret::value::Value;
+use crate::interpret::value::{Value, arguments_key};
 use crate::source::{Diagnostic, Span, code};
 use std::cell::Cell;
 use std::rc::Rc;
@@ -38,7 +38,8 @@ impl Interpreter<'_> {
         }
         let Some(body) = self.shared.program.def(def).kind.instantiable() else { return Ok(None) };
         let Some((args, shown)) = self.fill_params(def, body.params, args)? else { return Ok(None) };
-        let known = self.memory.designs[def.0 as usize].find(&args);
+        let known = self.memory.designs[def.0 as usize]
+            .find(arguments_key(&args), |known| same_args(&known.args, &args));
         match known {
             Some(design) => self.check_complete(&design, span).map(|()| Some(design)),
             None => self.elaborate(def, args, &shown, span).map(Some),
@@ -171,7 +172,7 @@ impl Interpreter<'_> {
 
     fn keep(&mut self, def: DefId, name: String, args: Vec<Value>, kind: DesignKind) -> Rc<Design> {
         let design = Rc::new(Design { def, name, args, kind, broken: Cell::new(false) });
-        self.memory.designs[def.0 as usize].push(design.clone());
+        self.memory.designs[def.0 as usize].push(arguments_key(&design.args), design.clone());
         design
     }
 
@@ -188,4 +189,8 @@ impl Interpreter<'_> {
         }
         self.design_of(def, Args { values: vec![None; params.len()], spans: Vec::new() }, declared.span)
     }
+}
+
+fn same_args(a: &[Value], b: &[Value]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(x, y)| x.same(y) == Some(true))
 }

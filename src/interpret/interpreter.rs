@@ -3,9 +3,9 @@
 use super::capability::Capabilities;
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
-use super::designs::Designs;
 use super::evaluator_thread::{HostProxy, REST_BYTES};
 use super::host::{Limits, Mode, Options, TestResult};
+use super::keyed::Keyed;
 use super::memory_errors::memory_limit;
 use super::plan_value::PlanValue;
 use super::recalled::Recalled;
@@ -95,8 +95,9 @@ pub struct Reported {
 pub struct Memory {
     /// The values of top-level lets, by the declaration's [`DefId`]; others stay [`Lazy::Waiting`].
     pub globals: Vec<Lazy>,
-    /// The designs, by the declaration's [`DefId`]: one for each list of arguments.
-    pub designs: Vec<Designs>,
+    /// The designs, by the declaration's [`DefId`] and the [`arguments_key`](super::value::arguments_key): one for each list
+    /// of arguments.
+    pub designs: Vec<Keyed<Design>>,
     /// The connectors, by the declaration's [`DefId`]; `None` for those not elaborated yet, `Some(None)` for those
     /// that are broken.
     pub connectors: Vec<Option<Option<Rc<ConnectorDesign>>>>,
@@ -118,7 +119,7 @@ impl Memory {
     /// Makes room for the values of `declarations` declarations; those of any beyond them are dropped.
     pub fn resize(&mut self, declarations: usize) {
         self.globals.resize(declarations, Lazy::Waiting);
-        self.designs.resize(declarations, Designs::default());
+        self.designs.resize(declarations, Keyed::default());
         self.connectors.resize(declarations, None);
     }
 }

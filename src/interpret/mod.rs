@@ -27,9 +27,9 @@ pub mod nesting;
 mod statements;
 
 pub mod design;
-pub mod designs;
 mod groups;
 pub mod identity;
+pub mod keyed;
 pub mod module_map;
 pub mod robot;
 pub mod scene;

@@ -429,6 +429,19 @@ impl Value {
     }
 }
 
+/// Returns a number that is the same for arguments that are equal: that of their numbers and texts, in which those of the
+/// designs of one declaration, of which there may be thousands, mostly differ.
+pub fn arguments_key(args: &[Value]) -> u64 {
+    const PRIME: u64 = 0x0100_0000_01b3;
+    let mixed = |key: u64, word: u64| (key ^ word).wrapping_mul(PRIME).rotate_left(29);
+    args.iter().fold(0xcbf2_9ce4_8422_2325, |key, arg| match (arg, arg.as_number()) {
+        // Zero has two signs and is one number.
+        (_, Some(number)) => mixed(key, (number + 0.0).to_bits()),
+        (Value::Text(text), _) => text.bytes().fold(key, |key, byte| mixed(key, u64::from(byte))),
+        _ => mixed(key, 0),
+    })
+}
+
 /// A comparison of two values. Lists and records may share what they hold over and over, so each pair of them is
 /// compared once.
 #[derive(Default)]

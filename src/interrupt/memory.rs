@@ -1,8 +1,8 @@
 //! The memory that the program has allocated, and the limit at which long work ends.
 //!
 //! An allocator that is wrapped in [`Counting`] counts what it hands out. A [`checkpoint`](super::checkpoint) ends the
-//! work of its thread where more is allocated than [`limit`]. What is counted is exact but for [`BATCH`] bytes for each of
-//! [`SHARDS`] groups of threads, and it does not include stacks, code, and what the allocator keeps for later.
+//! work of its thread where more is allocated than [`limit`]. The count is exact but for [`BATCH`] bytes for each of
+//! [`SHARDS`] groups of threads, and does not include stacks, code, and memory that the allocator keeps for later.
 //! Without such an allocator nothing is counted, and no limit is reached.
 
 use std::alloc::{GlobalAlloc, Layout};

@@ -8,7 +8,7 @@ use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, Fla
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::stop::{Eval, Stop, fault};
-use crate::interpret::value::Value;
+use crate::interpret::value::{Value, arguments_key};
 use crate::planners::tosnake::conversion::{from_world, to_world};
 use crate::planners::tosnake::random_configuration::random_configuration;
 use crate::planners::tosnake::validation::repair;
@@ -40,8 +40,9 @@ fn load(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let path = call.get::<&str>("file")?.to_string();
     let (kind, loaded) = library(interpreter, call)?;
     let (file, bytes) = interpreter.project_file(call, "file")?;
-    let known = |args: &[Value]| matches!(args, [Value::Text(text)] if **text == *file);
-    if let Some(design) = interpreter.memory.designs[loaded.0 as usize].find_by(known) {
+    let args = [Value::Text(file.as_str().into())];
+    let known = |design: &Design| matches!(&design.args[..], [Value::Text(text)] if **text == *file);
+    if let Some(design) = interpreter.memory.designs[loaded.0 as usize].find(arguments_key(&args), known) {
         return Ok(instance(interpreter, &design));
     }
     let text = String::from_utf8(bytes).map_err(|_| {
@@ -133,7 +134,7 @@ fn made(
         }
         leave_out(interpreter, &mut world, &open, call, path);
     };
-    interpreter.memory.designs[loaded.0 as usize].push(design.clone());
+    interpreter.memory.designs[loaded.0 as usize].push(arguments_key(&design.args), design.clone());
     Ok(instance(interpreter, &design))
 }
 
