@@ -86,7 +86,7 @@ fn bytes(n: u64) -> (MapFiles, Mode) {
 }
 
 fn digits(n: u64) -> (MapFiles, Mode) {
-    text(&format!("let a = 10 ^ {}\n", n - 1))
+    text(&format!("let a = {}\n", "9".repeat(n as usize)))
 }
 
 fn calls(n: u64) -> (MapFiles, Mode) {
@@ -116,10 +116,11 @@ fn axes(n: u64) -> (MapFiles, Mode) {
     checked(&format!("record Row {{ x: Int }}\nstudy s({}) by grid() = Row(x: 1)\n", axes.join(", ")))
 }
 
+/// The limit itself is excluded, so that a plan of a second less meets it.
 fn seconds(n: u64) -> (MapFiles, Mode) {
     text(&format!(
         "use std.smores.Smores\nconfig C {{ part m: Smores }}\nlet c = C()\nlet p = plan(Sc(spin(c.m.left, 1rad/s, for: 1s), wait({}s)), world: world(ground: off, gravity: off))\n",
-        n - 1
+        n - 2
     ))
 }
 

@@ -197,7 +197,7 @@ fn calls_that_fail_and_kills_leave_the_old_file_or_the_new_one() {
         println!("skipped: strace is missing, or may not trace");
         return;
     }
-    let stride = if whole() { 1 } else { 16 };
+    let stride = if whole() { 1 } else { 32 };
     let mut report = Vec::new();
     let old: &[u8] = b"old\n";
     let (mut faults, mut kills) = (0, 0);
@@ -213,6 +213,6 @@ fn calls_that_fail_and_kills_leave_the_old_file_or_the_new_one() {
     add(&["import", "r.urdf", "-o", "robots"], &[("r.urdf", ROBOT.as_bytes()), ("robots/r.mod", old)]);
     add(&["new", "rover"], &[("a.txt", old)]);
     println!("{faults} calls failed, {kills} kills");
-    assert!(faults > 50 && kills > 20, "{faults} calls failed, {kills} kills");
+    assert!(faults > 40 && kills > 15, "{faults} calls failed, {kills} kills");
     assert!(report.is_empty(), "\n{}", report.join("\n"));
 }
