@@ -217,7 +217,8 @@ pub fn spliced(dice: &mut Dice, first: &str, second: &str) -> String {
     let (to, from) = (dice.below(a.len() + 1), dice.below(b.len() + 1));
     let mut text = a[..to].concat();
     text.push_str(&b[from..].concat());
-    text.truncate(text.floor_char_boundary(LENGTH_MAX));
+    let end = (0..=LENGTH_MAX.min(text.len())).rev().find(|at| text.is_char_boundary(*at));
+    text.truncate(end.unwrap_or(0));
     text
 }
 

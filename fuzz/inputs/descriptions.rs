@@ -41,7 +41,8 @@ fn damaged_words(dice: &mut Dice, text: &str) -> String {
         "origin",
         "mimic",
     ];
-    text.replacen(dice.of(&words), dice.of(&words), 1 + dice.below(2))
+    let (from, to) = (dice.of(&words), dice.of(&words));
+    text.replacen(from, to, 1 + dice.below(2))
 }
 
 fn number(dice: &mut Dice) -> String {

@@ -15,7 +15,7 @@ impl Dice {
 
     /// Returns the choices that bytes stand for.
     pub fn of_bytes(bytes: &[u8]) -> Dice {
-        Dice { state: 0, bytes: Some(bytes.to_vec().into_iter()) }
+        Dice { state: 0, bytes: Some(Vec::from(bytes).into_iter()) }
     }
 
     /// Returns a number below `n`, which must not be 0.

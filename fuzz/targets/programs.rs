@@ -63,7 +63,7 @@ pub fn check(input: &[u8]) {
     let files = Project::of(&text);
     let checked = modl::check::check(&files, "main.mod");
     placed(&checked.diagnostics, &checked.sources);
-    if text.len() % 8 == 0 {
+    if text.len().is_multiple_of(8) {
         let again = modl::check::check(&files, "main.mod");
         assert_eq!(checked.diagnostics, again.diagnostics, "the second time finds other things");
     }
@@ -81,7 +81,7 @@ pub fn run(input: &[u8]) {
     let mode = [Mode::Run, Mode::Run, Mode::Check, Mode::Test][text.len() % 4];
     let (desk, outcome) = ran(&checked, mode, &files);
     placed(&outcome.diagnostics, &checked.sources);
-    if text.len() % 8 == 0 {
+    if text.len().is_multiple_of(8) {
         let (again, other) = ran(&checked, mode, &files);
         assert_eq!(desk.printed, again.printed, "the second time prints something else");
         assert_eq!(outcome.diagnostics, other.diagnostics, "the second time finds other things");

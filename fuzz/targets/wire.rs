@@ -38,7 +38,7 @@ pub fn check(input: &[u8]) {
     let ask = |id: i32, method: &str, params: Value| {
         say(Message::Request(Request { id: RequestId::from(id), method: method.to_owned(), params }));
     };
-    let encodings = if input.len() % 2 == 0 { json!(["utf-8"]) } else { json!(["utf-16"]) };
+    let encodings = if input.len().is_multiple_of(2) { json!(["utf-8"]) } else { json!(["utf-16"]) };
     let capabilities = json!({ "general": { "positionEncodings": encodings } });
     ask(-1, "initialize", json!({ "processId": null, "rootUri": null, "capabilities": capabilities }));
     say(Message::Notification(Notification { method: "initialized".to_owned(), params: json!({}) }));

@@ -69,20 +69,17 @@ static TREES: Mutex<BTreeMap<(u32, usize, usize), Tree>> = Mutex::new(BTreeMap::
 /// The files whose trees are kept are the first of a program, so that those kept are few.
 const KEPT_FILES: u32 = 8;
 
-/// Returns the syntax tree of a text, and what is wrong in it.
-fn tree(id: FileId, text: &Cow<'static, str>) -> Tree {
-    let parse = |text: &str| {
+/// Returns the syntax tree of a text, and what is wrong in it. `stays`: true if the text stays where it is in memory.
+fn tree(id: FileId, text: &str, stays: bool) -> Tree {
+    let parse = || {
         let parsed = syntax::parse(id, text);
         (Arc::new(parsed.file), parsed.diagnostics)
     };
-    match text {
-        Cow::Borrowed(text) if id.0 < KEPT_FILES && !text.is_empty() => {
-            let mut trees = TREES.lock().unwrap_or_else(PoisonError::into_inner);
-            let place = (id.0, text.as_ptr().addr(), text.len());
-            trees.entry(place).or_insert_with(|| parse(text)).clone()
-        }
-        text => parse(text),
+    if !stays || id.0 >= KEPT_FILES || text.is_empty() {
+        return parse();
     }
+    let mut trees = TREES.lock().unwrap_or_else(PoisonError::into_inner);
+    trees.entry((id.0, text.as_ptr().addr(), text.len())).or_insert_with(parse).clone()
 }
 
 /// All files of a program. The prelude is at 0 and the file to run at 1, if they could be read. In a
@@ -212,7 +209,7 @@ impl<'a> Loader<'a> {
         let id = self.sources.add_piece(&entry.name, &entry.text, false, entry.first_line);
         // Paths in an entry are relative to the project.
         let place = FilePlace::Project(String::new());
-        let index = self.take(&place, id, &Cow::Owned(entry.text.clone()));
+        let index = self.take(&place, id, &entry.text, false);
         let file = self.loaded[index].as_mut().expect("just closed");
         (file.entry, file.last) = (true, entry.last);
         if let Some(name) = entry.value
@@ -235,12 +232,13 @@ impl<'a> Loader<'a> {
         self.by_name.insert(shown.clone(), None);
         let (id, text) = self.read(&place, &shown)?;
         self.by_name.insert(shown, Some(self.loaded.len()));
-        Ok(self.take(&place, id, &text))
+        let stays = matches!(text, Cow::Borrowed(_));
+        Ok(self.take(&place, id, &text, stays))
     }
 
-    /// Parses a text and loads all that it imports; returns its index.
-    fn take(&mut self, place: &FilePlace, id: FileId, text: &Cow<'static, str>) -> usize {
-        let (ast, diagnostics) = tree(id, text);
+    /// Parses a text and loads all that it imports; returns its index. `stays`: true if the text stays where it is in memory.
+    fn take(&mut self, place: &FilePlace, id: FileId, text: &str, stays: bool) -> usize {
+        let (ast, diagnostics) = tree(id, text, stays);
         self.diagnostics.extend(diagnostics);
         let index = self.loaded.len();
         self.loaded.push(None);

@@ -18,8 +18,8 @@ pub fn memory_limit() -> Diagnostic {
 /// Returns a number of bytes as text, in the unit in which it is not less than one.
 fn memory_shown(bytes: usize) -> String {
     let (size, unit) = match bytes {
-        ..1_000_000 => (bytes as f64 / 1e3, "kB"),
-        ..1_000_000_000 => (bytes as f64 / 1e6, "MB"),
+        0..1_000_000 => (bytes as f64 / 1e3, "kB"),
+        1_000_000..1_000_000_000 => (bytes as f64 / 1e6, "MB"),
         _ => (bytes as f64 / 1e9, "GB"),
     };
     format!("{} {unit}", (size * 10.0).round() / 10.0)
