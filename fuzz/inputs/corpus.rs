@@ -59,7 +59,7 @@ pub struct Corpus {
     pub quick: Vec<String>,
     /// The files of the library, and the examples.
     pub files: Vec<String>,
-    /// What is typed in the sessions of the suites.
+    /// The entries that are typed in the sessions of the suites.
     pub entries: Vec<String>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 
-/// What token soup is made of: each word, sign and odd character of the language.
+/// The pieces of token soup: each word, sign and odd character of the language.
 #[rustfmt::skip]
 pub const TOKENS: &[&str] = &[
     "use", "let", "fn", "extern", "type", "connector", "module", "record", "with", "cell", "strut",

@@ -4,13 +4,13 @@
 use super::dice::Dice;
 use modl::syntax::skeleton;
 
-/// How deep forms stand in forms.
+/// The greatest depth of forms within forms.
 const DEPTH: usize = 6;
 
 /// The programs that are tried until one can be read: the choices of a fuzzer may end.
 const TRIES_MAX: usize = 1000;
 
-/// What a form may be; the first is the simplest. `<name>` stands for another form.
+/// The alternatives of each form; the first is the simplest. `<name>` stands for another form.
 const FORMS: &[(&str, &[&str])] = &[
     ("file", &["<item>\n<item>\n\n<item>\n<item>\n"]),
     (

@@ -18,7 +18,7 @@ pub struct Folders {
     pub root: PathBuf,
     /// The instrumented copy.
     pub tree: PathBuf,
-    /// What the compiler writes.
+    /// The folder into which the compiler writes.
     pub build: PathBuf,
 }
 

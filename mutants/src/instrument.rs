@@ -3,7 +3,7 @@
 use crate::mutant::{Form, Mutant, Piece};
 use std::ops::Range;
 
-/// Where a mutant stands in the instrumented text, in bytes. A mutant within others stands there several times.
+/// The place of a mutant in the instrumented text, in bytes. A mutant within others stands there several times.
 pub struct Placed {
     /// The number of the mutant.
     pub id: usize,

@@ -17,6 +17,16 @@ const MEMORY_MAX: u64 = 256 << 20;
 /// tests, whose memory slows it down. Without optimisation, time says nothing.
 const PROCESSOR_MAX: f64 = if cfg!(debug_assertions) { f64::INFINITY } else { 2.0 };
 
+/// A robot of two modules, as a file that programs import.
+const PARTS: &str = "use std.smores.Smores
+config Pair {
+  part a: Smores
+  part b: Smores
+  connect a.top -- b.bottom
+  behavior turn = move(a.tilt, to: 20deg)
+}
+";
+
 /// What became of a case.
 struct Ended {
     code: Option<i32>,

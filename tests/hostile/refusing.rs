@@ -1,5 +1,6 @@
 //! A host and files that fail at each of their calls in turn: every run ends with a code, and what it wrote is whole.
 
+use super::PARTS;
 use crate::support::suite::MapFiles;
 use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
 use modl::interrupt::CancelState;
@@ -202,14 +203,6 @@ print(tosnake(Ring(n: 6), timeout: 1000s).docks)
 emit(reverse(load_plan(\"turn.plan.json\", Pair())), \"back.plan.json\")
 show(p, \"turn.html\")
 test \"it turns\" { expect p.duration > 0s }
-";
-const PARTS: &str = "use std.smores.Smores
-config Pair {
-  part a: Smores
-  part b: Smores
-  connect a.top -- b.bottom
-  behavior turn = move(a.tilt, to: 20deg)
-}
 ";
 const WEDGE: &str = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 

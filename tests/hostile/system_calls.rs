@@ -2,6 +2,7 @@
 //! command says so, and nothing else is left behind. `strace` lets the calls fail.
 #![cfg(target_os = "linux")]
 
+use super::PARTS;
 use crate::desk::cli::Sandbox;
 use crate::support::properties::whole;
 use std::collections::BTreeMap;
@@ -16,14 +17,6 @@ let p = plan(Pair().turn(), world: world(ground: off, gravity: off))
 print(p.duration)
 emit(p, \"turn.plan.json\")
 show(p, \"turn.html\")
-";
-const PARTS: &str = "use std.smores.Smores
-config Pair {
-  part a: Smores
-  part b: Smores
-  connect a.top -- b.bottom
-  behavior turn = move(a.tilt, to: 20deg)
-}
 ";
 const UNTIDY: &str = "let   a=1\nlet b =   2\n";
 const ROBOT: &str = "<robot name=\"r\"><link name=\"a\"><visual><geometry><box size=\"1 1 1\"/></geometry></visual></link></robot>\n";
