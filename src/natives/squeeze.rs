@@ -44,6 +44,7 @@ impl Choice for Method {
         ("shear", Method::Shear),
         ("arms", Method::Arms),
         ("merge", Method::Merge),
+        ("push", Method::Push),
         ("melt", Method::Melt),
     ];
 }

@@ -16,6 +16,7 @@ pub mod morphing;
 pub mod planar_path;
 pub mod refold;
 pub mod squeeze;
+mod squeeze_push;
 pub mod surroundings;
 pub mod tosnake;
 pub mod tosnake_detour;

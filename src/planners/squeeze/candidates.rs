@@ -9,6 +9,7 @@ use super::listed::Listed;
 use super::melt::melt;
 use super::motion::{Motion, PlanLimits};
 use super::planar::to_row;
+use super::push::push;
 use super::shape::Shape;
 use super::shear::shear;
 use super::unroll::unroll;
@@ -82,6 +83,14 @@ pub(super) fn candidates(
                 let starts = starts.iter().filter(|start| merges(start) && merges(&end));
                 found.extend(starts.map(|start| joined(start, Some(&turn), &end)));
             }
+        }
+    }
+    // Rows and boxes go to each other at once; other shapes, which go through a row, may be pushed in place.
+    let rows = from.is_box() && to.is_box();
+    if wanted == Method::Push || (wanted == Method::Auto && !rows) {
+        let known = found.iter().map(|candidate| candidate.motion.duration()).reduce(f64::min);
+        if let Some(motion) = push(limits, from, to, known.unwrap_or(f64::INFINITY))? {
+            found.push(Candidate { method: Method::Push, motion });
         }
     }
     let melts = wanted == Method::Melt || (wanted == Method::Auto && found.is_empty());

@@ -36,6 +36,7 @@ mod listed;
 mod melt;
 mod motion;
 mod planar;
+mod push;
 mod ranks;
 mod retime;
 mod selection;
@@ -77,6 +78,8 @@ pub enum Method {
     Arms,
     /// The merging of rows, two by two, for any connected sets of cells in planes.
     Merge,
+    /// The pushing of lines of cells, in place, for connected sets of cells that are laid over each other.
+    Push,
     /// The melting of one cell after another (Rus and Vona 2001), for any connected sets of at most 400 cells, in
     /// space too.
     Melt,
@@ -214,6 +217,7 @@ impl fmt::Display for Refusal {
                     }
                     Method::Accordion => "`accordion` takes rows and boxes to each other",
                     Method::Merge => "`merge` takes shapes in a plane to each other",
+                    Method::Push => "`push` found no way from the one to the other",
                     Method::Melt => "`melt` takes shapes of up to 400 cells to each other",
                     Method::Auto => "no method takes the one to the other",
                 };
@@ -241,6 +245,7 @@ impl Method {
             Method::Shear => "shear",
             Method::Arms => "arms",
             Method::Merge => "merge",
+            Method::Push => "push",
             Method::Melt => "melt",
         }
     }

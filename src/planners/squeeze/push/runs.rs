@@ -1,0 +1,86 @@
+//! Many runs of the search, over several overlays of the goal on the start, of which the best is kept.
+
+use super::grid::Grid;
+use super::search::{Found, Search};
+use crate::optimize::random::SplitMix64;
+use crate::planners::squeeze::shape::Shape;
+use std::collections::BTreeMap;
+
+/// The greatest number of pairs of cells for which overlays are counted.
+const PAIRS_MAX: usize = 4_000_000;
+
+/// The number of overlays that are tried, of those on which most cells stay.
+const OVERLAYS: usize = 8;
+
+/// The number of overlays that are searched further, the best ones.
+const BEST_OVERLAYS: usize = 3;
+
+/// The greatest number of runs.
+const RUNS_MAX: usize = 200;
+
+/// The work after which no further run begins, in visits of sites.
+const WORK_BETTER: u64 = 60_000_000;
+
+/// The work after which a run ends while nothing is found.
+const WORK_FIRST: u64 = 6_000_000_000;
+
+/// The best way that was found, on its grid.
+pub(super) struct Best {
+    /// The grid of the sites.
+    pub(super) grid: Grid,
+    /// The way.
+    pub(super) found: Found,
+}
+
+/// Returns the fastest of many ways from one shape to another; `None` if none is found that takes less than
+/// `time_limit`, in units of time. `squeezes`: whether cells shrink to half their size.
+pub(super) fn best(from: &Shape, to: &Shape, squeezes: bool, time_limit: f64) -> Option<Best> {
+    let mut overlays = overlays(from, to);
+    let mut random = SplitMix64(from.count());
+    let mut best: Option<Best> = None;
+    let mut work = 0;
+    let mut times: Vec<(f64, [i64; 3])> = vec![];
+    for run in 0..RUNS_MAX {
+        if run == overlays.len() && !times.is_empty() {
+            times.sort_by(|a, b| a.0.total_cmp(&b.0));
+            overlays = times.iter().take(BEST_OVERLAYS).map(|(_, overlay)| *overlay).collect();
+        }
+        let overlay = *overlays.get(run % overlays.len().max(1))?;
+        let least = best.as_ref().map_or(time_limit, |best| best.found.time);
+        if work > if best.is_some() { WORK_BETTER } else { WORK_FIRST } || least <= 0.0 {
+            break;
+        }
+        let goal: Vec<[i64; 3]> =
+            to.positions.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + overlay[axis])).collect();
+        let grid = Grid::around(from.positions.iter().chain(&goal))?;
+        let sites = |places: &[[i64; 3]]| places.iter().map(|p| grid.site(*p)).collect::<Vec<usize>>();
+        let (start, goal) = (sites(&from.positions), sites(&goal));
+        let mut search = Search::new(&grid, &start, &goal, squeezes, &mut random);
+        let found = search.run(least, WORK_FIRST);
+        work += search.work();
+        if let Some(found) = found {
+            times.push((found.time, overlay));
+            best = Some(Best { grid, found });
+        }
+    }
+    best
+}
+
+/// Returns the translations of the goal, in cells, on which most of its cells are cells of the start, the best first.
+fn overlays(from: &Shape, to: &Shape) -> Vec<[i64; 3]> {
+    if from.positions.len().saturating_mul(to.positions.len()) > PAIRS_MAX {
+        let middle = |shape: &Shape, axis: usize| {
+            shape.positions.iter().map(|p| p[axis]).sum::<i64>() / shape.positions.len() as i64
+        };
+        return vec![[0, 1, 2].map(|axis| middle(from, axis) - middle(to, axis))];
+    }
+    let mut shared: BTreeMap<[i64; 3], usize> = BTreeMap::new();
+    for a in &from.positions {
+        for b in &to.positions {
+            *shared.entry([0, 1, 2].map(|axis| a[axis] - b[axis])).or_default() += 1;
+        }
+    }
+    let mut ranked: Vec<(usize, [i64; 3])> = shared.into_iter().map(|(overlay, count)| (count, overlay)).collect();
+    ranked.sort_by_key(|&(count, overlay)| (std::cmp::Reverse(count), overlay));
+    ranked.into_iter().take(OVERLAYS).map(|(_, overlay)| overlay).collect()
+}
