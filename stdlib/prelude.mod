@@ -2438,7 +2438,7 @@ extern type Squeezing is Plan {
   angular_momentum: Quantity<kg*m^2/s>
   /// Whether the angular momentum stays zero, so that a free robot is not turned.
   balanced: Bool
-  /// `accordion`, `fold`, `shear`, `arms`, `merge` or `melt`.
+  /// `accordion`, `fold`, `shear`, `arms`, `merge`, `push` or `melt`.
   method: Text
   /// Why this method was taken.
   why: Text
@@ -2453,9 +2453,10 @@ extern type Squeezing is Plan {
 /// the size of the cells; `fold` is the way of the kinodynamic-reconfiguration paper; `shear` takes a
 /// row to a column in the least time that there is, and turns the robot by a quarter, so that something
 /// outside has to hold it; `arms` takes a row to a column in little more, and is balanced where the number
-/// of cells is a multiple of four, or one more; `merge` is for shapes in a plane. `melt` takes any shapes of up to 400 cells
-/// to each other, in space too, cell after cell, in a time that grows with their number. `auto` takes
-/// the fastest that the model allows.
+/// of cells is a multiple of four, or one more; `merge` is for shapes in a plane. `push` lays the one shape
+/// over the other and moves whole lines of cells on by one cell, in a plane and in space, so that little
+/// has to move where the two are alike. `melt` takes any shapes of up to 400 cells to each other, cell after
+/// cell, in a time that grows with their number. `auto` takes the fastest that the model allows.
 ///
 /// `model` says whether a free robot has to be able to do it: `balanced` keeps the angular momentum at
 /// zero, `paper` does not ask for it; `auto` takes a balanced way where one is known, and else one that
@@ -2477,7 +2478,7 @@ extern type Squeezing is Plan {
 extern fn squeeze(
   from: Lattice,
   to: Lattice,
-  method: auto | accordion | fold | shear | arms | merge | melt = auto,
+  method: auto | accordion | fold | shear | arms | merge | push | melt = auto,
   model: auto | balanced | paper = auto,
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,

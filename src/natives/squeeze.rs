@@ -132,7 +132,7 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
         }
         Refusal::Solid { first, .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
             .label(call.at(if *first { "from" } else { "to" }), "neither flat nor a box")
-            .hint("covered are all connected shapes in a plane, and boxes of any sides")
+            .hint("covered are all connected shapes in a plane, boxes of any sides, and shapes in space that fill a good part of their bounding box")
             .into(),
         Refusal::Method { .. } => Diagnostic::error(code::NOT_COVERED, refusal.to_string())
             .label(call.at("method"), "this method")

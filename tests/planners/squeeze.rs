@@ -345,7 +345,7 @@ fn random_sets_become_each_other() {
 #[test]
 fn sets_in_space_melt_and_grow() {
     let corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
-    assert_eq!(check(&task(&row(4), &corner)).method, Method::Melt);
+    assert_eq!(check(&Task { method: Method::Melt, ..task(&row(4), &corner) }).method, Method::Melt);
     let (sets, most) = if whole() { (100, 120) } else { (20, 30) };
     let mut seed = 11;
     for i in 0..sets {
@@ -548,10 +548,17 @@ fn limits_of_the_cell_scale_the_plan() {
 
 #[test]
 fn what_is_not_covered_is_refused() {
-    let mut tall = block([20, 20, 1]);
-    tall.push([0, 0, 1]);
+    // Six arms of 80 cells: more cells than melt, and a bounding box of four million sites.
+    let arm = |axis: usize| {
+        (-80..=80).filter(move |&at| at != 0 || axis == 0).map(move |at| {
+            let mut place = [0; 3];
+            place[axis] = at;
+            place
+        })
+    };
+    let star: Vec<[i64; 3]> = (0..3).flat_map(arm).collect();
     assert_eq!(
-        squeeze(&unit_cell(), &task(&row(401), &tall)).expect_err("in space"),
+        squeeze(&unit_cell(), &task(&row(481), &star)).expect_err("in space"),
         Refusal::Solid { first: false, most: 400 }
     );
     assert_eq!(

@@ -1,54 +1,14 @@
 //! Lattices that change in place: what is planned for seeded random shapes and for shapes that differ by a few cells,
 //! before the judge and before an arithmetic of the tests' own.
 
-use crate::support::lattices::{judged_plan, plan_of, unit_cell};
+use crate::support::lattices::{block, judged_plan, moved, plan_of, random_shape, unit_cell};
 use crate::support::properties::whole;
 use modl::plan::{Body, Stages};
 use modl::planners::NoProgress;
 use modl::planners::squeeze::{Method, Problem, Settings, plan};
 use modl::robot::Cell;
-use std::collections::BTreeSet;
 
 type Place = [i64; 3];
-
-/// Returns the block of cells of these sides.
-fn block(sides: Place) -> Vec<Place> {
-    let [a, b, c] = sides;
-    (0..a).flat_map(|x| (0..b).flat_map(move |y| (0..c).map(move |z| [x, y, z]))).collect()
-}
-
-/// Returns a block with one cell taken from one place and put to another.
-fn moved(mut cells: Vec<Place>, from: Place, to: Place) -> Vec<Place> {
-    cells.retain(|cell| *cell != from);
-    cells.push(to);
-    cells
-}
-
-/// Linear congruential numbers (Knuth, MMIX): the tests' own.
-fn next(seed: &mut u64, limit: usize) -> usize {
-    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-    ((*seed >> 33) as usize) % limit
-}
-
-/// Returns a random connected set of cells. With `branches`, new cells rather touch one cell only, so that there are
-/// arms, and holes between them.
-fn random_shape(dimensions: usize, branches: bool, seed: &mut u64, count: usize) -> Vec<Place> {
-    let mut cells: Vec<Place> = vec![[0; 3]];
-    let mut set: BTreeSet<Place> = cells.iter().copied().collect();
-    let neighbour = |cell: Place, k: usize| {
-        let mut other = cell;
-        other[k / 2] += if k.is_multiple_of(2) { 1 } else { -1 };
-        other
-    };
-    while cells.len() < count {
-        let cell = neighbour(cells[next(seed, cells.len())], next(seed, 2 * dimensions));
-        let touches = (0..2 * dimensions).filter(|&k| set.contains(&neighbour(cell, k))).count();
-        if (!branches || touches == 1 || next(seed, 8) == 0) && set.insert(cell) {
-            cells.push(cell);
-        }
-    }
-    cells
-}
 
 struct Found {
     method: Method,
@@ -157,10 +117,48 @@ fn random_shapes_change_in_place() {
                 ratios.push(found.stages.duration() / found.lower_bound);
             }
             if std::env::var("SHOW").is_ok() {
-                println!("{dimensions} {branches} {count}: {:?} {:.1} of {:.2}", found.method, found.stages.duration(), found.lower_bound);
+                println!(
+                    "{dimensions} {branches} {count}: {:?} {:.1} of {:.2}",
+                    found.method,
+                    found.stages.duration(),
+                    found.lower_bound
+                );
             }
         }
     }
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[ratios.len() / 2] <= 8.0, "{ratios:?}");
+}
+
+#[test]
+fn rows_are_piled_up_and_pushed_into_shape() {
+    let rounds = if whole() { 40 } else { 3 };
+    let mut seed = 3;
+    for (round, count) in (0..rounds).zip([17, 31, 64].into_iter().cycle()) {
+        let row: Vec<Place> = (0..count as i64).map(|x| [x, 0, 0]).collect();
+        let shape = random_shape(3, false, &mut seed, count);
+        let found = check(&row, &shape, &Settings::default());
+        assert_eq!(found.method, Method::Push, "{round}");
+        let back = check(&shape, &row, &Settings::default());
+        if std::env::var("SHOW").is_ok() {
+            println!(
+                "row {count}: {:.1} and {:.1} of {:.1}",
+                found.stages.duration(),
+                back.stages.duration(),
+                found.lower_bound
+            );
+        }
+    }
+}
+
+#[test]
+fn cells_that_keep_their_size_are_pushed_too() {
+    let cell = Cell { shrinks_to: 1.0, ..unit_cell() };
+    let square = block([5, 5, 1]);
+    let corner = moved(square.clone(), [0, 0, 0], [5, 3, 0]);
+    let found = found(cell, &square, &corner, &Settings::default());
+    sampled(&found.stages, &square, &corner);
+    let whole = found.stages.stages.iter().flat_map(|stage| &stage.end).flat_map(|run| run.size);
+    assert!(whole.into_iter().all(|side| side.to_f64() == 1.0));
+    assert_eq!(found.method, Method::Push);
 }

@@ -7,6 +7,7 @@ use modl::plan::{
 };
 use modl::planners::squeeze::{Motion, PlanHeader, PlanLimits, Profile};
 use modl::robot::{Cell, Library};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Limits of 1 in units of 1.
@@ -53,4 +54,43 @@ pub fn judged_plan(plan: &Plan) -> Verdict {
 
 pub fn judged(motion: Motion, model: Model) -> Verdict {
     verify(&plan_of(stages_of(motion, model)))
+}
+
+/// Returns the block of cells of these sides.
+pub fn block(sides: [i64; 3]) -> Vec<[i64; 3]> {
+    let [a, b, c] = sides;
+    (0..a).flat_map(|x| (0..b).flat_map(move |y| (0..c).map(move |z| [x, y, z]))).collect()
+}
+
+/// Returns a block with one cell taken from one place and put to another.
+pub fn moved(mut cells: Vec<[i64; 3]>, from: [i64; 3], to: [i64; 3]) -> Vec<[i64; 3]> {
+    cells.retain(|cell| *cell != from);
+    cells.push(to);
+    cells
+}
+
+/// Linear congruential numbers (Knuth, MMIX): the tests' own.
+fn next(seed: &mut u64, limit: usize) -> usize {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    ((*seed >> 33) as usize) % limit
+}
+
+/// Returns a random connected set of cells. With `branches`, new cells rather touch one cell only, so that there are
+/// arms, and holes between them.
+pub fn random_shape(dimensions: usize, branches: bool, seed: &mut u64, count: usize) -> Vec<[i64; 3]> {
+    let mut cells: Vec<[i64; 3]> = vec![[0; 3]];
+    let mut set: BTreeSet<[i64; 3]> = cells.iter().copied().collect();
+    let neighbour = |cell: [i64; 3], k: usize| {
+        let mut other = cell;
+        other[k / 2] += if k.is_multiple_of(2) { 1 } else { -1 };
+        other
+    };
+    while cells.len() < count {
+        let cell = neighbour(cells[next(seed, cells.len())], next(seed, 2 * dimensions));
+        let touches = (0..2 * dimensions).filter(|&k| set.contains(&neighbour(cell, k))).count();
+        if (!branches || touches == 1 || next(seed, 8) == 0) && set.insert(cell) {
+            cells.push(cell);
+        }
+    }
+    cells
 }

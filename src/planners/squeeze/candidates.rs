@@ -12,7 +12,7 @@ use super::planar::to_row;
 use super::push::push;
 use super::shape::Shape;
 use super::shear::shear;
-use super::unroll::unroll;
+use super::unroll::{pile, unroll, unroll_pile};
 use super::{Method, Refusal};
 
 /// A motion between two shapes, or from one shape to the row that motions go through, with the method by which it was
@@ -86,12 +86,10 @@ pub(super) fn candidates(
         }
     }
     // Rows and boxes go to each other at once; other shapes, which go through a row, may be pushed in place.
-    let rows = from.is_box() && to.is_box();
-    if wanted == Method::Push || (wanted == Method::Auto && !rows) {
+    if wanted == Method::Push || (wanted == Method::Auto && !boxes) {
         let known = found.iter().map(|candidate| candidate.motion.duration()).reduce(f64::min);
-        if let Some(motion) = push(limits, from, to, known.unwrap_or(f64::INFINITY))? {
-            found.push(Candidate { method: Method::Push, motion });
-        }
+        let pushed = pushed(limits, from, to, known.unwrap_or(f64::INFINITY))?;
+        found.extend(pushed.map(|motion| Candidate { method: Method::Push, motion }));
     }
     let melts = wanted == Method::Melt || (wanted == Method::Auto && found.is_empty());
     if melts && shrinks_to_half && from.positions.len() <= MELT_MAX {
@@ -105,6 +103,73 @@ pub(super) fn candidates(
 /// The greatest number of cells of a shape for which [`melt`] is tried: each cell takes some stages, in each of which
 /// all cells move a little.
 pub(super) const MELT_MAX: usize = 400;
+
+/// The greatest number of cells of a row that is piled up before it is pushed into shape.
+const PILE_MAX: u64 = 4096;
+
+/// Returns the fastest motion by pushes that is found and takes less than `limit`, in units of time; a row is piled up
+/// first if that is faster.
+fn pushed(limits: PlanLimits, from: &Shape, to: &Shape, limit: f64) -> Result<Option<Motion>, Refusal> {
+    let numbers: Vec<u64> = (0..from.count()).collect();
+    let direct = push(limits, (from, to), &numbers, limit)?;
+    let limit = direct.as_ref().map_or(limit, Motion::duration).min(limit);
+    let (row, other, backwards) = match [from, to].map(|shape| (0..3).find(|&axis| shape.is_row_along(axis)))
+    {
+        [Some(axis), _] => (axis, to, false),
+        [None, Some(axis)] => (axis, from, true),
+        _ => return Ok(direct),
+    };
+    if from.count() > PILE_MAX {
+        return Ok(direct);
+    }
+    let piled = piled(limits, row, other, limit)?;
+    Ok(piled.map(|motion| if backwards { motion.reversed() } else { motion }).or(direct))
+}
+
+/// Returns the fastest motion of less than `limit` units of time from the row along an axis over a pile, about as long
+/// and wide as the shape, to the shape.
+fn piled(limits: PlanLimits, axis: usize, to: &Shape, mut limit: f64) -> Result<Option<Motion>, Refusal> {
+    let count = to.count();
+    let mut best = None;
+    for (x, z) in [((axis + 1) % 3, (axis + 2) % 3), ((axis + 2) % 3, (axis + 1) % 3)] {
+        // The sides of the shape, each as much smaller as makes their box hold as many cells as there are.
+        let flat = (0..3).filter(|&axis| to.sides[axis] > 1).count() as f64;
+        let volume: f64 = to.sides.iter().map(|&side| side as f64).product();
+        let scale = libm::pow(count as f64 / volume, 1.0 / flat.max(1.0));
+        let side = |k: usize| {
+            if to.sides[k] == 1 {
+                1
+            } else {
+                (libm::round(to.sides[k] as f64 * scale) as u64).clamp(1, count)
+            }
+        };
+        let sides = [side(x), side(z)];
+        let turn = [x, axis, z];
+        let unrolled = unroll_pile(limits, count, sides)?.turned(turn);
+        let mut piled: Vec<([i64; 3], u64)> = pile(count, sides)
+            .into_iter()
+            .zip(0..)
+            .map(|(site, number)| {
+                let mut place = site;
+                (0..3).for_each(|k| place[turn[k]] = site[k]);
+                (place, number)
+            })
+            .collect();
+        piled.sort_unstable();
+        let (places, numbers): (Vec<[i64; 3]>, Vec<u64>) = piled.into_iter().unzip();
+        let rest = limit - unrolled.duration();
+        if rest > 0.0
+            && let Some(pushed) = push(limits, (&Shape::of(&places), to), &numbers, rest)?
+        {
+            let motion = unrolled.reversed().then(pushed);
+            if motion.duration() < limit {
+                limit = motion.duration();
+                best = Some(motion);
+            }
+        }
+    }
+    Ok(best)
+}
 
 /// Returns true if the cells lie in a plane.
 fn flat_only(shape: &Shape) -> bool {

@@ -6,7 +6,7 @@
 //! `docs/planners/squeeze.md`.
 //!
 //! A problem is solved through a row: a motion from either shape to one row, the second backwards
-//! (`candidates`). All motions are built from configurations in closed form (`motion`); of those that the
+//! (`candidates`); or in place, where most cells stay (`push`). All motions are built from configurations in closed form (`motion`); of those that the
 //! model allows the fastest is taken (`selection`).
 //!
 //! ```
@@ -169,7 +169,7 @@ pub enum Refusal {
         /// The least size of a cell, as a fraction of its full size, without unit.
         smallest: Ratio,
     },
-    /// A shape is neither flat nor a box, and has too many cells to melt.
+    /// A shape is neither flat nor a box, has too many cells to melt, and no way by pushes was found.
     Solid {
         /// True if the start is such a shape; false if only the goal is.
         first: bool,
@@ -206,7 +206,7 @@ impl fmt::Display for Refusal {
                 f.write_str("the cells do not shrink to half their size, as this method needs")
             }
             Refusal::Solid { most, .. } => {
-                write!(f, "shapes in space of more than {most} cells are not taken to others")
+                write!(f, "no way is known between these shapes in space of more than {most} cells")
             }
             Refusal::Method { method } => {
                 let covered = match method {

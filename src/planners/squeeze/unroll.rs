@@ -3,6 +3,7 @@
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
+use super::listed::Listed;
 use super::motion::{Builder, Motion, PlanLimits};
 
 /// Returns the motion from a box with `sides` along x, y, z, in cells, all at least 1, to a row along y, in which cell
@@ -42,4 +43,33 @@ fn domains([a, b, c]: [u64; 3]) -> Vec<Domain> {
         Domain::new((layer * c + rod) * a, &counters)
     };
     parities.filter_map(domain).collect()
+}
+
+/// Returns the sites of a pile of `count` cells: of the box of the sides `[a, _, c]` along x and z as many cells as
+/// there are, in the order in which [`unroll_pile`] numbers them.
+pub(super) fn pile(count: u64, [a, c]: [u64; 2]) -> Vec<[i64; 3]> {
+    let turned = |place: u64, in_turn: u64, length: u64| {
+        if in_turn.is_multiple_of(2) { place } else { length - 1 - place }
+    };
+    let site = |i: u64| {
+        let (rod, layer) = (i / a, i / (a * c));
+        [turned(i % a, rod, a) as i64, layer as i64, turned(rod % c, layer, c) as i64]
+    };
+    (0..count).map(site).collect()
+}
+
+/// Returns the motion of [`unroll`] for a pile, whose last layer need not be full: to a row along y in which cell `i`
+/// is at site `i`. `limits`: the limits of the cells.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+pub(super) fn unroll_pile(limits: PlanLimits, count: u64, sides: [u64; 2]) -> Result<Motion, Refusal> {
+    let rod = |cell: usize| (cell as u64 / sides[0]) as i64;
+    let mut motion = Listed::new(pile(count, sides).into_iter().map(CellState::whole).collect());
+    let half = WHOLE / 2;
+    motion.stage("y-unfold", |cell, state| state.center[1] = WHOLE * rod(cell) + half);
+    motion.stage("z-slide", |_, state| state.center[2] = half);
+    motion.stage("y-unfold", |cell, state| state.center[1] = WHOLE * cell as i64 + half);
+    motion.stage("x-slide", |_, state| state.center[0] = half);
+    motion.into_motion(limits, &(0..count).collect::<Vec<u64>>())
 }

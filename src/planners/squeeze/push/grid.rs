@@ -62,7 +62,8 @@ impl Grid {
 
     /// Returns the increment of a site's number in a direction.
     pub(super) fn stride(&self, direction: Direction) -> isize {
-        let along = [1, self.sides[0], self.sides[0] * self.sides[1]][usize::from(axis_of(direction))] as isize;
+        let along =
+            [1, self.sides[0], self.sides[0] * self.sides[1]][usize::from(axis_of(direction))] as isize;
         if direction.is_multiple_of(2) { along } else { -along }
     }
 

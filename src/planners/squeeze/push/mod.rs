@@ -15,6 +15,7 @@ mod search;
 mod stage;
 
 use super::Refusal;
+use super::domain::{CellState, WHOLE};
 use super::listed::Listed;
 use super::motion::{Motion, PlanLimits};
 use super::shape::Shape;
@@ -25,24 +26,35 @@ use runs::Best;
 const STAGE: &str = "push";
 
 /// Returns a motion from one shape to another in which lines of cells are pushed; `None` if none is found that takes
-/// less than `time_limit` (in units of time, for cells whose speed limit is 1).
+/// less than `time_limit` (in units of time, for cells whose speed limit is 1). `numbers`: the number of the cell at
+/// each position of the first shape.
 ///
 /// # Errors
 /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
 pub(super) fn push(
     limits: PlanLimits,
-    from: &Shape,
-    to: &Shape,
+    (from, to): (&Shape, &Shape),
+    numbers: &[u64],
     time_limit: f64,
 ) -> Result<Option<Motion>, Refusal> {
     let squeezes = limits.cell.smallest.order(Ratio(1, 2)).is_le();
-    let Some(Best { grid, found }) = runs::best(from, to, squeezes, time_limit) else { return Ok(None) };
+    let Some(Best { grid, found, backwards }) = runs::best(from, to, squeezes, time_limit) else {
+        return Ok(None);
+    };
     let count = from.positions.len();
-    let mut states = found.states.iter().map(|state| state.states(&grid, count));
-    let Some(start) = states.next() else { return Ok(None) };
-    let mut motion = Listed::new(start);
-    for state in states {
+    let states: Vec<Vec<CellState>> = found.states.iter().map(|state| state.states(&grid, count)).collect();
+    let (Some(start), Some(end)) = (states.first(), states.last()) else { return Ok(None) };
+    // A way backwards numbers its cells by the goal; where they end says which they are.
+    let first = if backwards { end } else { start };
+    let site = |state: &CellState| state.center.map(|x| x.div_euclid(WHOLE));
+    let number = |state: &CellState| from.positions.binary_search(&site(state)).ok().map(|at| numbers[at]);
+    let Some(numbers) = first.iter().map(number).collect::<Option<Vec<u64>>>() else {
+        return Err(Refusal::Defect("a push does not begin at its start".into()));
+    };
+    let mut motion = Listed::new(start.clone());
+    for state in &states[1..] {
         motion.stage(STAGE, |cell, at| *at = state[cell]);
     }
-    motion.into_motion(limits, &(0..from.count()).collect::<Vec<u64>>()).map(Some)
+    let motion = motion.into_motion(limits, &numbers)?;
+    Ok(Some(if backwards { motion.reversed() } else { motion }))
 }

@@ -16,13 +16,13 @@ const OVERLAYS: usize = 8;
 const BEST_OVERLAYS: usize = 3;
 
 /// The greatest number of runs.
-const RUNS_MAX: usize = 200;
+const RUNS_MAX: usize = 400;
 
 /// The work after which no further run begins, in visits of sites.
-const WORK_BETTER: u64 = 60_000_000;
+const WORK_BETTER: u64 = 200_000_000;
 
 /// The work after which a run ends while nothing is found.
-const WORK_FIRST: u64 = 6_000_000_000;
+const WORK_FIRST: u64 = 3_000_000_000;
 
 /// The best way that was found, on its grid.
 pub(super) struct Best {
@@ -30,6 +30,8 @@ pub(super) struct Best {
     pub(super) grid: Grid,
     /// The way.
     pub(super) found: Found,
+    /// True if the way leads from the goal to the start.
+    pub(super) backwards: bool,
 }
 
 /// Returns the fastest of many ways from one shape to another; `None` if none is found that takes less than
@@ -54,13 +56,17 @@ pub(super) fn best(from: &Shape, to: &Shape, squeezes: bool, time_limit: f64) ->
             to.positions.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + overlay[axis])).collect();
         let grid = Grid::around(from.positions.iter().chain(&goal))?;
         let sites = |places: &[[i64; 3]]| places.iter().map(|p| grid.site(*p)).collect::<Vec<usize>>();
-        let (start, goal) = (sites(&from.positions), sites(&goal));
+        let (mut start, mut goal) = (sites(&from.positions), sites(&goal));
+        let backwards = random.below(2) == 1;
+        if backwards {
+            std::mem::swap(&mut start, &mut goal);
+        }
         let mut search = Search::new(&grid, &start, &goal, squeezes, &mut random);
         let found = search.run(least, WORK_FIRST);
         work += search.work();
         if let Some(found) = found {
             times.push((found.time, overlay));
-            best = Some(Best { grid, found });
+            best = Some(Best { grid, found, backwards });
         }
     }
     best
@@ -80,7 +86,8 @@ fn overlays(from: &Shape, to: &Shape) -> Vec<[i64; 3]> {
             *shared.entry([0, 1, 2].map(|axis| a[axis] - b[axis])).or_default() += 1;
         }
     }
-    let mut ranked: Vec<(usize, [i64; 3])> = shared.into_iter().map(|(overlay, count)| (count, overlay)).collect();
+    let mut ranked: Vec<(usize, [i64; 3])> =
+        shared.into_iter().map(|(overlay, count)| (count, overlay)).collect();
     ranked.sort_by_key(|&(count, overlay)| (std::cmp::Reverse(count), overlay));
     ranked.into_iter().take(OVERLAYS).map(|(_, overlay)| overlay).collect()
 }

@@ -307,9 +307,7 @@ impl<'a> Search<'a> {
             while self.boxes.is_filled(from) && self.stage.is_still(from) {
                 let left = self.routes.distance(from);
                 let double = self.boxes.is_double(from);
-                if left < reach
-                    && (!double || (left == 0 && self.boxes.is_split_along(from, direction)))
-                {
+                if left < reach && (!double || (left == 0 && self.boxes.is_split_along(from, direction))) {
                     lines.push((left, self.random.next_u64(), from, direction));
                 }
                 if double {
@@ -330,7 +328,11 @@ impl<'a> Search<'a> {
         let supply: Vec<usize> =
             tasks.supply.iter().copied().filter(|&site| self.boxes.is_double(site) == wanted).collect();
         let near = |search: &Search, site: usize| {
-            DIRECTIONS.into_iter().map(|d| search.routes.distance(search.grid.next(site, d))).min().unwrap_or(0)
+            DIRECTIONS
+                .into_iter()
+                .map(|d| search.routes.distance(search.grid.next(site, d)))
+                .min()
+                .unwrap_or(0)
         };
         let order = self.ordered(&supply, self.style.surplus, near);
         let mut stale = false;
