@@ -2349,7 +2349,7 @@ extern fn fold(
   inertia: lamina | prism | point = lamina,
   gravity: off | on = off,
   count: moving | all = moving,
-  sequence: leaves_first | root_first | least_work | least_energy = leaves_first,
+  sequence: auto | leaves_first | root_first | least_work | least_energy = auto,
   passive: List<Int> = [],
   passive_module: Module?,
   hinge_radius: Length?,
