@@ -10,21 +10,14 @@ use super::kinematics::about;
 use super::layout::Layout;
 use super::target::Target;
 use super::weights::QUINTIC;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 
 /// A line of a hinge: a point of it, m, and its unit vector.
 #[derive(Clone, Copy)]
-pub(super) struct Line {
+struct Line {
     point: Vec3,
     axis: Vec3,
-}
-
-impl Line {
-    /// Returns the line after a displacement.
-    pub(super) fn displaced(&self, pose: &Pose) -> Line {
-        Line { point: pose.transform_point(&self.point.into()).coords, axis: pose.rotation * self.axis }
-    }
 }
 
 /// The faces of a target as rigid bodies, and its hinges as lines, for the moments that hinges carry.
@@ -61,19 +54,8 @@ impl<'t> CarriedMoments<'t> {
         }
     }
 
-    /// Returns the line of a hinge (an index in [`Target::hinges`]) in the target.
-    pub(super) fn line(&self, hinge: usize) -> Line {
-        self.lines[hinge]
-    }
-
-    /// Returns the mean torque of a hinge (an index in [`Target::hinges`]) that carries the moment of inertia
-    /// `moment`, kg·m²; N·m for steps of one second.
-    pub(super) fn torque(&self, hinge: usize, moment: f64) -> f64 {
-        self.factors[hinge] * moment
-    }
-
     /// Returns the moment of inertia of a face about a line in the frame of the target, kg·m².
-    pub(super) fn moment(&self, face: usize, line: &Line) -> f64 {
+    fn moment(&self, face: usize, line: &Line) -> f64 {
         let body = &self.bodies[face];
         let arm = body.centre - line.point;
         let along = arm.dot(&line.axis);
