@@ -210,7 +210,8 @@ impl Task<'_> {
     /// Notes the roots that are known to be as good as that of the answer.
     fn set_ties(&self, search: &JointSearch, outcome: &Outcome, found: &mut Proposals) {
         let orbits = symmetry::orbits(self.target, &self.objective.weights);
-        let energy = self.value(&outcome.layout, &outcome.steps) * self.conventions.step.powi(2);
+        let by_square = self.conventions.step * self.conventions.step;
+        let energy = self.value(&outcome.layout, &outcome.steps) * by_square;
         let mut tied: Vec<usize> = vec![orbits[outcome.layout.root]];
         let as_good = |kept: &&OrderedLayout| kept.energy <= energy * (1.0 + TOLERANCES.tie);
         tied.extend(search.kept.iter().filter(as_good).map(|kept| orbits[kept.layout.root]));

@@ -69,6 +69,16 @@ pub(super) fn leaves_first(layout: &Layout) -> Vec<usize> {
     ranks(&steps::leaves_first(layout).concat(), layout.parent.len())
 }
 
+/// A face that goes to another place among the faces above and below it.
+struct Move {
+    /// The change of the energy, N·m for steps of one second.
+    change: f64,
+    /// The number of these faces that fold before it then.
+    place: usize,
+    /// The faces whose hinges carry something else, with their new mean torques, N·m for steps of one second.
+    changed: Vec<(usize, f64)>,
+}
+
 struct Descent<'d> {
     moments: &'d CarriedMoments<'d>,
     layout: &'d Layout,
@@ -102,7 +112,7 @@ impl Descent<'_> {
     fn moves(&mut self, face: usize, steps: &mut u64) -> bool {
         let others = self.comparable(face);
         let own = others.partition_point(|other| self.rank[*other] < self.rank[face]);
-        let mut best: Option<(f64, usize, Vec<(usize, f64)>)> = None;
+        let mut best: Option<Move> = None;
         for later in [true, false] {
             // The face passes one other after the other; `changed` are the hinges passed that carry something else.
             let mut changed: Vec<(usize, f64)> = Vec::new();
@@ -123,15 +133,15 @@ impl Descent<'_> {
                 let mean = self.moments.mean(self.layout, &self.children, face, folded, &mut visited);
                 *steps = steps.saturating_sub(visited);
                 let total = change + mean - self.means[face];
-                if total < -self.gain && best.as_ref().is_none_or(|(least, ..)| total < *least) {
+                if total < -self.gain && best.as_ref().is_none_or(|best| total < best.change) {
                     let mut changed = changed.clone();
                     changed.push((face, mean));
                     let place = if later { own + count + 1 } else { own - count - 1 };
-                    best = Some((total, place, changed));
+                    best = Some(Move { change: total, place, changed });
                 }
             }
         }
-        let Some((_, place, changed)) = best else { return false };
+        let Some(Move { place, changed, .. }) = best else { return false };
         changed.into_iter().for_each(|(other, mean)| self.means[other] = mean);
         // The places of all faces are counted anew, with this one between two of the others.
         let mut all: Vec<usize> = order(self.layout, &self.rank);
