@@ -2263,7 +2263,7 @@ extern type Folding is Plan {
   /// No folding that this one was chosen from has a lower peak torque, where that was minimised; else, none
   /// spends less energy, or none in as few steps, where these were minimised. Chosen from are all layouts that
   /// lie flat and pass the verifier, with the roots that the call allows: leaves first or root first, if `sequence`
-  /// asks for that and a layout passed so; else in any order. Never above the value of this one; 0 where no
+  /// asks for that, or stands for it, and a layout passed so; else in any order. Never above the value of this one; 0 where no
   /// bound is known.
   bound: Energy
   /// What the proof leaves open: the part of the energy, or of the peak torque, by which the bound is
@@ -2312,16 +2312,17 @@ extern type Folding is Plan {
 /// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
 /// next best layout is sought, then other orders are tried: `order` and `price` tell.
 ///
-/// `minimise` says what is to be small with the leaves folded first: the `energy`, the greatest torque,
-/// or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are
+/// `minimise` says what is to be small: the `energy`, over layouts and orders of folding together; or, with the
+/// leaves folded first, the greatest torque, or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are
 /// even triangles without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
 /// or the root lies on the ground with its outside down, which is then the plan's world. `count`: the
 /// torques of the joints that move, while the others are locked, or of `all`. Only with what stands
 /// first is there a closed form and a proof for large shapes; else every layout is simulated where they
 /// are few, and good ones are improved by exchanges where they are many.
 ///
-/// `sequence` is the order of folding: `leaves_first`, `root_first`, the one that lifts and lowers the
-/// least (`least_work`), or that of the least energy for this layout. The faces in `passive` have no
+/// `sequence` is the order of folding: sought together with the layout for the least energy (`auto`; where gravity,
+/// locked joints, torques or steps count, it is leaves first), `leaves_first`, `root_first`, the one that lifts
+/// and lowers the least (`least_work`), or that of the least energy for the layout that is best with the leaves first. The faces in `passive` have no
 /// motors and are made of `passive_module`; two of them share no hinge. With the radius of the hinges
 /// it is said which can't close as far as they should. `hinges` gives the layout, as pairs of faces;
 /// then it is folded so or not at all. `step` is how long each step takes; by default
@@ -2349,7 +2350,7 @@ extern fn fold(
   inertia: lamina | prism | point = lamina,
   gravity: off | on = off,
   count: moving | all = moving,
-  sequence: leaves_first | root_first | least_work | least_energy = leaves_first,
+  sequence: auto | leaves_first | root_first | least_work | least_energy = auto,
   passive: List<Int> = [],
   passive_module: Module?,
   hinge_radius: Length?,

@@ -94,6 +94,7 @@ impl Choice for Count {
 
 impl Choice for Sequence {
     const WORDS: &'static [(&'static str, Sequence)] = &[
+        ("auto", Sequence::Auto),
         ("leaves_first", Sequence::LeavesFirst),
         ("root_first", Sequence::RootFirst),
         ("least_work", Sequence::LeastWork),

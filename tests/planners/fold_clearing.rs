@@ -109,7 +109,7 @@ fn folded(shape: &str, rest: &str) -> Ran {
     let text = format!(
         "use std.mori.Panel
 use std.shapes.torus
-let ring = fold({shape}, module: Panel(thickness: 2mm){rest})
+let ring = fold({shape}, module: Panel(thickness: 2mm), sequence: leaves_first{rest})
 print(ring.energy >= ring.bound, ring.gap > 0, ring.gap < 1, ring.price > 1, ring.optimal)
 print(len(ring.layout.hinges), len(ring.layout.overlaps))
 emit(ring, \"ring.plan.json\")

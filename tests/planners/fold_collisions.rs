@@ -254,7 +254,7 @@ fn refused_steps_are_avoided() {
 fn the_stella_octangula_folds() {
     let text = "use std.mori.Mori
 use std.shapes.stella_octangula
-let star = fold(stella_octangula(edge: 80mm), module: Mori)
+let star = fold(stella_octangula(edge: 80mm), module: Mori, sequence: leaves_first)
 print(star.price)
 print(star.optimal)
 emit(star, \"star.plan.json\")

@@ -314,8 +314,13 @@ fn stated_bounds_hold_for_all_that_could_have_been_the_answer() {
     let (mut answers, mut optimal) = (0, 0);
     for case in 0..cases {
         let target = small.new_tree(&mut runner).expect("a shape").current();
-        let sequences =
-            [Sequence::LeavesFirst, Sequence::RootFirst, Sequence::LeastWork, Sequence::LeastEnergy];
+        let sequences = [
+            Sequence::Auto,
+            Sequence::LeavesFirst,
+            Sequence::RootFirst,
+            Sequence::LeastWork,
+            Sequence::LeastEnergy,
+        ];
         for (index, sequence) in sequences.into_iter().enumerate() {
             for (place, (gravity, count, minimise)) in circumstances().into_iter().enumerate() {
                 // Each shape in some of the ways, all ways among them.
@@ -334,4 +339,47 @@ fn stated_bounds_hold_for_all_that_could_have_been_the_answer() {
         }
     }
     assert!(answers >= 5 * cases && optimal >= cases, "{optimal} of {answers} proved");
+}
+
+/// No order, method or quantity that can be asked for leads to less energy than the default, which is no less than
+/// the least of every order of every layout, as is its bound.
+#[test]
+fn nothing_that_can_be_asked_for_spends_less_than_the_default() {
+    let cases = if whole() { 60 } else { 4 };
+    let shapes = small();
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let mut answers = 0;
+    for _ in 0..cases {
+        let target = shapes.new_tree(&mut runner).expect("a shape").current();
+        let plain = Settings { step: Some(6.0), ..Settings::default() };
+        let Some(free) = answer(&target, &plain, None, 0.0) else { continue };
+        answers += 1;
+        let energy = free.effort.energy;
+        let sequences =
+            [Sequence::LeavesFirst, Sequence::RootFirst, Sequence::LeastWork, Sequence::LeastEnergy];
+        for sequence in sequences {
+            for minimise in [Minimise::Energy, Minimise::PeakTorque, Minimise::Steps] {
+                let settings = Settings { sequence, minimise, ..plain };
+                if let Some(other) = answer(&target, &settings, None, 0.0) {
+                    let less = other.effort.energy;
+                    assert!(
+                        energy <= less * (1.0 + TOLERANCES.proof),
+                        "{sequence:?} {minimise:?}: {less} < {energy}"
+                    );
+                }
+            }
+        }
+        let mut least = f64::INFINITY;
+        for layout in every_layout(&target) {
+            let moments = Moments::new(&target, &layout, &free.masses);
+            for order in every_order(&layout) {
+                least = least.min(value(&moments.means(&target, &layout, &order), Minimise::Energy) / 36.0);
+            }
+        }
+        assert!(
+            energy >= least * (1.0 - ROUNDING) && free.bound <= least * (1.0 + ROUNDING),
+            "{energy} {least}"
+        );
+    }
+    assert!(answers >= cases / 2, "{answers} of {cases} shapes were folded");
 }

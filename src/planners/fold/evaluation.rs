@@ -32,8 +32,14 @@ const STRIP_STATES_MAX: usize = 1_500_000_000;
 
 /// The state of an evaluation of layouts one after the other: those that the judge let through, the first refusal, and
 /// the numbers of layouts sampled and judged.
-#[derive(Default)]
 pub(super) struct Candidates {
+    /// The order in which the layouts fold.
+    sequence: Sequence,
+    /// The minimised quantity from which on a layout is of no use, N·m or steps: the evaluation ends where one that is
+    /// not less folds without a collision in samples.
+    cutoff: f64,
+    /// True once a layout has ended the evaluation in that way.
+    is_cut_off: bool,
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
     /// The reason for which the first layout that the judge refused was refused; `None` while none was.
@@ -42,6 +48,22 @@ pub(super) struct Candidates {
     sampled: usize,
     /// The number of layouts put before the judge.
     judged: usize,
+}
+
+impl Candidates {
+    /// Returns the state before any layout was evaluated; `sequence`: the order in which they fold; `cutoff`: the
+    /// minimised quantity from which on a layout is of no use, N·m or steps.
+    pub(super) fn new(sequence: Sequence, cutoff: f64) -> Candidates {
+        Candidates {
+            sequence,
+            cutoff,
+            is_cut_off: false,
+            accepted: Vec::new(),
+            first: None,
+            sampled: 0,
+            judged: 0,
+        }
+    }
 }
 
 /// The best layout that the judge let through, with a lower bound for all layouts that it was chosen from.
@@ -77,7 +99,7 @@ impl Task<'_> {
                 Decision::Stop => break,
             }
         }
-        let next = self.next_best(candidates, found)?;
+        let next = if candidates.is_cut_off { None } else { self.next_best(candidates, found)? };
         Ok(next.map(|(outcome, bound)| self.chosen(outcome, found.bound.max(bound), found)))
     }
 
@@ -85,7 +107,7 @@ impl Task<'_> {
     fn chosen(&self, outcome: Outcome, bound: f64, found: &Proposals) -> Chosen {
         let in_order = |orders| self.objective.lower_bound(&self.roots, orders);
         let (bound, is_fewest) = match self.settings.sequence {
-            Sequence::LeavesFirst => (bound, found.is_gapless()),
+            Sequence::Auto | Sequence::LeavesFirst => (bound, found.is_gapless()),
             Sequence::RootFirst => (in_order(Orders::RootFirst), false),
             Sequence::LeastWork | Sequence::LeastEnergy => (in_order(Orders::Any), false),
         };
@@ -126,7 +148,7 @@ impl Task<'_> {
     /// Evaluates a layout in the order asked for: collision samples of thin panels spare the judge those that
     /// it would refuse; it decides on those that pass.
     fn evaluate(&self, candidates: &mut Candidates, layout: &Layout) -> Result<Decision, Refusal> {
-        let steps = self.steps(layout)?;
+        let steps = self.steps_in(layout, candidates.sequence)?;
         let faces = self.target.faces.len();
         let [sampled_max, judged_max] = [SAMPLED_PAIRS_MAX / (faces * faces), JUDGED_PANELS_MAX / faces]
             .map(|most| most.max(LAYOUTS_MIN));
@@ -143,6 +165,10 @@ impl Task<'_> {
         if let Some(Collision { step, faces }) = collision {
             candidates.first.get_or_insert(Rejection::Meet { faces, step });
             return Ok(Decision::Refuse);
+        }
+        if candidates.cutoff.is_finite() && self.value(layout, &steps) >= candidates.cutoff {
+            candidates.is_cut_off = true;
+            return Ok(Decision::Stop);
         }
         candidates.judged += 1;
         Ok(match self.judged(layout, &steps)? {

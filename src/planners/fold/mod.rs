@@ -42,6 +42,7 @@ pub mod edge_exchange;
 pub mod enumerate;
 mod frontier;
 pub mod heuristic;
+mod joint_search;
 pub mod lagrangian;
 pub mod local_search;
 mod peak_torque;
@@ -55,9 +56,11 @@ mod net;
 pub mod pattern;
 
 // Orders of folding.
+mod carried_moments;
 pub mod collision_free_order;
 pub mod energy_order;
 mod order_bounds;
+mod order_descent;
 pub mod random_orders;
 pub mod steps;
 pub mod work_order;
@@ -75,6 +78,7 @@ pub mod thickness;
 
 // From proposals to a plan that the judge lets through.
 mod evaluation;
+mod joint_choice;
 pub(crate) mod judgement;
 mod proposals;
 mod reordering;

@@ -58,9 +58,14 @@ pub fn plan(
     let task = Task::new(problem, settings, &observer)?;
     interrupt::start_task(format!("folding {} panels", task.target.faces.len()));
     // Layouts in order of their value, until the judge accepts one in the order asked for.
-    let found = task.proposals()?;
-    let mut candidates = Candidates::default();
-    if let Some(chosen) = task.best_accepted(&mut candidates, &found)? {
+    let mut found = task.proposals()?;
+    let mut candidates = Candidates::new(settings.sequence, f64::INFINITY);
+    let accepted = if task.is_joint() {
+        task.best_of_all_orders(&mut candidates, &mut found)?
+    } else {
+        task.best_accepted(&mut candidates, &found)?
+    };
+    if let Some(chosen) = accepted {
         return Ok(answer(&task, chosen, &found));
     }
     if problem.hinges.is_some() {

@@ -50,8 +50,11 @@ pub enum Method {
 /// The order in which the hinges of a layout fold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sequence {
-    /// Leaves first (Alg. 2 of [Yao et al.](super)): as many steps as the tree is high.
+    /// The order of least energy, sought together with the layout, where energy without gravity is minimised and moving
+    /// joints count, and leaves first where it is not.
     #[default]
+    Auto,
+    /// Leaves first (Alg. 2 of [Yao et al.](super)): as many steps as the tree is high.
     LeavesFirst,
     /// The root's children first, then theirs; as many steps as the tree is high.
     RootFirst,
@@ -82,7 +85,7 @@ pub struct Settings {
     pub method: Method,
     /// The quantity to minimise: energy, peak torque, or steps. Default [`Minimise::Energy`].
     pub minimise: Minimise,
-    /// The order of folding that is tried first. Default [`Sequence::LeavesFirst`].
+    /// The order of folding that is tried first. Default [`Sequence::Auto`].
     pub sequence: Sequence,
     /// The duration of each step, s; `None`, the default: the least that the limits of all hinges allow for the
     /// greatest fold angle.
@@ -109,7 +112,7 @@ impl Default for Settings {
         Settings {
             method: Method::Exact,
             minimise: Minimise::Energy,
-            sequence: Sequence::LeavesFirst,
+            sequence: Sequence::Auto,
             step: None,
             inertia: MassModel::Lamina,
             count: Count::Moving,

@@ -87,8 +87,17 @@ impl<'p> Task<'p> {
     /// [`Refusal::SequenceTooHigh`] if the settings ask for the order of least energy and the tree is higher than
     /// [`energy_order::HEIGHT_MAX`].
     pub(super) fn steps(&self, layout: &Layout) -> Result<Vec<Vec<usize>>, Refusal> {
-        Ok(match self.settings.sequence {
-            Sequence::LeavesFirst => steps::leaves_first(layout),
+        self.steps_in(layout, self.settings.sequence)
+    }
+
+    /// Returns the steps of a layout in the order that `sequence` names, as [`Task::steps`]; of [`Sequence::Auto`], with
+    /// the leaves first.
+    ///
+    /// # Errors
+    /// As for [`Task::steps`].
+    pub(super) fn steps_in(&self, layout: &Layout, sequence: Sequence) -> Result<Vec<Vec<usize>>, Refusal> {
+        Ok(match sequence {
+            Sequence::Auto | Sequence::LeavesFirst => steps::leaves_first(layout),
             Sequence::RootFirst => steps::root_first(layout),
             Sequence::LeastWork => {
                 steps::of_order(layout, &work_order::least_work(self.target, layout, &self.loads()).order)

@@ -103,7 +103,7 @@ print(fold(octahedron(edge: 80mm), module: Mori, step: 1s).layouts)
 --- every layout that ties is counted, and random orders are compared
 use std.mori.Mori
 use std.shapes.octahedron
-let all = fold(octahedron(edge: 80mm), module: Mori, method: enumerate)
+let all = fold(octahedron(edge: 80mm), module: Mori, method: enumerate, sequence: leaves_first)
 print(all.tied, all.ties, all.price, abs(all.energy / all.bound - 1) < 1e-6, all.fewest_steps, all.optimal)
 //> 192 [0, 1, 2, 3, 4, 5, 6, 7] 1 true 3 true
 let some = random_orders(all, orders: 200, seed: 3)
@@ -136,9 +136,30 @@ use std.shapes.quadruped18
 let quad = quadruped18(edge: 80mm)
 let work = fold(quad, module: Mori, sequence: least_work)
 let cheap = fold(quad, module: Mori, sequence: least_energy)
-let plain = fold(quad, module: Mori)
+let plain = fold(quad, module: Mori, sequence: leaves_first)
 print(work.lifting < plain.lifting, work.lifting >= work.lifting_bound, cheap.energy < plain.energy, cheap.optimal)
 //> true true true false
+
+--- no order with a name spends less than the layout and the order that are sought together
+use std.mori.Mori
+use std.shapes.{icosahedron, octahedron, quadruped18}
+let quad = quadruped18(edge: 80mm)
+let free = fold(quad, module: Mori, root: 8, step: 1s)
+print(verify(free).ok, free.bound <= free.energy, free.energy < fold(quad, module: Mori, root: 8, step: 1s, sequence: leaves_first).energy * 0.65)
+//> true true true
+let named = [
+  fold(quad, module: Mori, root: 8, step: 1s, sequence: leaves_first),
+  fold(quad, module: Mori, root: 8, step: 1s, sequence: root_first),
+  fold(quad, module: Mori, root: 8, step: 1s, sequence: least_work),
+  fold(quad, module: Mori, root: 8, step: 1s, sequence: least_energy),
+  fold(quad, module: Mori, root: 8, step: 1s, method: heuristic),
+  fold(quad, module: Mori, root: 8, step: 1s, method: enumerate),
+]
+print([free.energy <= other.energy * (1 + 1e-9) for other in named])
+//> [true, true, true, true, true, true]
+// What the orders for single layouts reached: 0.015134, 0.0112925 and 0.0134895 N*m.
+print(free.energy < 0.0151345J, fold(quad, module: Mori, step: 1s).energy < 0.0112930J, fold(icosahedron(edge: 80mm), module: Mori, step: 1s).energy < 0.0134900J)
+//> true true true
 
 --- passive panels, and hinges that are too thick
 use std.mori.Mori
@@ -272,7 +293,7 @@ let cheap = fold(quad, module: Mori, root: 8, sequence: least_energy)
 print(cheap.price < 1, cheap.bound > 0N*m, cheap.bound < cheap.energy, cheap.gap > 0, cheap.optimal)
 //> true true true true false
 // What the judge refuses is no part of the bound: the next best, which costs more, is proved.
-let next = fold(quad, module: Mori, root: 8)
+let next = fold(quad, module: Mori, root: 8, sequence: leaves_first)
 print(next.price > 1.1, next.bound < next.energy, abs(next.bound / next.energy - 1) < 4e-9, next.gap, next.optimal)
 //> true true true 0 true
 
@@ -296,7 +317,7 @@ print(abs(mass(Panel()) / mass(Mori()) - 1) < 1e-9, abs(mass(Panel(sides: [60mm,
 use std.mori.Panel
 use std.shapes.{geodesic, torus}
 let cap: List<Vec3<Length>> = [[0mm, 0mm, 60mm]] ++ [[(100mm + i * 10mm) * cos(60deg * i), 90mm * sin(60deg * i), 0mm] for i in 0..6]
-let open = fold(polyhedron(cap, [[0, i + 1, (i + 1) % 6 + 1] for i in 0..6]), module: Panel(thickness: 4mm))
+let open = fold(polyhedron(cap, [[0, i + 1, (i + 1) % 6 + 1] for i in 0..6]), module: Panel(thickness: 4mm), sequence: leaves_first)
 print(open.layouts, open.optimal, open.layout.overlaps, verify(open).ok, len(open.hinges))
 //> 6 true [] true 5
 // The best pattern of a torus overlaps.
@@ -304,7 +325,7 @@ let ring = fold(torus(radius: 300mm, tube: 150mm, around: 4, across: 4), module:
 print(ring.layout.panels, ring.layout.overlaps, ring.bound <= ring.energy, ring.optimal, ring.price > 1.05, verify(ring).ok)
 //> 32 [] true false true true
 // Passive ones are made to measure, too.
-let light = fold(polyhedron(cap, [[0, i + 1, (i + 1) % 6 + 1] for i in 0..6]), module: Panel, passive: [1, 3], passive_module: Panel(motors: 1g))
+let light = fold(polyhedron(cap, [[0, i + 1, (i + 1) % 6 + 1] for i in 0..6]), module: Panel, passive: [1, 3], passive_module: Panel(motors: 1g), sequence: leaves_first)
 print(mass(open.robot) - mass(light.robot) > 10g, light.optimal)
 //> true true
 
