@@ -3,7 +3,7 @@
 use super::Native;
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
-use crate::interpret::design::{Design, Instance};
+use crate::interpret::design::{Design, Instance, shorten};
 use crate::interpret::evaluator_thread::HostProxy;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -400,9 +400,18 @@ fn invalid_start(at: Span, robot: &Robot, invalid: &InvalidStart) -> Stop {
             let message = format!("the robot is in pieces: {} hangs on nothing", name(*module));
             fault(code::NO_WAY, at, message, "not in one piece")
         }
-        InvalidStart::Overlap { modules: [a, b], .. } => {
+        InvalidStart::Overlap { modules: [a, b], bonds, .. } => {
             let message = format!("{} and {} are in each other before anything moves", name(*a), name(*b));
-            fault(code::NO_WAY, at, message, "starts with a collision")
+            let ends = |bond: &usize| {
+                let bond = robot.assembly.bonds[*bond];
+                let [a, b] = [bond.a, bond.b].map(|port| robot.assembly.port_name(port));
+                format!("{a} -- {b}")
+            };
+            let bonds: Vec<String> = bonds.iter().map(ends).collect();
+            Diagnostic::error(code::NO_WAY, message)
+                .label(at, "starts with a collision")
+                .hint(format!("the connections between them put them there: {}", shorten(&bonds)))
+                .into()
         }
     }
 }

@@ -18,6 +18,7 @@ pub mod refold;
 pub mod squeeze;
 pub mod surroundings;
 pub mod tosnake;
+pub mod tosnake_contradictions;
 pub mod tosnake_detour;
 pub mod tosnake_near;
 pub mod tosnake_search;
