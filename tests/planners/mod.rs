@@ -14,6 +14,7 @@ pub mod goals;
 pub mod locomotion;
 pub mod morphing;
 pub mod planar_path;
+pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;
 pub mod surroundings;
