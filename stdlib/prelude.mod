@@ -2486,7 +2486,7 @@ extern fn squeeze(
   norm: each_axis | euclidean = each_axis,
 ) -> Squeezing
 
-/// What `tosnake` and `reconfigure` found.
+/// What `tosnake` found.
 extern type Unwinding is Plan {
   /// How many connections are made on the way.
   docks: Int
@@ -2536,17 +2536,41 @@ extern fn tosnake(
   collisions: motion | none | detection | avoidance = motion,
 ) -> Unwinding
 
-/// Turns one robot of RoFI modules into another of as many modules: both unwind to a snake, and the
-/// second way is taken backwards. Options are those of `tosnake`, for either way.
+/// What `reconfigure` found.
+extern type Reconfiguration is Plan {
+  /// How many connections are made on the way.
+  docks: Int
+  /// How many connections are let go on the way.
+  undocks: Int
+  /// No plan makes and lets go of fewer connections together, whichever module becomes which.
+  fewest_changes: Int
+  /// How far all joints turn, together.
+  joint_travel: Angle
+  /// `direct`, `snake`, or `turning` where the connections are the same.
+  way: Text
+  /// Why this way was taken.
+  why: Text
+  /// How many pairs of docks were tried.
+  tried: Int
+  /// How many poses of the robot the searches worked out.
+  work: Int
+}
+
+/// Turns one robot of RoFI modules into another of as many modules. Options are those of `tosnake`.
+///
+/// There are two ways, and the one that takes less time is taken. Directly, connections that both have stay, and the
+/// others are exchanged one after the other: two docks are brought together, and another connection of the loop that this
+/// closes is let go. Through the snake, both unwind as by `tosnake`, and the second way is taken backwards. With gravity,
+/// or with the paper's own method, it is always the snake.
 ///
 /// The result ends as the second robot, with the first one's modules in its places. A way to the snake is
-/// looked for once in a run: for n robots n searches make all reconfigurations.
+/// looked for once in a run.
 ///
 /// Example:
 /// ```modl
-/// use std.rofi.{Snake, Ring}
-/// let p = reconfigure(Snake(n: 8), Ring(n: 8))
-/// print(p.docks, p.undocks, verify(p).ok)
+/// use std.rofi.{Spider, Crab}
+/// let p = reconfigure(Spider(), Crab())
+/// print(p.docks, p.undocks, p.why, verify(p).ok)
 /// ```
 extern fn reconfigure(
   from: Config,
@@ -2556,7 +2580,7 @@ extern fn reconfigure(
   budget: Int = 5_000_000,
   timeout: Time?,
   collisions: motion | none | detection | avoidance = motion,
-) -> Unwinding
+) -> Reconfiguration
 
 /// What `morph` found.
 extern type Morphing is Plan {

@@ -110,7 +110,12 @@ const SUBJECTS: &[Subject] = &[
     },
     Subject {
         natives: tosnake::TABLE,
-        records: || vec![("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names())],
+        records: || {
+            vec![
+                ("Unwinding", <crate::planners::tosnake::Report as ReportFields>::names()),
+                ("Reconfiguration", <crate::planners::reconfigure::Report as ReportFields>::names()),
+            ]
+        },
     },
     Subject { natives: truss::TABLE, records: truss::records },
 ];

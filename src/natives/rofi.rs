@@ -11,10 +11,11 @@ use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::{Value, arguments_key};
 use crate::planners::tosnake::conversion::{from_world, to_world};
 use crate::planners::tosnake::random_configuration::random_configuration;
-use crate::planners::tosnake::validation::repair;
+use crate::planners::tosnake::repair::{Unrepairable, repair};
+use crate::planners::tosnake::{InvalidStart, TOLERANCES};
 use crate::robot::rofi::{self, Dock, Edge, Module, World};
 use crate::robot::rofi_json;
-use crate::robot::{JointOwner, Residual};
+use crate::robot::{JointOwner, ModuleType, Residual};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -28,10 +29,6 @@ pub(super) const TABLE: &[Native] = &[
 
 /// The file of the library that declares the module.
 const LIBRARY: &str = "std/rofi.mod";
-
-/// The greatest error of a closed loop, in parts of the pitch and in rad: RoFI's tools take a loop for closed
-/// when no entry of its matrices is farther off.
-const CLOSURE_MAX: f64 = 1e-3;
 
 /// The joints of a module in the order of the files.
 const JOINTS: [&str; 3] = ["alpha", "beta", "gamma"];
@@ -119,7 +116,14 @@ fn made(
 ) -> Eval<Value> {
     check_count(interpreter, call, world.modules.len())?;
     let Some(module) = interpreter.default_design(kind)? else { return Ok(Value::Unknown) };
-    contradictions_last(&mut world);
+    let repaired = repair(&mut from_world(&world));
+    if let Ok(open) = &repaired
+        && !open.is_empty()
+    {
+        let pitch = pitch(&module.module_type(0));
+        let left_out: Vec<_> = open.iter().map(|open| (open.bond, open.gap * pitch)).collect();
+        leave_out(interpreter, &mut world, &left_out, call, path);
+    }
     let design = loop {
         let design = Rc::new(Design {
             def: loaded,
@@ -132,19 +136,52 @@ fn made(
         if open.is_empty() {
             break design;
         }
-        leave_out(interpreter, &mut world, &open, call, path);
+        if let Err(unrepairable) = &repaired {
+            none_is_free(interpreter, &world, unrepairable, call, path);
+        }
+        let left_out: Vec<_> = open.iter().map(|open| (open.bond, open.distance)).collect();
+        leave_out(interpreter, &mut world, &left_out, call, path);
     };
     interpreter.memory.designs[loaded.0 as usize].push(arguments_key(&design.args), design.clone());
     Ok(instance(interpreter, &design))
 }
 
-/// Moves connections that would put modules into each other after the others: of connections that contradict each
-/// other the first counts.
-fn contradictions_last(world: &mut World) {
-    let Ok(open) = repair(&mut from_world(world)) else { return };
-    let edges = std::mem::take(&mut world.edges).into_iter().enumerate();
-    let (last, first): (Vec<_>, Vec<_>) = edges.partition(|(index, _)| open.contains(index));
-    world.edges = first.into_iter().chain(last).map(|(_, edge)| edge).collect();
+/// Warns that modules overlap in all choices of the connections that contradict each other, with the connections that
+/// force it; `world` has all connections yet.
+fn none_is_free(
+    interpreter: &mut Interpreter,
+    world: &World,
+    unrepairable: &Unrepairable,
+    call: &Call,
+    path: &str,
+) {
+    let Unrepairable { reason, tried, complete, forced } = unrepairable;
+    let InvalidStart::Overlap { modules, bonds, .. } = reason else { return };
+    let [a, b] = modules.map(|module| world.modules[module].id);
+    let lines: Vec<String> = bonds.iter().map(|&bond| world.edges[bond].line.to_string()).collect();
+    let lines = crate::interpret::design::shorten(&lines);
+    let message = format!(
+        "`{path}`: connections contradict each other, and modules are in each other {}",
+        match complete {
+            true => "whichever of them are left out".to_owned(),
+            false => format!("in {tried} choices of which are left out"),
+        }
+    );
+    let by = if bonds.len() == 1 { "the connection of line" } else { "the connections of lines" };
+    let label = match forced {
+        true => format!("{by} {lines} put modules {a} and {b} into each other in any case"),
+        false => format!("nearest to free: {by} {lines} put modules {a} and {b} into each other"),
+    };
+    interpreter.add_report(
+        Diagnostic::warning(code::OPEN_LOOP, message).label(origin(call), label).hint(
+            "no motion can be planned from there: one of these connections, or a joint, has to be mended",
+        ),
+    );
+}
+
+/// Returns the pitch of the library's module, m.
+fn pitch(kind: &ModuleType) -> f64 {
+    kind.ports[0].pose.translation.vector.norm() * 2.0
 }
 
 fn instance(interpreter: &mut Interpreter, design: &Rc<Design>) -> Value {
@@ -224,16 +261,22 @@ fn open_loops(
         let what = format!("module {id} does not hang together with module {}", world.modules[0].id);
         return Err(faulty(call, path, *line, 1, &what));
     }
-    let pitch = robot.assembly.module_type(0).ports[0].pose.translation.vector.norm() * 2.0;
-    let open = |r: &Residual| r.distance > CLOSURE_MAX * pitch || r.angle > CLOSURE_MAX;
+    let pitch = pitch(robot.assembly.module_type(0));
+    let open = |r: &Residual| r.distance > TOLERANCES.closure * pitch || r.angle > TOLERANCES.closure;
     Ok(robot.residuals().into_iter().filter(open).collect())
 }
 
-/// Removes the connections `open`, whose docks do not meet, and warns of them: RoFI's own tangler writes such
-/// lines.
-fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual], call: &Call, path: &str) {
-    let lines: Vec<String> = open.iter().map(|r| world.edges[r.bond].line.to_string()).collect();
-    let worst = open.iter().map(|r| r.distance).fold(0.0, f64::max);
+/// Removes connections whose docks do not meet, given by their indices with the distances of their docks (m), and warns
+/// of them: RoFI's own tangler writes such lines.
+fn leave_out(
+    interpreter: &mut Interpreter,
+    world: &mut World,
+    open: &[(usize, f64)],
+    call: &Call,
+    path: &str,
+) {
+    let lines: Vec<String> = open.iter().map(|(bond, _)| world.edges[*bond].line.to_string()).collect();
+    let worst = open.iter().map(|(_, distance)| *distance).fold(0.0, f64::max);
     let message = format!(
         "`{path}`: {} that the docks of line {} do not meet: up to {} are missing",
         if open.len() == 1 { "a connection was left out, for" } else { "connections were left out, for" },
@@ -243,12 +286,15 @@ fn leave_out(interpreter: &mut Interpreter, world: &mut World, open: &[Residual]
     interpreter.add_report(
         Diagnostic::warning(code::OPEN_LOOP, message)
             .label(origin(call), "the modules hang together without them")
-            .hint("the other connections decide where the modules are, from the lowest id outwards"),
+            .hint(
+                "the other connections decide where the modules are, from the lowest id outwards; of several ways the \
+                 first in which no module is in another counts",
+            ),
     );
     let mut index = 0;
     world.edges.retain(|_| {
         index += 1;
-        open.iter().all(|r| r.bond != index - 1)
+        open.iter().all(|(bond, _)| *bond != index - 1)
     });
 }
 

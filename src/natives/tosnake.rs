@@ -3,7 +3,7 @@
 use super::Native;
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
-use crate::interpret::design::{Design, Instance};
+use crate::interpret::design::{Design, Instance, shorten};
 use crate::interpret::evaluator_thread::HostProxy;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -15,12 +15,13 @@ use crate::interpret::value::Value;
 use crate::interpret::verdicts::failure_line;
 use crate::interrupt;
 use crate::plan::{Body, Ground, Plan, Program, World};
+use crate::planners::reconfigure::{self, Way};
 use crate::planners::tosnake::conversion::{JOINTS, port_name};
 use crate::planners::tosnake::{
     self, Collisions, Dock, InvalidStart, NotRofi, Operation, Overload, Refusal, Report, SearchStatus,
     Settings, TOLERANCES,
 };
-use crate::planners::{Progress, Solution, reconfigure};
+use crate::planners::{Progress, Solution};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -39,6 +40,49 @@ impl ReportFields for Report {
         ("tried", |_, _, report| Value::count(report.tried as usize)),
         ("work", |_, _, report| Value::count(report.work as usize)),
     ];
+}
+
+impl ReportFields for reconfigure::Report {
+    const FIELDS: &'static [ReportField<reconfigure::Report>] = &[
+        ("docks", |_, _, report| Value::count(report.both.docks)),
+        ("undocks", |_, _, report| Value::count(report.both.undocks)),
+        ("fewest_changes", |_, _, report| Value::count(report.fewest_changes)),
+        ("joint_travel", |_, _, report| Value::Quantity(report.both.joint_travel, Dimension::ANGLE)),
+        ("way", |_, _, report| Value::text(way_name(&report.way))),
+        ("why", |_, _, report| Value::text(why(&report.way))),
+        ("tried", |_, _, report| Value::count(report.both.tried as usize)),
+        ("work", |_, _, report| Value::count(report.both.work as usize)),
+    ];
+}
+
+fn way_name(way: &Way) -> &'static str {
+    match way {
+        Way::Snake { .. } => "snake",
+        Way::Direct { .. } => "direct",
+        Way::Turning => "turning",
+    }
+}
+
+/// Returns the reason for a way, in words.
+fn why(way: &Way) -> String {
+    let seconds = |duration: f64| quantity(duration, Dimension::TIME);
+    match way {
+        Way::Snake { direct: None } => "through the snake: no direct way was found".into(),
+        Way::Snake { direct: Some(direct) } => {
+            format!("through the snake: the direct way takes {}", seconds(*direct))
+        }
+        Way::Direct { kept, snake } => {
+            let stay =
+                if *kept == 1 { "1 connection stays".into() } else { format!("{kept} connections stay") };
+            match snake {
+                Some(snake) => {
+                    format!("direct: {stay}, and the way through the snake takes {}", seconds(*snake))
+                }
+                None => format!("direct: {stay}, and no way through the snake was found"),
+            }
+        }
+        Way::Turning => "the connections are the same: joints turn alone".into(),
+    }
 }
 
 arguments! {
@@ -243,7 +287,7 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     judged(interpreter, call, planned, &options)
 }
 
-/// Runs `reconfigure`: unwinds both robots, and joins the first motion with the reverse of the second.
+/// Runs `reconfigure`.
 fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let ReconfigureArguments { from, to, search } = ReconfigureArguments::read(call)?;
     let options = Options::of(interpreter, call, &search)?;
@@ -255,7 +299,8 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
     let Some(to) = Subject::of(interpreter, call, "to", to)? else { return Ok(Value::Unknown) };
     let causes = interpreter.planner_causes(call.span);
     let judge = interpreter.judge_settings();
-    let settings = reconfigure::Settings { search: options.settings(interpreter), judge };
+    let search = options.settings(interpreter);
+    let settings = reconfigure::Settings { search, judge, ..reconfigure::Settings::default() };
     let mut observer = Observer::new(interpreter, &options);
     let problem =
         reconfigure::Problem { from: from.configuration(), to: to.configuration(), world: options.world };
@@ -271,16 +316,16 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
         other => no_reconfiguration(call, &other),
     })?;
     let mut plan = options.plan(interpreter, "reconfigure", (body, program), &from.robot, &causes);
-    plan.provenance.history = report.history;
+    plan.provenance.history = report.history.clone();
     plan.provenance.shapes = Some((from.design.name.to_string(), to.design.name.to_string()));
     // Either half has a cause of its own; both are this call.
     plan.causes.extend_from_within(..);
     let ids = causes.ids.repeat(2);
     let planned = PlanValue::new(from.design, Some(from.robot), plan, ids, report.both.actions);
-    if let Some(verdict) = report.verdict {
-        planned.remember_verdict(verdict);
+    if let Some(verdict) = &report.verdict {
+        planned.remember_verdict(verdict.clone());
     }
-    judged(interpreter, call, planned.with_report(report.both), &options)
+    judged(interpreter, call, planned.with_report(report), &options)
 }
 
 fn module_counts_differ(call: &Call, from: usize, to: usize) -> Stop {
@@ -400,9 +445,18 @@ fn invalid_start(at: Span, robot: &Robot, invalid: &InvalidStart) -> Stop {
             let message = format!("the robot is in pieces: {} hangs on nothing", name(*module));
             fault(code::NO_WAY, at, message, "not in one piece")
         }
-        InvalidStart::Overlap { modules: [a, b], .. } => {
+        InvalidStart::Overlap { modules: [a, b], bonds, .. } => {
             let message = format!("{} and {} are in each other before anything moves", name(*a), name(*b));
-            fault(code::NO_WAY, at, message, "starts with a collision")
+            let ends = |bond: &usize| {
+                let bond = robot.assembly.bonds[*bond];
+                let [a, b] = [bond.a, bond.b].map(|port| robot.assembly.port_name(port));
+                format!("{a} -- {b}")
+            };
+            let bonds: Vec<String> = bonds.iter().map(ends).collect();
+            Diagnostic::error(code::NO_WAY, message)
+                .label(at, "starts with a collision")
+                .hint(format!("the connections between them put them there: {}", shorten(&bonds)))
+                .into()
         }
     }
 }

@@ -204,28 +204,32 @@ impl<'a> Replay<'a> {
     }
 }
 
-fn across(alpha: f64, beta: f64, gamma: f64) -> Matrix {
+/// From shoe A to shoe B of a module, in pitches; angles in rad.
+pub fn across(alpha: f64, beta: f64, gamma: f64) -> Matrix {
     let half = [[-1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
     let first = times(&about_x(alpha), &about_z(gamma));
     times(&times(&first, &shift(1.0)), &times(&half, &about_x(-beta)))
 }
 
-fn about_x(angle: f64) -> Matrix {
+/// A turn about x, rad.
+pub fn about_x(angle: f64) -> Matrix {
     let (s, c) = libm::sincos(angle);
     [[1.0, 0.0, 0.0, 0.0], [0.0, c, -s, 0.0], [0.0, s, c, 0.0], [0.0, 0.0, 0.0, 1.0]]
 }
 
-fn about_z(angle: f64) -> Matrix {
+/// A turn about z, rad.
+pub fn about_z(angle: f64) -> Matrix {
     let (s, c) = libm::sincos(angle);
     [[c, -s, 0.0, 0.0], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 }
 
-fn shift(z: f64) -> Matrix {
+/// A shift along z, in pitches.
+pub fn shift(z: f64) -> Matrix {
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, z], [0.0, 0.0, 0.0, 1.0]]
 }
 
 /// RoFI's frame of a dock.
-fn face(name: &str) -> Matrix {
+pub fn face(name: &str) -> Matrix {
     match name {
         "plus_x" => {
             [[0.0, 0.0, -1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [-1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
@@ -237,12 +241,14 @@ fn face(name: &str) -> Matrix {
     }
 }
 
-fn times(a: &Matrix, b: &Matrix) -> Matrix {
+/// The product of two matrices.
+pub fn times(a: &Matrix, b: &Matrix) -> Matrix {
     let cell = |i: usize, j: usize| (0..4).map(|k| a[i][k] * b[k][j]).sum();
     std::array::from_fn(|i| std::array::from_fn(|j| cell(i, j)))
 }
 
-fn inverse(a: &Matrix) -> Matrix {
+/// The inverse of a rigid motion.
+pub fn inverse(a: &Matrix) -> Matrix {
     let back = |i: usize| -> f64 { -(0..3).map(|k| a[k][i] * a[k][3]).sum::<f64>() };
     let row = |i: usize| [a[0][i], a[1][i], a[2][i], back(i)];
     [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]]

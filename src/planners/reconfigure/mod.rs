@@ -1,17 +1,27 @@
-//! `reconfigure`: from one configuration of RoFI modules to another of as many, through the snake. Both are
-//! unwound by [`tosnake`], and the second plan is run backwards.
+//! `reconfigure`: from one configuration of RoFI modules to another of as many. There are two ways, and the plan is
+//! the one that takes less time.
+//!
+//! Through the snake: both are unwound by [`tosnake`], and the second plan is run backwards.
+//! Directly ([`direct`]): a part that both have in common keeps its bonds ([`common_part`]), and only the others change.
 //!
 //! With gravity one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
 //! has to be held by a shoe that ends at the same position in the snake as the shoe by which the first is held.
 
+pub mod bound;
+mod common_part;
+mod direct;
+
+use crate::optimize::random::SplitMix64;
 use crate::plan::{self, Cause, Change, OperationError, Plan, Verdict, World, joined, reversed};
 use crate::planners::tosnake::gravity::GravityModel;
 use crate::planners::tosnake::search::StepSequence;
-use crate::planners::tosnake::{self, SearchCache};
+use crate::planners::tosnake::{self, Collisions, SearchCache, SearchStatus, Task};
 use crate::planners::{Progress, Solution};
 use crate::robot::{Assembly, State};
 use std::error::Error;
 use std::fmt;
+
+pub use direct::Settings as DirectSettings;
 
 /// A configuration of RoFI modules: a robot in a state.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +56,8 @@ pub struct Problem<'a> {
 pub struct Settings {
     /// The settings of the search for either half, with the defaults that its fields state.
     pub search: tosnake::Settings,
+    /// The settings of the search for the direct way, with the defaults that its fields state.
+    pub direct: DirectSettings,
     /// The settings of the judge. Under gravity the planner tries the shoes of the goal in turn as the one that is held
     /// (a shoe is one of the two bodies of a RoFI module), and the first plan of the whole motion that the judge
     /// accepts is the result. Without gravity nothing is judged. Default [`plan::Settings::default`].
@@ -57,12 +69,36 @@ pub struct Settings {
 pub struct Report {
     /// The figures of both halves together, without those of attempts under gravity that were not used.
     pub both: tosnake::Report,
+    /// The way that the plan takes.
+    pub way: Way,
+    /// The least number of bonds that any plan has to dock or undock ([`bound::fewest_changes`]).
+    pub fewest_changes: usize,
     /// The operations on plans by which the halves were joined, in order, for the plan's provenance: with names of
     /// modules of the goal that the start has otherwise, and a program that was dropped.
     pub history: Vec<Change>,
     /// The judge's verdict on the plan under gravity; `None` without gravity, where any pose of the goal will
     /// do and the plan is not judged here.
     pub verdict: Option<Verdict>,
+}
+
+/// The way of a reconfiguration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Way {
+    /// Through the snake, with the duration (s) of the direct way if one was found.
+    Snake {
+        /// The duration of the direct way, s; `None` if none was found or looked for.
+        direct: Option<f64>,
+    },
+    /// Directly, with the bonds that stay.
+    Direct {
+        /// The number of bonds that are docked from the start to the end.
+        kept: usize,
+        /// The duration of the way through the snake, s; `None` if none was found.
+        snake: Option<f64>,
+    },
+    /// No bond differs, so that joints turn alone or nothing moves.
+    #[default]
+    Turning,
 }
 
 /// The reason why [`plan`](plan()) gives no reconfiguration.
@@ -111,9 +147,11 @@ impl fmt::Display for Refusal {
 
 impl Error for Refusal {}
 
-/// Plans the motion from one configuration of RoFI modules to another, through the snake: the first half unwinds the
-/// start, as [`tosnake`] does; the second half is the unwinding of the goal, run backwards. `settings`: the settings
-/// of both searches and of the judge; `progress` receives reports and may end the search.
+/// Plans the motion from one configuration of RoFI modules to another. Through the snake, the first half unwinds the
+/// start, as [`tosnake`] does, and the second half is the unwinding of the goal, run backwards. Directly, the bonds of a
+/// common part stay, and the others are exchanged one by one. Of both the plan that takes less time is the result; the
+/// direct way is looked for without gravity and with [`Collisions::Motion`]. `settings`: the settings of all searches and
+/// of the judge; `progress` receives reports and may end the search.
 ///
 /// In the solution, cause 0 is that of the first half and cause 1 that of the second. At the end the start's modules
 /// are in the poses of the goal's, up to one rigid motion of the whole robot. Under gravity the plan was verified by
@@ -146,8 +184,9 @@ impl Error for Refusal {}
 ///     world: World::FREE,
 /// };
 /// let solution = reconfigure::plan(&problem, &reconfigure::Settings::default(), &mut NoProgress)?;
-/// // One merge to the snake, and one merge backwards.
-/// assert_eq!((solution.report.both.docks, solution.report.both.undocks), (2, 2));
+/// // Both chains stay, and the bond between them is docked elsewhere before it is undocked.
+/// assert_eq!((solution.report.both.docks, solution.report.both.undocks), (1, 1));
+/// assert_eq!(solution.report.fewest_changes, 2);
 /// # Ok::<(), reconfigure::Refusal>(())
 /// ```
 pub fn plan(
@@ -177,17 +216,44 @@ pub fn plan_with_cache(
     let (first, second) = (problem.from.unwinding(problem.world), problem.to.unwinding(problem.world));
     let first = tosnake::Task::new(&first, &settings.search).map_err(Refusal::From)?;
     let second = tosnake::Task::new(&second, &settings.search).map_err(Refusal::To)?;
-    let mut search = Search { problem, settings, cache, progress };
-    // The first half.
-    let found = search.unwind(&first).map_err(Refusal::From)?;
-    let there = search.half(&first, &found).map_err(Refusal::From)?;
-    // The second half, backwards.
-    if let Some(gravity) = &first.gravity {
-        return search.held((&there, &found, gravity), second);
+    let fewest_changes = bound::fewest_changes(first.start(), second.start());
+    let mut search = Search { problem, settings, cache, progress, fewest_changes };
+    if first.gravity.is_some() {
+        return search.held_all_the_way(&first, second);
     }
-    let found = search.unwind(&second).map_err(Refusal::To)?;
-    let back = search.half(&second, &found).map_err(Refusal::To)?;
-    Ok(solution(whole(&there, &back)?, &there, &back, None))
+    let snake = search.through_snake(&first, &second);
+    // A start that is no valid configuration has no direct way either.
+    if let Err(Refusal::From(invalid) | Refusal::To(invalid)) = &snake
+        && !matches!(invalid, tosnake::Refusal::BudgetSpent(_))
+    {
+        return snake;
+    }
+    let limit = snake.as_ref().map_or(f64::INFINITY, |snake| snake.body.duration());
+    let direct = match settings.search.collisions {
+        Collisions::Motion => search.directly(&first, &second, limit)?,
+        Collisions::None | Collisions::Detection | Collisions::Avoidance => None,
+    };
+    shorter(snake, direct)
+}
+
+/// Returns the solution of less duration, with that of the other in its report.
+fn shorter(
+    snake: Result<Solution<Report>, Refusal>,
+    direct: Option<Solution<Report>>,
+) -> Result<Solution<Report>, Refusal> {
+    match (snake, direct) {
+        (snake, None) => snake,
+        (Ok(mut snake), Some(direct)) if snake.body.duration() <= direct.body.duration() => {
+            snake.report.way = Way::Snake { direct: Some(direct.body.duration()) };
+            Ok(snake)
+        }
+        (snake, Some(mut direct)) => {
+            if let Way::Direct { snake: duration, .. } = &mut direct.report.way {
+                *duration = snake.ok().map(|snake| snake.body.duration());
+            }
+            Ok(direct)
+        }
+    }
 }
 
 /// The parts that both halves share.
@@ -196,6 +262,7 @@ struct Search<'s> {
     settings: &'s Settings,
     cache: &'s mut SearchCache,
     progress: &'s mut dyn Progress,
+    fewest_changes: usize,
 }
 
 /// One half: the plan to the snake, with its figures.
@@ -205,6 +272,108 @@ struct Half {
 }
 
 impl Search<'_> {
+    /// Plans the way through the snake without gravity.
+    fn through_snake(&mut self, first: &Task, second: &Task) -> Result<Solution<Report>, Refusal> {
+        let found = self.unwind(first).map_err(Refusal::From)?;
+        let there = self.half(first, &found).map_err(Refusal::From)?;
+        let found = self.unwind(second).map_err(Refusal::To)?;
+        let back = self.half(second, &found).map_err(Refusal::To)?;
+        let way = Way::Snake { direct: None };
+        Ok(self.solution(whole(&there, &back)?, (&there, &back), way, None))
+    }
+
+    /// Plans the way under gravity.
+    fn held_all_the_way(&mut self, first: &Task, second: Task) -> Result<Solution<Report>, Refusal> {
+        let gravity = first.gravity.clone().expect("it is held");
+        let found = self.unwind(first).map_err(Refusal::From)?;
+        let there = self.half(first, &found).map_err(Refusal::From)?;
+        self.held((&there, &found, &gravity), second)
+    }
+
+    /// Looks for direct ways of a duration below `limit` (s), from the start to the goal and from the goal to the start,
+    /// and returns the plan of the one with the least duration; `None` if none is found.
+    fn directly(
+        &mut self,
+        first: &Task,
+        second: &Task,
+        limit: f64,
+    ) -> Result<Option<Solution<Report>>, Refusal> {
+        let name = &self.problem.from.robot.name;
+        self.progress.task_started(&|| format!("a direct way for {name}"));
+        let settings = &self.settings.direct;
+        let mut best: Option<(direct::Found, bool)> = None;
+        let mut status = SearchStatus::default();
+        for backwards in [false, true] {
+            let (from, to) = if backwards { (second, first) } else { (first, second) };
+            let all = common_part::correspondences(from.start(), to.start(), settings.correspondences_max);
+            for correspondence in all.into_iter().filter(|all| all.exchanges <= settings.exchanges_max) {
+                let mut search = direct::Search {
+                    start: from.start(),
+                    correspondence: &correspondence,
+                    pace: &|module, joint, turn| from.turn_duration(module, joint, turn),
+                    settings,
+                    ik: settings.inverse_kinematics,
+                    rng: SplitMix64(self.settings.search.seed),
+                    limit: best.as_ref().map_or(limit, |(known, _)| known.duration),
+                    work: 0,
+                    tried: 0,
+                };
+                let found = search.run(self.progress);
+                (status.work, status.tried) = (status.work + search.work, status.tried + search.tried);
+                best = found.map(|found| (found, backwards)).or(best);
+            }
+        }
+        let Some((found, backwards)) = best else { return Ok(None) };
+        let ends = if backwards { (second, first) } else { (first, second) };
+        self.direct_solution(ends, found, (status, backwards)).map(Some)
+    }
+
+    /// Returns the plan of a direct way. `from`, `to`: the ends as the search had them; `backwards`: true if it went from
+    /// the goal to the start.
+    fn direct_solution(
+        &self,
+        (from, to): (&Task, &Task),
+        found: direct::Found,
+        (status, backwards): (SearchStatus, bool),
+    ) -> Result<Solution<Report>, Refusal> {
+        let sequence = |(robot, steps), status| StepSequence { robot, steps, status };
+        let none = SearchStatus::default();
+        let near = self.half(from, &sequence(found.there, status)).map_err(Refusal::From)?;
+        let far = self.half(to, &sequence(found.back, none)).map_err(Refusal::To)?;
+        let (there, back) = if backwards { (far, near) } else { (near, far) };
+        let plan = whole(&there, &back)?;
+        let undocks = there.report.undocks + back.report.docks;
+        let docks = there.report.docks + back.report.undocks;
+        let first = if backwards { to } else { from };
+        let way = match docks + undocks {
+            0 => Way::Turning,
+            _ => Way::Direct { kept: first.start().held().count().saturating_sub(undocks), snake: None },
+        };
+        Ok(self.solution(plan, (&there, &back), way, None))
+    }
+
+    /// Returns the solution of a whole plan, with the figures of its halves.
+    fn solution(
+        &self,
+        plan: Plan,
+        (there, back): (&Half, &Half),
+        way: Way,
+        verdict: Option<Verdict>,
+    ) -> Solution<Report> {
+        let (there, back) = (&there.report, &back.report);
+        let both = tosnake::Report {
+            docks: there.docks + back.undocks,
+            undocks: there.undocks + back.docks,
+            joint_travel: there.joint_travel + back.joint_travel,
+            tried: there.tried + back.tried,
+            work: there.work + back.work,
+            actions: there.actions + back.actions,
+        };
+        let history = plan.provenance.history;
+        let report = Report { both, way, fewest_changes: self.fewest_changes, history, verdict };
+        Solution { body: plan.body, program: plan.program, report }
+    }
+
     /// Searches for the steps of one half, unless the cache has them.
     fn unwind(&mut self, task: &tosnake::Task) -> Result<std::rc::Rc<StepSequence>, tosnake::Refusal> {
         task.search(&self.settings.search, self.cache, self.progress)
@@ -248,7 +417,8 @@ impl Search<'_> {
                         self.progress.task_started(&|| format!("verifying {name}"));
                         let verdict = plan::verify::verify(&plan);
                         if verdict.ok() {
-                            return Ok(solution(plan, there, &back, Some(verdict)));
+                            let way = Way::Snake { direct: None };
+                            return Ok(self.solution(plan, (there, &back), way, Some(verdict)));
                         }
                     }
                 }
@@ -267,19 +437,4 @@ impl Search<'_> {
 /// Returns the plan of the first half, and then the second half backwards.
 fn whole(there: &Half, back: &Half) -> Result<Plan, Refusal> {
     joined(&there.plan, &reversed(&back.plan)).map_err(Refusal::DifferentSnakes)
-}
-
-/// Returns the solution of a whole plan, with the figures of its halves.
-fn solution(plan: Plan, there: &Half, back: &Half, verdict: Option<Verdict>) -> Solution<Report> {
-    let (there, back) = (&there.report, &back.report);
-    let both = tosnake::Report {
-        docks: there.docks + back.undocks,
-        undocks: there.undocks + back.docks,
-        joint_travel: there.joint_travel + back.joint_travel,
-        tried: there.tried + back.tried,
-        work: there.work + back.work,
-        actions: there.actions + back.actions,
-    };
-    let report = Report { both, history: plan.provenance.history, verdict };
-    Solution { body: plan.body, program: plan.program, report }
 }

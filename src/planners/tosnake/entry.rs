@@ -138,8 +138,13 @@ impl<'a> Task<'a> {
     }
 
     /// Returns the start configuration.
-    fn start(&self) -> &Robot {
+    pub(crate) fn start(&self) -> &Robot {
         &self.translated.robot
+    }
+
+    /// Returns the least duration (s) of a smooth turn of a joint of a module by an angle (rad) from rest to rest.
+    pub(crate) fn turn_duration(&self, module: usize, joint: usize, turn: f64) -> f64 {
+        self.translated.duration(module, joint, turn)
     }
 
     /// Returns the steps to the snake from the cache; searches for them if they are not there, and stores them.

@@ -1,5 +1,5 @@
 //! Damped least-squares inverse kinematics (Buss 2005, section 6) that closes a loop: the joints between two
-//! docks -Z move until the docks meet, while balls that are near each other are driven apart.
+//! docks move until the docks meet, while balls that are near each other are driven apart.
 //!
 //! The descent itself is [`crate::robot::inverse_kinematics`]. This file poses its problem: six linear constraints
 //! from the Jacobian of the second dock, softly, and, in the collision-free mode, inequality constraints that keep
@@ -8,7 +8,7 @@
 
 use super::motion_check::Scene;
 use super::neighbour_list::{NeighbourList, Neighbours};
-use super::robot::{Dock, GAMMA, RED, mate};
+use super::robot::{Bond, Dock, GAMMA, mate};
 use super::state::Joints;
 use super::tolerances::TOLERANCES;
 use super::tree::{JointRef, Tree};
@@ -93,19 +93,27 @@ pub struct Loop {
     /// The joints of the loop, from the first dock to the second, each with the sign (1 or -1) with which its turn
     /// moves the second dock relative to the first.
     pub joints: Vec<(JointRef, f64)>,
+    /// The pose of the shoe of the second dock in the frame of that of the first where the docks meet, in pitches.
+    meeting: RigidTransform,
 }
 
 impl Loop {
-    /// Returns the loop that closes when the docks -Z of the shoes that carry `a` and `b` meet; `tree`: that of the
-    /// robot.
+    /// Returns the loop that closes when the docks -Z of the shoes that carry `a` and `b` meet without a turn; `tree`:
+    /// that of the robot.
     pub fn new(tree: &Tree, a: Dock, b: Dock) -> Loop {
-        let (from, to) = (tree.index[a.shoe()], tree.index[b.shoe()]);
-        Loop { from, to, joints: joints_between(tree, from, to) }
+        Loop::of_bond(tree, &Bond { a: Dock::red(a.shoe()), b: Dock::red(b.shoe()), turn: 0 })
+    }
+
+    /// Returns the loop that closes when the docks of a bond meet with its turn; `tree`: that of the robot.
+    pub fn of_bond(tree: &Tree, bond: &Bond) -> Loop {
+        let (from, to) = (tree.index[bond.a.shoe()], tree.index[bond.b.shoe()]);
+        let meeting = mate(bond.a.face(), bond.turn, bond.b.face());
+        Loop { from, to, joints: joints_between(tree, from, to), meeting }
     }
 
     /// Returns the closure error of the second shoe: translation in pitches, then rotation vector in radians.
     fn error(&self, poses: &[RigidTransform]) -> Vector6<f64> {
-        let wanted = poses[self.from].then(&mate(RED, 0, RED));
+        let wanted = poses[self.from].then(&self.meeting);
         let found = &poses[self.to];
         let shift = wanted.translation - found.translation;
         let turn = rotation_vector(&(wanted.rotation * found.rotation.transpose()));

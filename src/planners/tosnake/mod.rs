@@ -36,6 +36,7 @@ mod concurrent_merges;
 pub mod merging;
 mod paper;
 mod refusal;
+pub mod repair;
 pub mod search;
 mod settings;
 mod shortcut;

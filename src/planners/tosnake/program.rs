@@ -59,7 +59,7 @@ impl Translated<'_> {
 
     /// Returns the least duration (s) of a smooth turn by an angle (rad) from rest to rest. The peak speed is
     /// 15/8 of the mean, the peak acceleration 10/√3 of the turn over the squared duration.
-    fn duration(&self, module: usize, joint: usize, turn: f64) -> f64 {
+    pub(super) fn duration(&self, module: usize, joint: usize, turn: f64) -> f64 {
         let kind = self.assembly.module_type(module);
         let limits = kind.joints.iter().find(|j| j.name == JOINTS[joint]).map(|j| j.limits);
         let limits = limits.unwrap_or_default();

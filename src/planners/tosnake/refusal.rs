@@ -63,6 +63,9 @@ pub enum InvalidStart {
         /// The distance of the centres of two of their balls, in pitches; below
         /// [`min_distance`](super::Tolerances::min_distance).
         distance: f64,
+        /// The bonds that force the overlap, by their indices in the assembly, from the one module to the other: as
+        /// long as they hold, the two modules are where they are.
+        bonds: Vec<usize>,
     },
 }
 
@@ -106,8 +109,9 @@ impl fmt::Display for InvalidStart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             InvalidStart::Disconnected(module) => write!(f, "module {module} is not connected to module 0"),
-            InvalidStart::Overlap { modules: [a, b], distance } => {
-                write!(f, "modules {a} and {b} overlap: their balls are {distance:.4} pitches apart")
+            InvalidStart::Overlap { modules: [a, b], distance, bonds } => {
+                write!(f, "modules {a} and {b} overlap: their balls are {distance:.4} pitches apart")?;
+                write!(f, ", by the bonds {bonds:?} between them")
             }
         }
     }

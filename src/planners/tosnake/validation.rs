@@ -1,5 +1,4 @@
-//! Validation of a start configuration: connected, loops closed, no overlap. Files of tangled robots name
-//! some modules as connected by bonds that contradict each other; [`repair`] opens such bonds.
+//! Validation of a start configuration: connected, loops closed, no overlap.
 
 use super::broad_phase;
 use super::refusal::{InvalidStart, Refusal};
@@ -25,90 +24,56 @@ pub(super) fn check(robot: &Robot) -> Result<(), Refusal> {
             return Err(Refusal::OpenLoop { bond, residual });
         }
     }
-    match overlap(robot, &tree, &poses) {
-        Some(overlap) => Err(Refusal::InvalidStart(overlap)),
+    // The one that the fewest bonds force is the easiest to mend.
+    match overlaps(robot, &tree, &poses).iter().min_by_key(|overlap| overlap.bonds(&tree).len()) {
+        Some(overlap) => Err(Refusal::InvalidStart(overlap.refusal(&tree))),
         None => Ok(()),
     }
 }
 
-/// Opens the closed bonds whose docks do not meet, and returns their indices in [`Robot::bonds`], ascending. Of two
-/// bonds between the same modules that contradict each other the one in the tree of a breadth-first search from module
-/// 0 counts, unless only the other leaves no overlap; up to `TWINS_MAX` contradictions are tried in all combinations.
-///
-/// # Errors
-/// [`InvalidStart`]: the robot is not connected, or modules overlap in all combinations; then nothing is opened.
-pub fn repair(robot: &mut Robot) -> Result<Vec<usize>, InvalidStart> {
-    let first = Choice::without(robot, &[])?;
-    // Bonds for which the open ones could stand in.
-    let twins: Vec<usize> = first.open.iter().filter_map(|&bond| twin(robot, bond)).collect();
-    let choices = 1..1u32 << twins.len().min(TWINS_MAX);
-    let others = choices.filter_map(|choice| {
-        let avoided = twins.iter().enumerate().filter(|(i, _)| choice >> i & 1 == 1);
-        let avoided: Vec<usize> = avoided.map(|(_, &bond)| bond).collect();
-        Choice::without(robot, &avoided).ok()
-    });
-    let best = std::iter::once(first.clone()).chain(others).find(|choice| choice.overlap.is_none());
-    match (best, first.overlap) {
-        (Some(choice), _) => {
-            choice.open.iter().for_each(|&bond| robot.undock(bond));
-            Ok(choice.open)
+/// Two balls that overlap.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Overlap {
+    /// The indices of the two balls in the tree's order, the smaller first.
+    pub(super) balls: [usize; 2],
+    /// The distance of their centres, in pitches.
+    pub(super) distance: f64,
+}
+
+impl Overlap {
+    /// Returns the closed bonds between the two balls in the tree, by their indices in [`Robot::bonds`], from the one
+    /// ball to the other: as long as these hold and no joint turns, the overlap stays.
+    pub(super) fn bonds(&self, tree: &Tree) -> Vec<usize> {
+        let path = tree.path(self.balls[0], self.balls[1]);
+        path.indices.windows(2).filter_map(|step| tree.bond(step[0].max(step[1]))).collect()
+    }
+
+    /// Returns the refusal of a start with this overlap; `tree`: that by whose order balls are counted.
+    pub(super) fn refusal(&self, tree: &Tree) -> InvalidStart {
+        let [a, b] = self.balls.map(|ball| tree.shoe[ball] / 2);
+        let mut bonds = self.bonds(tree);
+        if a > b {
+            bonds.reverse();
         }
-        (None, overlap) => Err(overlap.expect("the first choice is a choice")),
+        InvalidStart::Overlap { modules: [a.min(b), a.max(b)], distance: self.distance, bonds }
     }
 }
 
-/// Greatest number of contradictions of which all combinations are tried: 1,024 forward kinematics.
-const TWINS_MAX: usize = 10;
-
-/// Returns another closed bond between the same two modules; `None` if there is none.
-fn twin(robot: &Robot, bond: usize) -> Option<usize> {
-    let modules = |bond: usize| {
-        let ends = robot.bonds[bond];
-        (ends.a.module.min(ends.b.module), ends.a.module.max(ends.b.module))
-    };
-    robot.held().map(|(other, _)| other).find(|&other| other != bond && modules(other) == modules(bond))
-}
-
-/// The configuration without some bonds.
-#[derive(Clone)]
-struct Choice {
-    /// Those bonds, and the others that do not meet then.
-    open: Vec<usize>,
-    overlap: Option<InvalidStart>,
-}
-
-impl Choice {
-    fn without(robot: &Robot, avoided: &[usize]) -> Result<Choice, InvalidStart> {
-        let mut tried = robot.clone();
-        avoided.iter().for_each(|&bond| tried.undock(bond));
-        let tree = Tree::grow(&tried, 0).ok_or_else(|| InvalidStart::Disconnected(loose(&tried)))?;
-        let mut poses = Vec::new();
-        tree.poses(&tried.joints, &mut poses);
-        let mut open = avoided.to_vec();
-        open.extend(
-            tree.closing.iter().filter(|&&bond| tree.residual(&tried, bond, &poses) > TOLERANCES.closure),
-        );
-        open.sort_unstable();
-        Ok(Choice { open, overlap: overlap(&tried, &tree, &poses) })
-    }
-}
-
-/// Returns the first overlap of two modules that is found; `None` if there is none.
-fn overlap(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Option<InvalidStart> {
+/// Returns the overlaps of balls, in the order in which the broad phase finds them. `poses`: of the shoes, in the
+/// tree's order, in pitches.
+pub(super) fn overlaps(robot: &Robot, tree: &Tree, poses: &[RigidTransform]) -> Vec<Overlap> {
     let docked = broad_phase::docked(robot, tree);
-    let mut found = None;
+    let mut found = Vec::new();
     broad_phase::pairs(poses, TOLERANCES.min_distance, &mut |a, b, squared| {
-        if found.is_none() && !broad_phase::always_touch(tree, a, b, &docked) {
-            let (a, b) = (tree.shoe[a] / 2, tree.shoe[b] / 2);
-            found =
-                Some(InvalidStart::Overlap { modules: [a.min(b), a.max(b)], distance: libm::sqrt(squared) });
+        if !broad_phase::always_touch(tree, a, b, &docked) {
+            found.push(Overlap { balls: [a.min(b), a.max(b)], distance: libm::sqrt(squared) });
         }
     });
     found
 }
 
 /// Returns a module that is not connected to the first.
-fn loose(robot: &Robot) -> usize {
+pub(super) fn loose(robot: &Robot) -> usize {
     let mut reached = vec![false; robot.modules()];
     let mut open = vec![0];
     reached[0] = true;

@@ -1,0 +1,493 @@
+//! The direct way: the start's tree of bonds becomes the goal's by exchanges, and what both have in common stays.
+//!
+//! Bonds that close loops and are not of the start's tree are undocked. An exchange brings the two docks of a bond of the
+//! goal's tree together by inverse kinematics, docks them, and undocks one bond of the loop that this closes which is not
+//! of the goal's tree; there is one, for a tree has no loop. At last the joints turn to the goal's positions, and the
+//! goal's other bonds dock. Which exchange comes first, which bond it replaces and in which posture is found by a beam
+//! search for the shortest motion. Half of the exchanges are made from the start and half from the goal, backwards: close
+//! to either the robot is folded up, and between it is spread out. Every motion is checked over its whole duration, as in
+//! [`tosnake`](crate::planners::tosnake).
+
+use super::common_part::{Correspondence, bond_of, key};
+use crate::optimize::random::SplitMix64;
+use crate::planners::Progress;
+use crate::planners::tosnake::inverse_kinematics::{self, IkMode, Loop, LoopClosure, clamped};
+use crate::planners::tosnake::motion_check::Scene;
+use crate::planners::tosnake::robot::GAMMA;
+use crate::planners::tosnake::rrt_connect::RrtConnect;
+use crate::planners::tosnake::state::{Joints, State};
+use crate::planners::tosnake::straighten::straighten;
+use crate::planners::tosnake::tree::JointRef;
+use crate::planners::tosnake::{Dock, Robot, Step};
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The settings of the beam search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The greatest number of correspondences of the two configurations that are tried in either direction. Default 4.
+    pub correspondences_max: usize,
+    /// The greatest number of exchanges. Default 24: of more the snake is the shorter way.
+    pub exchanges_max: usize,
+    /// The number of states kept after each exchange. Default 2.
+    pub beam: usize,
+    /// The greatest number of bonds that are followed from one state, those with the nearest docks first. Default 3.
+    pub bonds_max: usize,
+    /// The greatest number of postures that are tried for one bond. Default 4.
+    pub closings_max: usize,
+    /// The greatest number of forward kinematics of the whole robot for one correspondence. Default 250,000.
+    pub budget: u64,
+    /// The settings of the inverse kinematics, by default with 45 iterations at most, 10 of them without progress: another
+    /// posture or bond is the cheaper attempt.
+    pub inverse_kinematics: inverse_kinematics::Settings,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        let inverse_kinematics = inverse_kinematics::Settings {
+            iterations_max: 45,
+            patience: 10,
+            ..inverse_kinematics::Settings::default()
+        };
+        Settings {
+            correspondences_max: 4,
+            exchanges_max: 24,
+            beam: 2,
+            bonds_max: 3,
+            closings_max: 4,
+            budget: 250_000,
+            inverse_kinematics,
+        }
+    }
+}
+
+/// A direct way that was found: a motion from either end to one configuration between them.
+pub(super) struct Found {
+    /// The configuration between in the start's modules, and the steps from the start to it.
+    pub(super) there: (Robot, Vec<Step>),
+    /// The configuration between in the goal's modules, and the steps from the goal to it.
+    pub(super) back: (Robot, Vec<Step>),
+    /// The estimated duration of both, s.
+    pub(super) duration: f64,
+}
+
+/// The duration of a smooth turn of a joint by an angle (rad), s.
+pub(super) type Pace<'a> = &'a dyn Fn(usize, usize, f64) -> f64;
+
+/// A search for the direct way of one correspondence.
+pub(super) struct Search<'a> {
+    pub(super) start: &'a Robot,
+    pub(super) correspondence: &'a Correspondence,
+    pub(super) pace: Pace<'a>,
+    pub(super) settings: &'a Settings,
+    pub(super) ik: inverse_kinematics::Settings,
+    pub(super) rng: SplitMix64,
+    /// The duration (s) that a way has to stay below to be of use.
+    pub(super) limit: f64,
+    /// The number of forward kinematics so far.
+    pub(super) work: u64,
+    /// The number of attempts at bonds so far.
+    pub(super) tried: u64,
+}
+
+/// A configuration that exchanges lead to.
+struct Aim {
+    /// Its bonds, which are a tree.
+    wanted: BTreeSet<[usize; 5]>,
+    joints: Joints,
+}
+
+/// A state of the beam, with the duration of the motion to it and an estimate of the rest, s.
+#[derive(Clone)]
+struct Node {
+    state: State,
+    time: f64,
+    rest: f64,
+}
+
+/// Estimated duration of an exchange, s.
+const EXCHANGE_TIME: f64 = 2.0;
+/// The part of the time of the final motion that counts in estimates: what is turned on the way counts once.
+const FINAL_SHARE: f64 = 0.7;
+/// The spreads of random starts, as parts of the joints' ranges.
+const SPREADS: [f64; 3] = [0.05, 0.2, 0.6];
+/// Greatest number of bonds that one closing may replace.
+const REPLACED_MAX: usize = 3;
+/// Greatest number of closings of one bond that are followed.
+const FOLLOWED_MAX: usize = 2;
+/// Greatest number of detours looked for, each with other random numbers.
+const DETOURS_MAX: usize = 3;
+/// Greatest number of exchanges that are all made from the start.
+const ONE_SIDED_MAX: usize = 2;
+/// Number of states halfway that are met from the goal.
+const HALFWAY_MAX: usize = 2;
+
+impl Search<'_> {
+    /// Searches, and returns the shortest way found; `None` if there is none. `progress` may end the search.
+    pub(super) fn run(&mut self, progress: &mut dyn Progress) -> Option<Found> {
+        let Correspondence { goal, wanted, exchanges, start_loops, goal_loops, .. } = self.correspondence;
+        let aim = Aim { wanted: wanted.clone(), joints: goal.joints.clone() };
+        let levels = if *exchanges <= ONE_SIDED_MAX { *exchanges } else { exchanges.div_ceil(2) };
+        let first = opened(self.start, start_loops);
+        let halfway = self.advance(first, &aim, levels, progress);
+        let mut best: Option<(f64, Node, Node)> = None;
+        for there in halfway.into_iter().take(HALFWAY_MAX) {
+            let (time, there, back) = if missing(&there.state, &aim.wanted).is_empty() {
+                let Some(there) = self.finished(there, &aim) else { continue };
+                (there.time, there, opened(goal, goal_loops))
+            } else {
+                let wanted = there.state.robot.held().map(|(_, bond)| key(bond)).collect();
+                let halfway = Aim { wanted, joints: there.state.robot.joints.clone() };
+                let limit = self.limit;
+                self.limit = f64::max(0.0, limit - there.time);
+                let back = self.all_the_way(opened(goal, goal_loops), &halfway, progress);
+                self.limit = limit;
+                let Some(back) = back else { continue };
+                (there.time + back.time, there, back)
+            };
+            if time < self.limit && best.as_ref().is_none_or(|(known, ..)| time < *known) {
+                best = Some((time, there, back));
+            }
+        }
+        let (duration, there, back) = best?;
+        let back = self.correspondence.in_goals_modules(back.state.robot, back.state.steps);
+        Some(Found { there: (there.state.robot, there.state.steps), back, duration })
+    }
+
+    /// Makes all exchanges to an aim, and turns the joints to its positions.
+    fn all_the_way(&mut self, first: Node, aim: &Aim, progress: &mut dyn Progress) -> Option<Node> {
+        let levels = 2 * missing(&first.state, &aim.wanted).len() + 1;
+        let mut best: Option<Node> = None;
+        for node in self.advance(first, aim, levels, progress) {
+            let least = best.as_ref().map_or(self.limit, |best| best.time);
+            if missing(&node.state, &aim.wanted).is_empty()
+                && node.time < least
+                && let Some(end) = self.finished(node, aim)
+                && end.time < least
+            {
+                best = Some(end);
+            }
+        }
+        best
+    }
+
+    /// Makes up to `levels` exchanges; returns the states of the beam after the last that could be made.
+    fn advance(&mut self, first: Node, aim: &Aim, levels: usize, progress: &mut dyn Progress) -> Vec<Node> {
+        let mut nodes = vec![first];
+        for _ in 0..levels {
+            if missing(&nodes[0].state, &aim.wanted).is_empty()
+                || self.work > self.settings.budget
+                || !progress.should_continue()
+            {
+                break;
+            }
+            let mut next = Vec::new();
+            for detours in [false, true] {
+                if next.is_empty() {
+                    next = nodes.iter().flat_map(|node| self.children(node, aim, detours)).collect();
+                }
+            }
+            if next.is_empty() {
+                let mut straight = nodes.clone();
+                straight.iter_mut().for_each(|node| self.straighten(node));
+                next = straight.iter().flat_map(|node| self.children(node, aim, true)).collect();
+            }
+            let best = self.best(next);
+            if best.is_empty() {
+                break;
+            }
+            nodes = best;
+        }
+        nodes
+    }
+
+    /// Returns the states of the beam: those of the least estimated duration, at most two with the same bonds.
+    fn best(&self, mut nodes: Vec<Node>) -> Vec<Node> {
+        nodes.sort_by(|p, q| (p.time + p.rest).total_cmp(&(q.time + q.rest)));
+        let mut same: BTreeMap<Vec<bool>, usize> = BTreeMap::new();
+        let mut kept = Vec::new();
+        for node in nodes {
+            let count = same.entry(node.state.robot.holds.clone()).or_default();
+            *count += 1;
+            if *count <= 2 && kept.len() < self.settings.beam && node.time < self.limit {
+                kept.push(node);
+            }
+        }
+        kept
+    }
+
+    /// Returns the states after one exchange.
+    fn children(&mut self, node: &Node, aim: &Aim, detours: bool) -> Vec<Node> {
+        let at = node.state.robot.bond_at();
+        let mut children = Vec::new();
+        let is_free = |dock: Dock| at[dock.module][dock.dock].is_none();
+        let centre = |dock: Dock| node.state.poses[node.state.tree.index[dock.shoe()]].translation;
+        let mut possible: Vec<(f64, [usize; 5])> = Vec::new();
+        for wanted in missing(&node.state, &aim.wanted) {
+            let bond = bond_of(&wanted);
+            if is_free(bond.a) && is_free(bond.b) {
+                possible.push(((centre(bond.a) - centre(bond.b)).norm(), wanted));
+            }
+        }
+        possible.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        let mut followed = 0;
+        for (_, wanted) in possible {
+            if followed == self.settings.bonds_max {
+                break;
+            }
+            let (bond, before) = (bond_of(&wanted), children.len());
+            let replaceable = replaceable(&node.state, &wanted, &aim.wanted);
+            for (time, path) in self.closings(&node.state, &wanted, aim, detours) {
+                for &other in replaceable.iter().take(REPLACED_MAX) {
+                    let mut state = node.state.clone();
+                    path.iter().for_each(|joints| state.move_to(joints));
+                    state.dock(bond);
+                    state.undock(other);
+                    state.rebuild_tree();
+                    let left = missing(&state, &aim.wanted).len() as f64;
+                    let goal = near(&aim.joints, &state.robot.joints);
+                    let rest = EXCHANGE_TIME * left + FINAL_SHARE * self.time(&state.robot.joints, &goal);
+                    children.push(Node { state, time: node.time + time, rest });
+                }
+            }
+            followed += usize::from(children.len() > before);
+        }
+        children
+    }
+
+    /// Returns free motions that bring the docks of a bond together, the shortest first, each with its duration.
+    fn closings(
+        &mut self,
+        state: &State,
+        wanted: &[usize; 5],
+        aim: &Aim,
+        detours: bool,
+    ) -> Vec<(f64, Vec<Joints>)> {
+        let scene = state.scene();
+        let (here, ik) = (&state.robot.joints, self.ik);
+        let lp = Loop::of_bond(&state.tree, &bond_of(wanted));
+        let mut found: Vec<(f64, Vec<Joints>)> = Vec::new();
+        if lp.joints.is_empty() {
+            return found;
+        }
+        let goal = near(&aim.joints, here);
+        let mut failed = Vec::new();
+        for number in 0..self.settings.closings_max {
+            if found.len() == FOLLOWED_MAX {
+                break;
+            }
+            crate::interrupt::checkpoint();
+            self.tried += 1;
+            let start = self.posture(number, here, &goal, &lp);
+            let closure = LoopClosure { scene: &scene, lp: &lp, mode: IkMode::Endpoint, settings: &ik };
+            let Some(there) =
+                closure.solve(&start, &[], &mut self.work).and_then(|mut postures| postures.pop())
+            else {
+                continue;
+            };
+            let time = self.time(here, &there);
+            if scene.is_free(here, &there, &mut self.work) {
+                found.push((time, vec![there]));
+            } else {
+                failed.push(there);
+            }
+        }
+        if detours
+            && found.is_empty()
+            && let Some(there) = failed.into_iter().next()
+        {
+            let joints: Vec<JointRef> = lp.joints.iter().map(|(joint, _)| *joint).collect();
+            found.extend(self.detour(&scene, &joints, here, &there));
+        }
+        found.sort_by(|p, q| p.0.total_cmp(&q.0));
+        found.truncate(FOLLOWED_MAX);
+        found
+    }
+
+    /// Returns a posture from which inverse kinematics starts: the present one, that of the goal, the middle between,
+    /// then random ones near these.
+    fn posture(&mut self, number: usize, here: &Joints, goal: &Joints, lp: &Loop) -> Joints {
+        let part = [0.0, 1.0, 0.5][number % 3];
+        let spread = if number < 3 { 0.0 } else { SPREADS[(number / 3 - 1).min(SPREADS.len() - 1)] };
+        let mut start = here.clone();
+        for (joint, _) in &lp.joints {
+            let (m, k) = (joint.module, joint.joint);
+            let range = if k == GAMMA { PI } else { FRAC_PI_2 };
+            let noise = if spread > 0.0 { spread * range * self.rng.next_signed() } else { 0.0 };
+            start[m][k] = clamped(k, here[m][k] + part * (goal[m][k] - here[m][k]) + noise);
+        }
+        start
+    }
+
+    /// Returns a motion around what is in the way, with its duration.
+    fn detour(
+        &mut self,
+        scene: &Scene,
+        joints: &[JointRef],
+        from: &Joints,
+        to: &Joints,
+    ) -> Option<(f64, Vec<Joints>)> {
+        for _ in 0..DETOURS_MAX {
+            let rrt = RrtConnect { scene, joints };
+            if let Some(path) = rrt.path(from, to, &mut self.rng, &mut self.work) {
+                let mut whole = vec![from.clone()];
+                whole.extend(path);
+                let path = shortcut(scene, whole, &mut self.work);
+                let postures = std::iter::once(from).chain(&path);
+                let time = postures.clone().zip(&path).map(|(from, to)| self.time(from, to)).sum();
+                return Some((time, path));
+            }
+        }
+        None
+    }
+
+    /// Turns the joints to the goal's positions; `None` if no way there is found.
+    fn finished(&mut self, mut node: Node, aim: &Aim) -> Option<Node> {
+        let goal = near(&aim.joints, &node.state.robot.joints);
+        let path = self.way(&node.state, &goal)?;
+        let mut from = node.state.robot.joints.clone();
+        for joints in path {
+            node.time += self.time(&from, &joints);
+            node.state.move_to(&joints);
+            from = joints;
+        }
+        Some(node)
+    }
+
+    /// Returns a free path to a posture: straight, by a detour, or over the straightened robot.
+    fn way(&mut self, state: &State, goal: &Joints) -> Option<Vec<Joints>> {
+        let here = &state.robot.joints;
+        if here == goal {
+            return Some(Vec::new());
+        }
+        let scene = state.scene();
+        if scene.is_free(here, goal, &mut self.work) {
+            return Some(vec![goal.clone()]);
+        }
+        let joints = state.tree.all_joints();
+        if let Some((_, path)) = self.detour(&scene, &joints, here, goal) {
+            return Some(path);
+        }
+        // From either end the tilts turn to zero.
+        let (mut first, mut last) = (state.clone(), state.clone());
+        (first.steps, last.steps) = (Vec::new(), Vec::new());
+        last.robot.joints = goal.clone();
+        last.update_poses();
+        let before = first.work + last.work;
+        straighten(&mut first, &mut self.rng);
+        straighten(&mut last, &mut self.rng);
+        self.work += first.work + last.work - before;
+        let mut path = vec![here.clone()];
+        path.extend(postures(here, &first.steps));
+        let from = path.last().expect("it begins here").clone();
+        let mut back = postures(goal, &last.steps);
+        back.insert(0, goal.clone());
+        back.reverse();
+        if scene.is_free(&from, &back[0], &mut self.work) {
+            path.extend(back);
+        } else {
+            let (_, between) = self.detour(&scene, &joints, &from, &back[0])?;
+            path.extend(between);
+            path.extend(back.into_iter().skip(1));
+        }
+        Some(shortcut(&scene, path, &mut self.work))
+    }
+
+    /// Turns the tilts of a state to zero as far as they are free to.
+    fn straighten(&mut self, node: &mut Node) {
+        let before = node.state.robot.joints.clone();
+        let (steps, work) = (node.state.steps.len(), node.state.work);
+        straighten(&mut node.state, &mut self.rng);
+        self.work += node.state.work - work;
+        let mut path = vec![before.clone()];
+        path.extend(postures(&before, &node.state.steps.split_off(steps)));
+        let last = path.last().expect("it begins here").clone();
+        let path = shortcut(&node.state.scene(), path, &mut self.work);
+        node.state.robot.joints = before.clone();
+        let mut from = before;
+        for joints in path {
+            node.time += self.time(&from, &joints);
+            node.state.move_to(&joints);
+            from = joints;
+        }
+        debug_assert!(from == last || node.state.robot.joints == last);
+    }
+
+    /// Returns the duration of the straight motion between two postures, s.
+    fn time(&self, from: &Joints, to: &Joints) -> f64 {
+        let mut longest = 0.0;
+        for (module, (from, to)) in from.iter().zip(to).enumerate() {
+            for k in (0..3).filter(|&k| from[k] != to[k]) {
+                longest = f64::max(longest, (self.pace)(module, k, to[k] - from[k]));
+            }
+        }
+        longest
+    }
+}
+
+/// Returns a configuration with some bonds undocked, as a state from which a search begins.
+fn opened(robot: &Robot, loops: &[usize]) -> Node {
+    let mut state = State::new(robot.clone());
+    loops.iter().for_each(|&bond| state.undock(bond));
+    state.rebuild_tree();
+    Node { state, time: 0.0, rest: 0.0 }
+}
+
+/// Returns the bonds of an aim that are not docked.
+fn missing(state: &State, wanted: &BTreeSet<[usize; 5]>) -> Vec<[usize; 5]> {
+    let held: BTreeSet<[usize; 5]> = state.robot.held().map(|(_, bond)| key(bond)).collect();
+    wanted.difference(&held).copied().collect()
+}
+
+/// Returns the positions of an aim, with twists at the whole turns that are nearest to a posture.
+fn near(aim: &Joints, here: &Joints) -> Joints {
+    let mut goal = aim.clone();
+    for (goal, here) in goal.iter_mut().zip(here) {
+        goal[GAMMA] += TAU * libm::round((here[GAMMA] - goal[GAMMA]) / TAU);
+    }
+    goal
+}
+
+/// Returns the bonds that a new one can replace, by index: those of its loop that are not of the goal's tree. Those
+/// come first that free a dock which the goal's tree wants.
+fn replaceable(state: &State, wanted: &[usize; 5], of_goal: &BTreeSet<[usize; 5]>) -> Vec<usize> {
+    let (tree, bond) = (&state.tree, bond_of(wanted));
+    let path = tree.path(tree.index[bond.a.shoe()], tree.index[bond.b.shoe()]);
+    let bonds = path.indices.windows(2).filter_map(|step| tree.bond(step[0].max(step[1])));
+    let mut others: Vec<usize> =
+        bonds.filter(|&bond| !of_goal.contains(&key(&state.robot.bonds[bond]))).collect();
+    let missing = missing(state, of_goal);
+    let docks: BTreeSet<(usize, usize)> =
+        missing.iter().flat_map(|key| [(key[0], key[1]), (key[2], key[3])]).collect();
+    let freed = |bond: &usize| {
+        let bond = state.robot.bonds[*bond];
+        [bond.a, bond.b].iter().filter(|dock| docks.contains(&(dock.module, dock.dock))).count()
+    };
+    others.sort_by_key(|bond| std::cmp::Reverse(freed(bond)));
+    others
+}
+
+/// Returns the postures after each of some turns from a posture.
+fn postures(from: &Joints, steps: &[Step]) -> Vec<Joints> {
+    let mut here = from.clone();
+    let mut all = Vec::new();
+    for step in steps {
+        let Step::Turn(turns) = step else { continue };
+        turns.iter().for_each(|&(module, joint, to)| here[module][joint] = to);
+        all.push(here.clone());
+    }
+    all
+}
+
+/// Returns a path without its first posture, in as few straight motions as are free: from each posture to the farthest
+/// that it reaches.
+fn shortcut(scene: &Scene, path: Vec<Joints>, work: &mut u64) -> Vec<Joints> {
+    let mut short = Vec::new();
+    let mut at = 0;
+    while at + 1 < path.len() {
+        let next = (at + 2..path.len()).rev().find(|&to| scene.is_free(&path[at], &path[to], work));
+        at = next.unwrap_or(at + 1);
+        short.push(path[at].clone());
+    }
+    short
+}
