@@ -60,6 +60,8 @@ pub struct Tolerances {
     /// The least singular value of the rigidity matrix up to which a truss is not rigid, without unit. Default 1e-7:
     /// rounding.
     pub not_rigid: f64,
+    /// The greatest force of a strut, as a part of its limit, from which steps bring it down. Default 0.6.
+    pub force_near: f64,
     /// The descent of the greatest force of a strut, as a part of its limit, that stands in the cost of a step where
     /// forces are limited: units of displacement for a gradient of 1 per unit. Default 0.65: the median force of walks
     /// halves.
@@ -90,6 +92,7 @@ impl Tolerances {
         roll_clearance_margin: 1e-4,
         coplanar: 1e-6,
         not_rigid: 1e-7,
+        force_near: 0.6,
         force_descent: 0.65,
         force_descent_max: 0.015,
     };
