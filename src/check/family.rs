@@ -68,7 +68,6 @@ const STRUT: &[Fact] = &[
     positive("mass", Dimension::MASS),
     positive("clearance", Dimension::LENGTH),
     optional("buckling", Dimension::FORCE),
-    optional("max_accel", Dimension::ACCELERATION),
     optional("node_mass", Dimension::MASS),
 ];
 

@@ -64,7 +64,6 @@ impl Stated {
             mass: self.quantity("mass"),
             clearance: self.quantity("clearance"),
             buckling: self.optional("buckling"),
-            accel: self.optional("max_accel"),
             node_mass: self.optional("node_mass"),
         }
     }

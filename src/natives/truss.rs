@@ -32,7 +32,7 @@ const TARGET_WORDS_MAX: usize = 40;
 /// The distance that nodes may slide over the ground, summed over all, m, where all that are on it are held.
 const SLIP_MAX: f64 = 1.0;
 
-/// What helps where forces are at their greatest.
+/// The hint for plans that end where forces are at their greatest.
 const FORCES_HINT: &str = "stronger or lighter struts, or another `objective`; with `forces: false` the verdict tells what \
                            the path needs";
 

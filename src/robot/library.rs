@@ -372,9 +372,6 @@ pub struct Strut {
     /// square of its length (Euler 1744); `None`: it is not stated, and the strut does not buckle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buckling: Option<f64>,
-    /// The greatest acceleration of lengthening and shortening, m/s²; `None`: no limit stated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accel: Option<f64>,
     /// The mass of a node that struts of this kind meet at, kg; `None`: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node_mass: Option<f64>,

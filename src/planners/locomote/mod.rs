@@ -14,9 +14,9 @@
 //! let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
 //! let struts: Vec<(usize, usize)> = pairs.filter(|(i, j)| i / 2 != j / 2).collect();
 //! let name = "Actuator".to_owned();
-//! let (buckling, accel, node_mass) = (None, None, None);
+//! let (buckling, node_mass) = (None, None);
 //! let (length, clearance) = ((0.3, 3.0), 0.05);
-//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, accel, node_mass };
+//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, node_mass };
 //! let truss = TrussProblem {
 //!     strut,
 //!     node_names: (0..6).map(|i| format!("n[{i}]")).collect(),
@@ -101,7 +101,7 @@ pub enum Refusal {
     TooFar,
     /// The truss does not come to rest on the ground.
     NeverRests,
-    /// Where the truss rests at first, its struts would bear more than they can, however forces are distributed.
+    /// The struts would bear more than they can where the truss rests at first, however forces are distributed.
     Overloaded {
         /// The name of the strut that would bear most, from the names of its nodes: `a -- b`.
         strut: String,
@@ -110,12 +110,12 @@ pub enum Refusal {
         /// The greatest force that it bears, N.
         limit: f64,
     },
-    /// Where the truss rests at first, no forces of any size hold this node, by its name.
+    /// No forces of any size hold a node where the truss rests at first.
     NoHold {
         /// The name of the node.
         node: String,
     },
-    /// Where the truss rests at first, its nodes slide.
+    /// The nodes slide where the truss rests at first.
     Slides {
         /// The name of a node that slides.
         node: String,

@@ -99,7 +99,7 @@ fn within(
         if best.ratio <= 1.0 {
             break;
         }
-        // What no longer gets better does not get within the limit.
+        // A force that no longer gets less does not get within the limit.
         if levelling % PATIENCE == 0 {
             if best.ratio > GETS_BETTER * before {
                 break;
@@ -141,7 +141,7 @@ pub(in crate::planners) fn levelled(truss: &Structure, x: &[Vec3]) -> Result<For
     Ok(best)
 }
 
-/// Returns the least coefficient of friction with which forces hold the truss with the nodes at `x` (m), to a thousandth;
+/// Returns the least coefficient of friction with which forces hold the truss with the nodes at `x` (m), to a tolerance;
 /// `None` if none up to ten does.
 pub(in crate::planners) fn friction_needed(truss: &Structure, x: &[Vec3]) -> Option<f64> {
     let contacts = contacts(truss, x, &support_polygon::contacts(truss, x));
@@ -154,16 +154,15 @@ pub(in crate::planners) fn friction_needed(truss: &Structure, x: &[Vec3]) -> Opt
     if !holds(high) {
         return None;
     }
-    while high - low > FRICTION_STEP {
+    while high - low > truss.tolerances.friction_step {
         let middle = (low + high) / 2.0;
         if holds(middle) { high = middle } else { low = middle }
     }
     Some(high)
 }
 
-/// The greatest coefficient of friction that is tried, and the step to which the least is found.
+/// The greatest coefficient of friction that is tried.
 const FRICTION_MAX: f64 = 10.0;
-const FRICTION_STEP: f64 = 1e-3;
 
 /// Returns the part of a strut's force that the greatest leaves, times the unit length of the truss, m; what is far
 /// below 0 if nothing holds the truss.

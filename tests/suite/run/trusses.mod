@@ -102,7 +102,7 @@ let slides = locomote(Tetra, path: [[500mm, 300mm, 0m]], terrain: hill, friction
 //                    ^^^^^ E0602 slides where the truss rests at first, with a friction of 0.32; it takes 0.35
 
 --- a node that three struts in nearly one plane hold
-strut Strong { length 300mm..3m  max_speed 50mm/s  max_force 100N  mass 1kg  clearance 10mm }
+strut Strong { length 300mm..3m  max_speed 50mm/s  max_force 90N  mass 1kg  clearance 10mm }
 truss Mast of Strong {
   node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
   node e = [0.5m, -200mm, 0.05m]
