@@ -470,17 +470,27 @@ fn global_violations(
             violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
         }
     };
+    // A step over the edge of the support ends there.
+    let end = if problem.ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
     if truss.limits.rigidity > 0.0 {
-        for z in rigidity.violated(truss, x, y) {
+        let shorter = (end != y).then(|| rigidity.violated(truss, x, &end));
+        for z in rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()) {
             for (i, mode) in rigidity::weakest(truss, &z, MODES, &mut search.modes).iter().enumerate() {
                 check(Constraint::Rigidity(i, i), mode.spare(truss));
             }
         }
     }
     if truss.limits.forces.is_some() && problem.ground {
-        let end = support_polygon::standing(truss, x, y);
-        let found = search.forces.at(truss, &end, &support_polygon::staying(truss, x, &end));
-        check(Constraint::Force, forces::spare(truss, &found));
+        let feet = support_polygon::staying(truss, x, &end);
+        // Those that stay bear the weight from the start of the step on.
+        if feet != support_polygon::contacts(truss, x) {
+            check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
+        }
+        // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
+        let part = 1.0 - truss.tolerances.edge_part;
+        let shy = || x.iter().zip(&end).map(|(p, q)| p + (q - p) * part).collect::<Vec<Vec3>>();
+        let near = if end == y { y.to_vec() } else { shy() };
+        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated
 }
