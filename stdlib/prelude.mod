@@ -2672,10 +2672,10 @@ extern type Travel is Plan {
 /// few struts (the sum of the rates' sizes; slower to plan). `hold` says which nodes on the ground stay
 /// where they are: `all`, or `three` around the centre of mass, while others slide; `auto` is `all`, but
 /// `three` without `impact`. All nodes together slide no farther than `slip`: `auto` is 1 m with `all`, and no
-/// limit with `three`. With `forces`, forces that are in equilibrium at every node, with half the weight of
-/// each of its struts and with friction of 0.8, stay within `max_force`; many paths have no such motion, and
-/// the plan then ends where forces are at their greatest. Without it the verdict tells the least force that the
-/// path needs. Where no step is found, easier ones are
+/// limit with `three`. Forces that are in equilibrium at every node, with half the weight of each of its struts and
+/// with friction of 0.8, stay within `max_force`; where no motion goes on, the plan ends, and says which strut bears
+/// most. With `forces: false` they are not looked at: the plan then allows overload, which its verdict names first,
+/// and tells the least force that the path needs. Where no step is found, easier ones are
 /// tried, unless `fallbacks` is false: slower, with the centre free to sink, with the other hold, with the
 /// other objective. Without `impact` it does not fall over an edge where it can put a node down beyond it
 /// first, and takes about twice as many steps. `budget` is in steps. `angle`, `rigidity`, `failed`,
@@ -2714,5 +2714,6 @@ extern fn locomote(
   terrain: Terrain?,
   lookahead: Int = 0,
   slip: auto | Length = auto,
-  forces: Bool = false,
+  forces: Bool = true,
+  friction: Number = 1,
 ) -> Travel

@@ -46,8 +46,12 @@ impl<'a> Checker<'a> {
             };
             values[index] = Some(self.expect(&mut scope, value, &want, Role::Param(name.text)));
         }
-        let missing: Vec<&str> =
-            known.iter().zip(&values).filter(|(_, v)| v.is_none()).map(|(fact, _)| fact.name).collect();
+        let missing: Vec<&str> = known
+            .iter()
+            .zip(&values)
+            .filter(|(fact, v)| fact.required && v.is_none())
+            .map(|(fact, _)| fact.name)
+            .collect();
         if !missing.is_empty() {
             let (name, span) = (self.def(id).name, self.def(id).span);
             self.report(

@@ -21,7 +21,7 @@ pub enum Family {
     Truss,
 }
 
-/// A fact that every declaration of a family states: none may be left out.
+/// A fact that the declarations of a family state.
 #[derive(Debug)]
 pub struct Fact {
     /// The word for the fact in the declaration, such as `size`.
@@ -30,6 +30,8 @@ pub struct Fact {
     pub dimension: Dimension,
     /// The form that the fact's value must have.
     pub form: FactForm,
+    /// True for a fact that none may leave out.
+    pub required: bool,
 }
 
 /// The form that the value of a fact must have: `check` asks for its type, elaboration for its sign.
@@ -42,7 +44,11 @@ pub enum FactForm {
 }
 
 const fn positive(name: &'static str, dimension: Dimension) -> Fact {
-    Fact { name, dimension, form: FactForm::Positive }
+    Fact { name, dimension, form: FactForm::Positive, required: true }
+}
+
+const fn optional(name: &'static str, dimension: Dimension) -> Fact {
+    Fact { name, dimension, form: FactForm::Positive, required: false }
 }
 
 /// The facts of a cell.
@@ -56,11 +62,13 @@ const CELL: &[Fact] = &[
 
 /// The facts of a strut.
 const STRUT: &[Fact] = &[
-    Fact { name: "length", dimension: Dimension::LENGTH, form: FactForm::PositiveRange },
+    Fact { name: "length", dimension: Dimension::LENGTH, form: FactForm::PositiveRange, required: true },
     positive("max_speed", Dimension::SPEED),
     positive("max_force", Dimension::FORCE),
     positive("mass", Dimension::MASS),
     positive("clearance", Dimension::LENGTH),
+    optional("buckling", Dimension::FORCE),
+    optional("node_mass", Dimension::MASS),
 ];
 
 impl Family {

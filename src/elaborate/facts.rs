@@ -32,6 +32,11 @@ impl Stated {
         self.of(name).1.0
     }
 
+    /// Returns a quantity that may be left out, SI.
+    fn optional(&self, name: &str) -> Option<f64> {
+        self.facts.iter().find(|(fact, ..)| fact.name == name).map(|(_, (quantity, _), _)| *quantity)
+    }
+
     /// Returns the span of a value.
     fn span(&self, name: &str) -> Span {
         self.of(name).2
@@ -58,6 +63,8 @@ impl Stated {
             force: self.quantity("max_force"),
             mass: self.quantity("mass"),
             clearance: self.quantity("clearance"),
+            buckling: self.optional("buckling"),
+            node_mass: self.optional("node_mass"),
         }
     }
 }
@@ -77,15 +84,21 @@ impl Interpreter<'_> {
     ) -> Eval<Option<DesignKind>> {
         let mut frame = Frame::new(def.frame, Some(this.clone()));
         let mark = self.reported.errors;
-        let mut facts = Vec::new();
+        let (mut facts, mut stated) = (Vec::new(), 0);
         for (fact, value) in Family::from(def.family).facts().iter().zip(&def.facts) {
-            // `check` reports a fact that is missing.
-            let Some(value) = value else { return Ok(None) };
+            let Some(value) = value else {
+                // `check` reports a fact that is missing.
+                if fact.required {
+                    return Ok(None);
+                }
+                continue;
+            };
+            stated += 1;
             let read = self.attempt(|this| this.fact(fact, value, &mut frame))?.flatten();
             facts.extend(read.map(|read| (fact, read, value.span)));
         }
         // A fact that can't be read was reported, or is unknown.
-        if facts.len() < def.facts.len() || self.failed_since(mark) {
+        if facts.len() < stated || self.failed_since(mark) {
             return Ok(None);
         }
         let (stated, title) = (Stated { facts }, title.to_string());

@@ -197,8 +197,8 @@ impl Interpreter<'_> {
         for (index, exemption) in planned.plan.exemptions.iter().enumerate() {
             let needed = !verdict.unneeded_exemptions.contains(&index);
             let span = self.memory.causes.get(planned.causes[exemption.cause.0 as usize]).span;
-            // Those of the library are not reported.
-            if !self.is_library(span) {
+            // Those of the library are not reported, nor those that an option of a planner states for a whole plan.
+            if !self.is_library(span) && planned.plan.program.is_some() {
                 *self.memory.exemptions.entry(span).or_default() |= needed;
             }
         }

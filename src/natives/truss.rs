@@ -14,9 +14,10 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::{Mesh, Value};
 use crate::interrupt;
-use crate::plan::{DynamicsModel, World};
+use crate::plan::{CauseId, DynamicsModel, Exemption, ExemptionKind, World};
 use crate::planners::locomote::{self, Hold, Objective};
 use crate::planners::morph::{self, TargetShape};
+use crate::planners::truss::constraint::Constraint;
 use crate::planners::truss::problem::{InvalidTruss, TrussProblem};
 use crate::planners::{Progress, Solution};
 use crate::robot::Library;
@@ -30,6 +31,10 @@ const TARGET_WORDS_MAX: usize = 40;
 
 /// The distance that nodes may slide over the ground, summed over all, m, where all that are on it are held.
 const SLIP_MAX: f64 = 1.0;
+
+/// The hint for plans that end where forces are at their greatest.
+const FORCES_HINT: &str = "stronger or lighter struts, or another `objective`; with `forces: false` the verdict tells what \
+                           the path needs";
 
 /// The built-ins `morph` and `locomote`: the key of each with its parameters and its Rust function.
 pub const TABLE: &[Native] = &[
@@ -60,6 +65,7 @@ arguments! {
         hold: HoldWord,
         slip: WordOr<Auto, Positive> as "the greatest slip",
         forces: bool,
+        friction: Positive as "the friction",
         fallbacks: bool,
         budget: usize as "a budget",
         timeout: Option<Positive> as "a timeout",
@@ -132,7 +138,9 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
 fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = MorphArguments::read(call)?;
     let design = arguments.truss.design.clone();
-    let Some(truss) = problem(call, &design, &arguments.limits, None)? else { return Ok(Value::Unknown) };
+    let Some(truss) = problem(call, &design, &arguments.limits, (None, 1.0))? else {
+        return Ok(Value::Unknown);
+    };
     let problem = morph::Problem { truss, target: target(call, arguments.target)? };
     let settings = morph::Settings {
         tolerance: arguments.tolerance.0,
@@ -170,14 +178,16 @@ fn morph(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let words = interpreter.shared.sources.text(call.at("target")).split_whitespace();
     let goal: String = words.collect::<Vec<_>>().join(" ").chars().take(TARGET_WORDS_MAX).collect();
     let shapes = Some((design.name.to_string(), goal));
-    Ok(planned(interpreter, call, (design, shapes), ("morph", World::FREE), (solution, Some(settings.seed))))
+    let made = Made { solution, seed: Some(settings.seed), excused: None };
+    Ok(planned(interpreter, call, (design, shapes), ("morph", World::FREE), made))
 }
 
 /// Runs `locomote`; warns of a plan that does not reach the end of the path.
 fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = LocomoteArguments::read(call)?;
+    let friction = arguments.friction.0;
     let design = arguments.truss.design.clone();
-    let Some(truss) = problem(call, &design, &arguments.limits, arguments.terrain)? else {
+    let Some(truss) = problem(call, &design, &arguments.limits, (arguments.terrain, friction))? else {
         return Ok(Value::Unknown);
     };
     // Heights of the path mean nothing.
@@ -223,18 +233,24 @@ fn locomote(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         }
         _ => {
             let message = format!("the truss reaches {} of {places} places of its path", report.reached);
-            interpreter.add_report(
-                Diagnostic::warning(code::SHORT_OF_GOAL, message)
-                    .label(call.span, report.ended.clone())
-                    .hint("another `objective` or another path may lead there"),
-            );
+            let hint = match &report.end {
+                locomote::End::Stuck(error) if error.constraints().contains(&Constraint::Force) => {
+                    FORCES_HINT
+                }
+                locomote::End::Blocked(Constraint::Force) => FORCES_HINT,
+                _ => "another `objective` or another path may lead there",
+            };
+            let warning = Diagnostic::warning(code::SHORT_OF_GOAL, message);
+            interpreter.add_report(warning.label(call.span, report.ended.clone()).hint(hint));
         }
     }
-    let world = World { dynamics: DynamicsModel::Statics, ..World::default() };
-    Ok(planned(interpreter, call, (design, None), ("locomote", world), (solution, None)))
+    let world = World { dynamics: DynamicsModel::Statics, friction, ..World::default() };
+    let excused = (!settings.forces).then_some(ExemptionKind::Overload(None));
+    let made = Made { solution, seed: None, excused };
+    Ok(planned(interpreter, call, (design, None), ("locomote", world), made))
 }
 
-/// Returns the truss with its limits, among obstacles and on terrain; `None` where the design is not a truss, or its
+/// Returns the truss with its limits, among obstacles and on terrain with a factor on its friction; `None` where the design is not a truss, or its
 /// strut is broken.
 ///
 /// # Errors
@@ -243,7 +259,7 @@ fn problem(
     call: &Call,
     design: &Design,
     limited: &LimitArguments,
-    terrain: Option<&HeightField>,
+    (terrain, friction): (Option<&HeightField>, f64),
 ) -> Eval<Option<TrussProblem>> {
     let obstacles = obstacles(call, limited.obstacles)?;
     let Some(truss) = truss_of(design) else { return Ok(None) };
@@ -256,6 +272,7 @@ fn problem(
         limits: limits(call, truss, limited)?,
         obstacles,
         terrain: terrain.cloned(),
+        friction,
     }))
 }
 
@@ -338,6 +355,18 @@ fn locomote_refused(call: &Call, refusal: locomote::Refusal) -> Stop {
         locomote::Refusal::Truss(invalid) => invalid_truss(call, invalid),
         locomote::Refusal::EmptyPath | locomote::Refusal::TooFar => call.refuse("path", refusal.to_string()),
         locomote::Refusal::NeverRests => call.refuse("truss", refusal.to_string()),
+        locomote::Refusal::Overloaded { .. } => Diagnostic::error(code::OVERLOAD, refusal.to_string())
+            .label(call.at("truss"), "too heavy for its struts")
+            .hint("stronger or lighter struts; `forces: false` plans all the same, and the verdict says so")
+            .into(),
+        locomote::Refusal::NoHold { .. } => Diagnostic::error(code::FALL, refusal.to_string())
+            .label(call.at("truss"), "it does not stand")
+            .hint("struts in a further direction hold a node")
+            .into(),
+        locomote::Refusal::Slides { .. } => Diagnostic::error(code::FALL, refusal.to_string())
+            .label(call.at("truss"), "it does not stand")
+            .hint("a gentler slope, or a greater `friction`")
+            .into(),
     }
 }
 
@@ -365,19 +394,31 @@ fn invalid_truss(call: &Call, invalid: &InvalidTruss) -> Stop {
         .into()
 }
 
+/// The solution of a planner, with what the plan states beside it.
+struct Made<R> {
+    solution: Solution<R>,
+    /// The seed of the search; none for a search without chance.
+    seed: Option<u64>,
+    /// The check that the call has the whole plan excused from.
+    excused: Option<ExemptionKind>,
+}
+
 fn planned<R: PlannerReport>(
     interpreter: &mut Interpreter,
     call: &Call,
     (design, shapes): (Rc<Design>, Option<(String, String)>),
     (planner, world): (&str, World),
-    (solution, seed): (Solution<R>, Option<u64>),
+    made: Made<R>,
 ) -> Value {
     let causes = interpreter.planner_causes(call.span);
     let strut = truss_of(&design).and_then(TrussDesign::strut_kind).cloned();
     let library = Arc::new(Library { struts: strut.into_iter().collect(), ..Library::default() });
-    let Solution { body, report, .. } = solution;
+    let Solution { body, report, .. } = made.solution;
+    let to = body.duration();
     let mut plan = interpreter.bare_plan(planner, body, library, world, &causes);
-    plan.provenance.seed = seed.or(plan.provenance.seed);
+    let exemption = |kind| Exemption { kind, from: 0.0, to, cause: CauseId(0) };
+    plan.exemptions.extend(made.excused.map(exemption));
+    plan.provenance.seed = made.seed.or(plan.provenance.seed);
     plan.provenance.shapes = shapes;
     let planned = PlanValue::new(design, None, plan, causes.ids, 0).with_report(report);
     Value::Record(Rc::new(Record::Plan(Rc::new(planned))))

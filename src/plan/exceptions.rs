@@ -1,5 +1,6 @@
 //! The headline of a verdict, with what it excuses.
 
+use super::body::Body;
 use super::cause::Cause;
 use super::listing::listed;
 use super::motion_plan::Plan;
@@ -40,7 +41,7 @@ fn excused(plan: &Plan, verdict: &Verdict) -> Vec<String> {
     for (index, exemption) in plan.exemptions.iter().enumerate() {
         if !verdict.unneeded_exemptions.contains(&index) {
             let cause = plan.causes.get(exemption.cause.0 as usize);
-            lines.entry(check(&exemption.kind)).or_default().extend(cause.map(position));
+            lines.entry(check(&exemption.kind, &plan.body)).or_default().extend(cause.map(position));
         }
     }
     let files: BTreeSet<&str> = lines.values().flatten().map(|(file, _)| *file).collect();
@@ -55,9 +56,10 @@ fn excused(plan: &Plan, verdict: &Verdict) -> Vec<String> {
     lines.iter().map(words).collect()
 }
 
-/// Returns the check that an exemption excuses.
-fn check(kind: &ExemptionKind) -> CheckKind {
+/// Returns the check that an exemption excuses in a plan of this body.
+fn check(kind: &ExemptionKind, body: &Body) -> CheckKind {
     match kind {
+        ExemptionKind::Overload(_) if matches!(body, Body::NodePaths(_)) => CheckKind::StrutLoad,
         ExemptionKind::Unstable => CheckKind::Stability,
         ExemptionKind::Slip => CheckKind::Slip,
         ExemptionKind::Collision(_) => CheckKind::Collision,

@@ -142,14 +142,19 @@ fn of_cell(cell: &Cell) -> String {
 
 fn of_strut(strut: &Strut) -> String {
     let metres = |x: f64| quantity(x, Dimension::LENGTH);
+    let told = |name: &str, value: Option<f64>, dimension: Dimension| {
+        value.map_or_else(String::new, |value| format!(", {name} {}", quantity(value, dimension)))
+    };
     format!(
-        "{}, {}..{}, {}, {}, clearance {}",
+        "{}, {}..{}, {}, {}, clearance {}{}{}",
         quantity(strut.mass, Dimension::MASS),
         metres(strut.length.0),
         metres(strut.length.1),
         quantity(strut.force, Dimension::FORCE),
         quantity(strut.speed, Dimension::SPEED),
-        metres(strut.clearance)
+        metres(strut.clearance),
+        told("buckling", strut.buckling, Dimension::FORCE),
+        told("node_mass", strut.node_mass, Dimension::MASS)
     )
 }
 

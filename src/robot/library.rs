@@ -362,10 +362,36 @@ pub struct Strut {
     pub length: (f64, f64),
     /// The greatest speed of lengthening and shortening, m/s.
     pub speed: f64,
-    /// The greatest magnitude of the force along the strut, N, as declared: the judge computes no forces of struts.
+    /// The greatest magnitude of the force along the strut, N.
     pub force: f64,
     /// The mass of the strut, kg.
     pub mass: f64,
     /// The least distance of the strut's axis from those of struts that share no node with it, and from obstacles, m.
     pub clearance: f64,
+    /// The pressure at which the strut buckles at its greatest length, N; shorter it bears more, as the inverse of the
+    /// square of its length (Euler 1744); `None`: it is not stated, and the strut does not buckle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buckling: Option<f64>,
+    /// The mass of a node that struts of this kind meet at, kg; `None`: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub node_mass: Option<f64>,
+}
+
+impl Strut {
+    /// Returns the mass at each node of a truss of these struts, kg: half of each strut at either of its ends, and the
+    /// node's own. `struts`: the two nodes of each strut, indices below `nodes`; others panic.
+    pub fn node_masses(&self, nodes: usize, struts: &[(usize, usize)]) -> Vec<f64> {
+        let mut masses = vec![self.node_mass.unwrap_or(0.0); nodes];
+        for &(a, b) in struts {
+            masses[a] += self.mass / 2.0;
+            masses[b] += self.mass / 2.0;
+        }
+        masses
+    }
+
+    /// Returns the product of the square of the length of a strut and the pressure at which it buckles, N m²: π² times its
+    /// bending stiffness; infinite for struts that do not buckle.
+    pub fn euler(&self) -> f64 {
+        self.buckling.map_or(f64::INFINITY, |force| force * self.length.1 * self.length.1)
+    }
 }

@@ -76,7 +76,7 @@ pub struct Weights {
     pub struts: Vec<f64>,
     /// The stiffness of each node's contact across its normal.
     grips: Vec<f64>,
-    /// True for nodes on the ground that it would have to pull.
+    /// True for nodes on the ground that it would have to pull, or would have had to the last time.
     lifted: Vec<bool>,
 }
 
@@ -110,7 +110,8 @@ pub enum ForcesError {
 
 impl Weights {
     /// Returns forces that hold a truss at rest, those with the least weighted sum of squares: by the stiffness method,
-    /// in which contacts that would pull are left out, and those beyond their friction cone grip less, until none is.
+    /// in which contacts that would pull are left out, and those beyond their friction cone grip less, until none is. The
+    /// search begins with the contacts that were left out the last time, but for those that would go into the ground.
     /// `x`: the positions of the nodes, m; `struts`: those of the layout; `contacts`: the nodes on the ground.
     ///
     /// # Errors
@@ -123,9 +124,29 @@ impl Weights {
         contacts: &[Contact],
         model: &ForceModel,
     ) -> Result<Forces, ForcesError> {
-        self.grips.resize(x.len(), GRIP_MAX);
-        self.lifted.clear();
         self.lifted.resize(x.len(), false);
+        if contacts.iter().any(|contact| self.lifted[contact.node]) {
+            let (grips, known) = (self.grips.clone(), self.searched(layout, x, struts, contacts, model));
+            if known.is_ok() {
+                return known;
+            }
+            self.grips = grips;
+        }
+        self.lifted.fill(false);
+        self.searched(layout, x, struts, contacts, model)
+    }
+
+    /// Returns forces as [`forces`](Weights::forces) does, from the contacts that are left out at first.
+    fn searched(
+        &mut self,
+        layout: &Layout,
+        x: &[Vec3],
+        struts: &[(usize, usize)],
+        contacts: &[Contact],
+        model: &ForceModel,
+    ) -> Result<Forces, ForcesError> {
+        let mut supposed = contacts.iter().any(|contact| self.lifted[contact.node]);
+        self.grips.resize(x.len(), GRIP_MAX);
         self.struts.resize(struts.len(), 1.0);
         self.grips.iter_mut().for_each(|grip| *grip = (*grip * GRIP_GAIN).min(GRIP_MAX));
         let whole: f64 = model.loads.iter().map(Vec3::norm).sum();
@@ -142,6 +163,17 @@ impl Weights {
             let factor = matrix.cholesky(PivotRule::Refuse(PIVOT)).ok_or(ForcesError::NoHold(0))?;
             factor.solve_permuted(&mut u);
             let displacements: Vec<Vec3> = (0..x.len()).map(|node| layout.at(&u, node)).collect();
+            // Contacts that were left out on supposition, and would go into the ground.
+            if std::mem::take(&mut supposed) {
+                let sinks = |contact: &&Contact| {
+                    self.lifted[contact.node] && displacements[contact.node].dot(&contact.normal) < 0.0
+                };
+                let sinking: Vec<usize> = contacts.iter().filter(sinks).map(|contact| contact.node).collect();
+                sinking.iter().for_each(|node| self.lifted[*node] = false);
+                if !sinking.is_empty() {
+                    continue;
+                }
+            }
             // The contact that has to change most.
             let mut pulls: Option<(f64, usize)> = None;
             let mut slides = false;

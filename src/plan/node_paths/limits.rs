@@ -48,9 +48,6 @@ pub struct TrussLimits {
     /// if that is less.
     #[serde(default)]
     pub rigidity: f64,
-    /// True if forces that hold the truss at rest on the ground stay within what a strut bears.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub forces: bool,
     /// The greatest distance that nodes on the ground slide, summed over all, m; 0: no limit.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub slip: f64,

@@ -14,7 +14,9 @@
 //! let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
 //! let struts: Vec<(usize, usize)> = pairs.filter(|(i, j)| i / 2 != j / 2).collect();
 //! let name = "Actuator".to_owned();
-//! let strut = Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.05 };
+//! let (buckling, node_mass) = (None, None);
+//! let (length, clearance) = ((0.3, 3.0), 0.05);
+//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, node_mass };
 //! let truss = TrussProblem {
 //!     strut,
 //!     node_names: (0..6).map(|i| format!("n[{i}]")).collect(),
@@ -23,6 +25,7 @@
 //!     limits: Limits::default(),
 //!     obstacles: Vec::new(),
 //!     terrain: None,
+//!     friction: 1.0,
 //! };
 //! let problem = locomote::Problem { truss, path: vec![[2.0, 0.3]] };
 //! let solution = locomote::plan(&problem, &locomote::Settings::default(), &mut NoProgress)?;
@@ -33,6 +36,7 @@
 //! ```
 
 mod detours;
+mod landing;
 mod lookahead;
 mod objective;
 mod rollout;
@@ -40,12 +44,16 @@ mod rollout;
 pub use objective::{Objective, cost};
 pub use rollout::{End, Foothold, Hold, Settings, Travel, follow_path};
 
-use super::truss::motion::{node_paths, travelled_distance};
+use super::truss::constraint::Constraint;
+use super::truss::motion::{moved, node_paths, travelled_distance};
 use super::truss::problem::{InvalidTruss, TrussProblem};
-use super::truss::{Structure, roll};
+use super::truss::{Structure, forces, rigidity_weakest, roll};
 use super::{Progress, Solution};
+use crate::geometry::Vec3;
 use crate::geometry::soundness::{EXTENT_MAX, in_reach};
 use crate::plan::Body;
+use crate::robot::truss_statics::{Forces, ForcesError};
+use crate::units::{Dimension, number, quantity};
 use std::fmt;
 
 /// A problem of locomotion: a truss, and the path that its centre of mass has to follow.
@@ -93,6 +101,29 @@ pub enum Refusal {
     TooFar,
     /// The truss does not come to rest on the ground.
     NeverRests,
+    /// The struts would bear more than they can where the truss rests at first, however forces are distributed.
+    Overloaded {
+        /// The name of the strut that would bear most, from the names of its nodes: `a -- b`.
+        strut: String,
+        /// Its force, N, positive.
+        force: f64,
+        /// The greatest force that it bears, N.
+        limit: f64,
+    },
+    /// No forces of any size hold a node where the truss rests at first.
+    NoHold {
+        /// The name of the node.
+        node: String,
+    },
+    /// The nodes slide where the truss rests at first.
+    Slides {
+        /// The name of a node that slides.
+        node: String,
+        /// The coefficient of friction of nodes on the ground, without unit.
+        friction: f64,
+        /// The least coefficient that would hold it, without unit; `None` if none does.
+        needed: Option<f64>,
+    },
 }
 
 impl fmt::Display for Refusal {
@@ -102,6 +133,24 @@ impl fmt::Display for Refusal {
             Refusal::EmptyPath => f.write_str("a path has at least one place"),
             Refusal::TooFar => write!(f, "a path leads to places at most {EXTENT_MAX} m away"),
             Refusal::NeverRests => f.write_str("the truss does not come to rest on the ground"),
+            Refusal::Overloaded { strut, force, limit } => {
+                let [force, limit] = [force, limit].map(|force| quantity(*force, Dimension::FORCE));
+                write!(
+                    f,
+                    "the strut {strut} would bear {force} where the truss rests at first; it can bear {limit}"
+                )
+            }
+            Refusal::NoHold { node } => {
+                write!(f, "no forces, of any size, hold the node {node} where the truss rests at first")
+            }
+            Refusal::Slides { node, friction, needed } => {
+                let friction = number(*friction);
+                write!(
+                    f,
+                    "the node {node} slides where the truss rests at first, with a friction of {friction}"
+                )?;
+                needed.map_or(Ok(()), |needed| write!(f, "; it takes {}", number(needed)))
+            }
         }
     }
 }
@@ -114,8 +163,8 @@ impl std::error::Error for Refusal {}
 /// the search.
 ///
 /// # Errors
-/// A [`Refusal`] if the truss is invalid or does not come to rest on the ground, or if the path is empty or reaches too
-/// far.
+/// A [`Refusal`] if the truss is invalid or does not come to rest on the ground, if nothing holds it there within the
+/// limits, or if the path is empty or reaches too far.
 pub fn plan(
     problem: &Problem,
     settings: &Settings,
@@ -131,9 +180,10 @@ pub fn plan(
     if !problem.path.iter().all(|place| in_reach(place)) {
         return Err(Refusal::TooFar);
     }
+    bears_its_weight(&problem.truss, &truss, &start)?;
     let travel = follow_path(&truss, &start, &problem.path, settings, progress);
     let report = Report {
-        ended: ended(&problem.truss, &truss, settings, &travel.end),
+        ended: ended(&problem.truss, &truss, settings, (&start, &travel)),
         distance: travelled_distance(&truss, &start, &travel.moves),
         reached: travel.reached,
         steps: travel.steps,
@@ -148,16 +198,59 @@ pub fn plan(
     Ok(Solution { body: Body::NodePaths(paths), program: None, report })
 }
 
-/// Returns the reason why a motion ends in words.
-fn ended(problem: &TrussProblem, truss: &Structure, settings: &Settings, end: &End) -> String {
-    match end {
+/// Checks that forces within the limits hold a truss with its nodes at `x`, m, if they are limited.
+///
+/// # Errors
+/// The refusal of a truss that they do not hold.
+fn bears_its_weight(problem: &TrussProblem, truss: &Structure, x: &[Vec3]) -> Result<(), Refusal> {
+    let Some(model) = &truss.limits.forces else { return Ok(()) };
+    let node = |node: usize| problem.node_names[node].clone();
+    match forces::levelled(truss, x) {
+        Ok(found) if found.ratio > 1.0 => {
+            let force = found.struts[found.strut].abs();
+            let (strut, limit) = (problem.strut_name(found.strut), force / found.ratio);
+            Err(Refusal::Overloaded { strut, force, limit })
+        }
+        Ok(_) => Ok(()),
+        Err(ForcesError::Slides(at)) => {
+            let (node, friction) = (node(at), model.friction);
+            Err(Refusal::Slides { node, friction, needed: forces::friction_needed(truss, x) })
+        }
+        Err(ForcesError::NoHold(_) | ForcesError::Falls) => {
+            Err(Refusal::NoHold { node: node(rigidity_weakest(truss, x)) })
+        }
+    }
+}
+
+/// Returns the reason why a motion ends in words. `travel`: the motion, from the positions of the nodes at its start, m.
+fn ended(
+    problem: &TrussProblem,
+    truss: &Structure,
+    settings: &Settings,
+    (start, travel): (&[Vec3], &Travel),
+) -> String {
+    match &travel.end {
         End::Arrived => "arrived".to_string(),
         End::Steps => format!("{} steps were not enough", settings.steps_max),
         End::Falls => "it does not come to rest on three nodes".to_string(),
+        End::Stuck(error) if error.constraints().contains(&Constraint::Force) => {
+            let last = travel.moves.iter().fold(start.to_vec(), |x, step| moved(&x, step));
+            match forces::levelled(truss, &last) {
+                Ok(found) => format!("no step keeps all limits: {}", loaded(problem, &found)),
+                Err(_) => problem.explain(truss, error),
+            }
+        }
         End::Stuck(error) => problem.explain(truss, error),
         End::Blocked(constraint) => {
             format!("it would fall over an edge: {}", problem.explain_constraint(truss, *constraint))
         }
         End::Cancelled => "it was ended".to_string(),
     }
+}
+
+/// Returns in words what the strut that bears most bears.
+fn loaded(problem: &TrussProblem, found: &Forces) -> String {
+    let force = found.struts[found.strut].abs();
+    let [bears, limit] = [force, force / found.ratio].map(|force| quantity(force, Dimension::FORCE));
+    format!("{} bears {bears} at best, and can bear {limit}", problem.strut_name(found.strut))
 }

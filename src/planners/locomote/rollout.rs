@@ -1,6 +1,7 @@
 //! The rollout of locomotion: the centre of mass along a path, step by step, and over the edge of the
 //! support polygon where it gets there (sections IV.A to IV.C of the paper).
 
+use super::landing::RESHAPING_MAX;
 use super::objective::{Objective, cost};
 use super::{detours, lookahead};
 use crate::geometry::Vec3;
@@ -57,7 +58,7 @@ pub struct Settings {
     /// whole, half or none of the stride; and, where all get stuck, from some steps before with another objective. Default true.
     pub fallbacks: bool,
     /// True if forces that hold the truss at rest, of struts and of the ground, stay within what a strut bears after every
-    /// step. Default false: many paths have no such motion.
+    /// step and roll. Default true; [`follow_path`] looks at them where the limits of its truss have forces.
     pub forces: bool,
     /// The greatest distance that nodes on the ground slide, summed over all, m; infinite for no limit. Default
     /// infinite.
@@ -96,7 +97,7 @@ impl Default for Settings {
             impact: true,
             lookahead: 0,
             fallbacks: true,
-            forces: false,
+            forces: true,
             slip_max: f64::INFINITY,
             steps_max: 100_000,
             foothold: Foothold { trigger: 0.1, beyond: 0.2, weight: 100.0, steps_max: 60 },
@@ -154,7 +155,7 @@ const ANCHOR: f64 = 100.0;
 const LIFT: f64 = 1.0;
 
 /// A relaxation of a step: an easier one that is tried instead.
-struct Relaxation {
+pub(super) struct Relaxation {
     /// The fraction of the stride.
     speed: f64,
     /// True if the height of the centre of mass is prescribed too.
@@ -166,7 +167,7 @@ struct Relaxation {
 }
 
 /// The step as it is wanted, then its relaxations in the order in which they are tried.
-const RELAXATIONS: [Relaxation; 8] = [
+pub(super) const RELAXATIONS: [Relaxation; 8] = [
     Relaxation { speed: 1.0, level: true, other_hold: false, springs: false },
     Relaxation { speed: 0.5, level: true, other_hold: false, springs: false },
     Relaxation { speed: 0.25, level: true, other_hold: false, springs: false },
@@ -207,6 +208,9 @@ pub fn follow_path(
         place_node_first: false,
         placing: None,
         out_of_reach: Vec::new(),
+        reshaped: 0,
+        reshaping: false,
+        landed: forces::Known::default(),
         travel: Travel::new(),
     };
     rollout.travel.end = match rollout.settle() {
@@ -285,6 +289,12 @@ pub(super) struct Rollout<'a> {
     placing: Option<(usize, usize)>,
     /// Nodes that could not be placed from where the truss stands.
     out_of_reach: Vec<usize>,
+    /// The number of steps in which the truss was reshaped before its next roll.
+    pub reshaped: usize,
+    /// True while it is.
+    pub reshaping: bool,
+    /// The forces where it would land.
+    pub landed: forces::Known,
     /// The motion found so far.
     pub travel: Travel,
 }
@@ -325,6 +335,9 @@ impl Rollout<'_> {
         if (!self.policy.impact || self.place_node_first) && self.place_node(stride) {
             return self.settle();
         }
+        if self.reshaping && self.reshape(stride) {
+            return Ok(());
+        }
         let before = (self.x.clone(), self.travel.moves.len(), self.travel.duration, self.travel.slip);
         let y = match self.next(stride) {
             Ok(y) => y,
@@ -340,9 +353,12 @@ impl Rollout<'_> {
         self.travel.steps += 1;
         self.move_to(y);
         let settled = self.settle();
-        if matches!(settled, Err(End::Blocked(_))) && !self.place_node_first {
-            // Take the step back, and place a node first.
-            self.place_node_first = true;
+        if let Err(End::Blocked(constraint)) = settled
+            && !self.place_node_first
+        {
+            // Take the step back, and reshape or place a node first.
+            self.reshaping = constraint == Constraint::Force && self.reshaped < RESHAPING_MAX;
+            self.place_node_first = !self.reshaping;
             self.warm_start = WarmStart::default();
             self.x = before.0;
             self.travel.moves.truncate(before.1);
@@ -372,6 +388,7 @@ impl Rollout<'_> {
             self.out_of_reach.clear();
             self.out_of_reach.push(node);
             self.placing = None;
+            self.place_node_first = false;
         }
         // The edge that the centre of mass comes near to.
         let hull = support_polygon::hull(&self.x, &contacts);
@@ -469,7 +486,7 @@ impl Rollout<'_> {
     }
 
     /// Returns the positions after a step under a relaxation, and keeps its warm start.
-    fn attempt(
+    pub(super) fn attempt(
         &mut self,
         relaxation: &Relaxation,
         stride: [f64; 2],
@@ -491,6 +508,7 @@ impl Rollout<'_> {
         }
         let mut cost = cost(objective, self.truss, &self.x, self.stride / self.truss.unit);
         self.released(&mut cost, contacts, &pinned);
+        self.prepare_landing(&mut cost, stride, &pinned);
         let problem = StepProblem {
             truss: self.truss,
             x: &self.x,
@@ -515,7 +533,7 @@ impl Rollout<'_> {
     }
 
     /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
-    fn move_to(&mut self, y: Vec<Vec3>) {
+    pub(super) fn move_to(&mut self, y: Vec<Vec3>) {
         let next = support_polygon::standing(self.truss, &self.x, &y);
         self.travel.slip += self.slip(&next);
         if next != self.x {
@@ -568,6 +586,7 @@ impl Rollout<'_> {
             self.warm_start.active.retain(|constraint| !outer(constraint));
             self.travel.rolls += 1;
             self.place_node_first = false;
+            (self.reshaping, self.reshaped) = (false, 0);
             self.placing = None;
             self.out_of_reach.clear();
         }

@@ -12,7 +12,9 @@
 //! let (a, b) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
 //! let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, a, 0.0], [0.5, a / 3.0, b]].map(Vec3::from);
 //! let name = "Actuator".to_owned();
-//! let strut = Strut { name, length: (0.3, 3.0), speed: 1.0, force: 1.0, mass: 1.0, clearance: 0.05 };
+//! let (buckling, node_mass) = (None, None);
+//! let (length, clearance) = ((0.3, 3.0), 0.05);
+//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, node_mass };
 //! let truss = TrussProblem {
 //!     strut,
 //!     node_names: (0..4).map(|i| format!("n[{i}]")).collect(),
@@ -21,6 +23,7 @@
 //!     limits: Limits::default(),
 //!     obstacles: Vec::new(),
 //!     terrain: None,
+//!     friction: 1.0,
 //! };
 //! // The same tetrahedron, half as large again.
 //! let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

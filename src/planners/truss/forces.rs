@@ -3,13 +3,63 @@
 use super::structure::Structure;
 use super::support_polygon;
 use crate::geometry::Vec3;
-use crate::robot::truss_statics::{Contact, Forces, ForcesError, Weights};
+use crate::robot::truss_statics::{Contact, ForceModel, Forces, ForcesError, Weights};
 
 /// The number of times that the weights of struts are levelled where nothing is known of nearby positions.
 const LEVELLINGS: usize = 60;
+/// The number of times that weights are levelled at the end of a step.
+const LEVELLINGS_STEP: usize = 15;
+/// The number of levellings after which the greatest force must have become less, and the part of it that must be left at
+/// most.
+const PATIENCE: usize = 3;
+const GETS_BETTER: f64 = 0.98;
+
+/// The forces that were found last, from which the next search begins.
+#[derive(Clone, Debug, Default)]
+pub(in crate::planners) struct Known {
+    weights: Weights,
+    last: Option<Last>,
+}
+
+/// The part of the limit that the greatest force may leave at the start of a step so that it has a row in the next.
+pub(super) const NEAR: f64 = 0.2;
+
+/// Forces with what they were found for.
+#[derive(Clone, Debug)]
+struct Last {
+    x: Vec<Vec3>,
+    contacts: Vec<Contact>,
+    forces: Result<Forces, ForcesError>,
+}
+
+impl Known {
+    /// Returns forces with the nodes at `x` (m) on `feet` whose greatest is within the limit, if levelling finds some, else
+    /// the least found.
+    ///
+    /// # Errors
+    /// [`ForcesError`] if none hold the truss.
+    pub(in crate::planners) fn at(
+        &mut self,
+        truss: &Structure,
+        x: &[Vec3],
+        feet: &[usize],
+    ) -> Result<Forces, ForcesError> {
+        let contacts = contacts(truss, x, feet);
+        if let Some(last) = self.last.as_ref().filter(|last| last.x == x && last.contacts == contacts) {
+            return last.forces.clone();
+        }
+        let forces = within(truss, x, &contacts, (&mut self.weights, LEVELLINGS_STEP));
+        // Far from the limit there is nothing to level.
+        if let Some(found) = forces.as_ref().ok().filter(|found| found.ratio > truss.tolerances.force_near) {
+            level(truss, x, found, &mut self.weights);
+        }
+        self.last = Some(Last { x: x.to_vec(), contacts, forces: forces.clone() });
+        forces
+    }
+}
 
 /// Returns the contacts of nodes on the ground, given by their indices, with the normals of the ground there.
-pub(super) fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Contact> {
+fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Contact> {
     let contact = |&node: &usize| Contact { node, normal: truss.surroundings.normal(x[node]) };
     nodes.iter().map(contact).collect()
 }
@@ -18,7 +68,7 @@ pub(super) fn contacts(truss: &Structure, x: &[Vec3], nodes: &[usize]) -> Vec<Co
 ///
 /// # Errors
 /// [`ForcesError`] if none hold the truss.
-pub(super) fn found(
+fn found(
     truss: &Structure,
     x: &[Vec3],
     contacts: &[Contact],
@@ -33,34 +83,40 @@ pub(super) fn found(
 ///
 /// # Errors
 /// [`ForcesError`] if none hold the truss.
-pub(super) fn within(
+fn within(
     truss: &Structure,
     x: &[Vec3],
     contacts: &[Contact],
-    weights: &mut Weights,
+    (weights, levellings): (&mut Weights, usize),
 ) -> Result<Forces, ForcesError> {
     let mut best = found(truss, x, contacts, weights).or_else(|_| {
         *weights = Weights::default();
         found(truss, x, contacts, weights)
     })?;
-    for _ in 0..LEVELLINGS_STEP {
+    let mut last = best.clone();
+    let mut before = f64::INFINITY;
+    for levelling in 0..levellings {
         if best.ratio <= 1.0 {
             break;
         }
-        level(truss, x, &best, weights);
-        let next = found(truss, x, contacts, weights)?;
-        if next.ratio < best.ratio {
-            best = next;
+        // A force that no longer gets less does not get within the limit.
+        if levelling % PATIENCE == 0 {
+            if best.ratio > GETS_BETTER * before {
+                break;
+            }
+            before = best.ratio;
+        }
+        level(truss, x, &last, weights);
+        last = found(truss, x, contacts, weights)?;
+        if last.ratio < best.ratio {
+            best = last.clone();
         }
     }
     Ok(best)
 }
 
-/// The number of times that weights are levelled at the end of a step.
-const LEVELLINGS_STEP: usize = 15;
-
 /// Changes the weights so that the greatest of some forces becomes less the next time.
-pub(super) fn level(truss: &Structure, x: &[Vec3], forces: &Forces, weights: &mut Weights) {
+fn level(truss: &Structure, x: &[Vec3], forces: &Forces, weights: &mut Weights) {
     if let Some(model) = &truss.limits.forces {
         weights.levelled(forces, |strut| truss.length(x, strut), model);
     }
@@ -74,12 +130,39 @@ pub(in crate::planners) fn levelled(truss: &Structure, x: &[Vec3]) -> Result<For
     let contacts = contacts(truss, x, &support_polygon::contacts(truss, x));
     let mut weights = Weights::default();
     let mut last = found(truss, x, &contacts, &mut weights)?;
+    let mut best = last.clone();
     for _ in 0..LEVELLINGS {
         level(truss, x, &last, &mut weights);
         last = found(truss, x, &contacts, &mut weights)?;
+        if last.ratio < best.ratio {
+            best = last.clone();
+        }
     }
-    Ok(last)
+    Ok(best)
 }
+
+/// Returns the least coefficient of friction with which forces hold the truss with the nodes at `x` (m), to a tolerance;
+/// `None` if none up to ten does.
+pub(in crate::planners) fn friction_needed(truss: &Structure, x: &[Vec3]) -> Option<f64> {
+    let contacts = contacts(truss, x, &support_polygon::contacts(truss, x));
+    let model = truss.limits.forces.as_ref()?;
+    let holds = |friction: f64| {
+        let model = ForceModel { friction, ..model.clone() };
+        Weights::default().forces(&truss.layout, x, &truss.struts, &contacts, &model).is_ok()
+    };
+    let (mut low, mut high) = (model.friction, FRICTION_MAX);
+    if !holds(high) {
+        return None;
+    }
+    while high - low > truss.tolerances.friction_step {
+        let middle = (low + high) / 2.0;
+        if holds(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}
+
+/// The greatest coefficient of friction that is tried.
+const FRICTION_MAX: f64 = 10.0;
 
 /// Returns the part of a strut's force that the greatest leaves, times the unit length of the truss, m; what is far
 /// below 0 if nothing holds the truss.
@@ -104,5 +187,30 @@ pub(in crate::planners) fn holds(truss: &Structure, x: &[Vec3]) -> bool {
     if truss.limits.forces.is_none() || standing.is_none_or(|(inside, _)| inside < 0.0) {
         return true;
     }
-    levelled(truss, x).is_ok_and(|found| found.ratio <= 1.0)
+    let contacts = contacts(truss, x, &support_polygon::contacts(truss, x));
+    let found = within(truss, x, &contacts, (&mut Weights::default(), LEVELLINGS));
+    found.is_ok_and(|found| found.ratio <= 1.0)
+}
+
+/// Returns what a step has to add to its linear cost, by coordinate, so that the greatest force becomes less; the greatest
+/// displacement that it asks of a free node is a part of a step. None far from the limit.
+/// `forces`: those found for the nodes at `x`, m; `pinned`: the nodes that do not move.
+pub(in crate::planners) fn descent(
+    truss: &Structure,
+    x: &[Vec3],
+    forces: &Forces,
+    pinned: &[usize],
+) -> Option<Vec<Vec3>> {
+    let tolerances = &truss.tolerances;
+    let near = (forces.ratio - tolerances.force_near) / (1.0 - tolerances.force_near);
+    if near <= 0.0 {
+        return None;
+    }
+    let gradient = gradient(truss, x, forces);
+    let free = gradient.iter().filter(|(node, _)| !pinned.contains(node));
+    let steepest = free.map(|(_, g)| g.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    // Near a singular shape the gradient is so steep that the step would lead anywhere.
+    let size =
+        near.min(1.0) * tolerances.force_descent.min(tolerances.force_descent_max / steepest) * truss.unit;
+    Some(gradient.into_iter().map(|(_, g)| g * -size).collect())
 }

@@ -35,6 +35,7 @@ pub mod motion;
 pub mod problem;
 
 pub use rigidity::kept as rigidity_kept;
+pub(super) use rigidity::weakest_node as rigidity_weakest;
 pub use structure::{Limits, Structure};
 pub use surroundings::Surroundings;
 pub use tolerances::Tolerances;

@@ -117,7 +117,6 @@ fn limits(truss: &Structure) -> TrussLimits {
     TrussLimits {
         angle: truss.limits.angle,
         rigidity: truss.limits.rigidity,
-        forces: truss.limits.forces.is_some(),
         slip: 0.0,
         sums: locked.chain(loops).map(|(struts, range)| LengthSum { struts, range }).collect(),
     }

@@ -40,6 +40,8 @@ pub struct TrussProblem {
     pub obstacles: Vec<Vec<Placed>>,
     /// The ground; `None` for flat ground at height 0.
     pub terrain: Option<HeightField>,
+    /// The factor on the friction of nodes on the ground, as that of a world, without unit; 1 for the usual.
+    pub friction: f64,
 }
 
 /// The reason why a truss can't be planned for. Indices count from 0: struts as in [`TrussProblem::struts`],
@@ -156,16 +158,14 @@ impl TrussProblem {
         Ok(truss.with_limits(&self.nodes, self.limits.clone()).with_surroundings(surroundings))
     }
 
-    /// Returns the weights of the nodes, half of each of their struts, and what struts and ground bear, in a world with
-    /// the gravity and friction of the earth.
+    /// Returns the weights of the nodes, their own and half of each of their struts, and what struts and ground bear, in a
+    /// world with the gravity of the earth.
     pub fn weight(&self) -> ForceModel {
-        let mut loads = vec![Vec3::zeros(); self.nodes.len()];
-        let half = Vec3::new(0.0, 0.0, -self.strut.mass * World::default().gravity / 2.0);
-        for &(a, b) in &self.struts {
-            loads[a] += half;
-            loads[b] += half;
-        }
-        ForceModel { loads, friction: FRICTION, force_max: self.strut.force, buckling: f64::INFINITY }
+        let masses = self.strut.node_masses(self.nodes.len(), &self.struts);
+        let weight = |mass: f64| Vec3::new(0.0, 0.0, -mass * World::default().gravity);
+        let loads = masses.into_iter().map(weight).collect();
+        let friction = FRICTION * self.friction;
+        ForceModel { loads, friction, force_max: self.strut.force, buckling: self.strut.euler() }
     }
 
     /// Checks graph, positions and limits.

@@ -84,6 +84,13 @@ pub fn kept(start: &[Vec3], struts: &[(usize, usize)]) -> f64 {
     if least > Tolerances::DEFAULT.not_rigid { KEPT.min(KEPT_PART * least) } else { 0.0 }
 }
 
+/// Returns the index of the node that moves farthest in the mode of the least singular value, with the nodes at `x`, m.
+pub(in crate::planners) fn weakest_node(truss: &Structure, x: &[Vec3]) -> usize {
+    let modes = weakest(truss, x, 1, &mut Modes::default());
+    let moves = |node: &usize| modes.first().map_or(0.0, |mode| mode.nodes[*node].norm());
+    (0..truss.nodes).max_by(|a, b| moves(a).total_cmp(&moves(b))).unwrap_or(0)
+}
+
 /// A lower bound on the least singular value of the rigidity matrix that belongs to no rigid motion, at some positions of the
 /// nodes. It serves all positions that the nodes reach before directions of struts have changed by as much as is to
 /// spare.

@@ -18,7 +18,7 @@ use super::support_polygon;
 use crate::geometry::Vec3;
 use crate::interrupt;
 use crate::optimize::{QuadraticProgram, Row, Unsolved};
-use crate::robot::truss_statics::{Forces, ForcesError, Modes, Weights};
+use crate::robot::truss_statics::{Forces, ForcesError, Modes};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::mem;
@@ -96,8 +96,8 @@ pub struct WarmStart {
     rigidity: Bound,
     /// The value that rows of the last step asked of singular values for their curvature, m.
     curvature: f64,
-    /// The weights by which the forces of struts are distributed.
-    weights: Weights,
+    /// The forces of struts known last.
+    forces: forces::Known,
 }
 
 /// Returns the positions of the nodes after one step, m, by sequential quadratic programming (Algorithm 1 of
@@ -111,7 +111,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
     let columns = columns(problem);
     let search = Search {
         modes: rigidity::coarse(mem::take(&mut warm_start.modes), problem.truss),
-        weights: mem::take(&mut warm_start.weights),
+        forces: mem::take(&mut warm_start.forces),
     };
     let search = RefCell::new(search);
     let forces = OnceCell::new();
@@ -122,7 +122,7 @@ pub fn step(problem: &StepProblem, warm_start: &mut WarmStart) -> Result<Vec<Vec
     rows.curvature = CURVATURE_KEPT * warm_start.curvature;
     let found = stepped(problem, &columns, &mut rows, warm_start);
     let search = rows.search.into_inner();
-    (warm_start.modes, warm_start.weights) = (search.modes, search.weights);
+    (warm_start.modes, warm_start.forces) = (search.modes, search.forces);
     found
 }
 
@@ -156,7 +156,7 @@ fn stepped(
             let near = |(constraint, asked): (&Constraint, &Asked)| match constraint {
                 // The value at the start tells enough, and costs nothing.
                 Constraint::Rigidity(..) => asked.value < rigidity::NEAR * truss.limits.rigidity * truss.unit,
-                Constraint::Force => true,
+                Constraint::Force => asked.value < forces::NEAR * truss.unit,
                 _ => constraint.value(truss, &y) < tolerances.active_band * truss.unit,
             };
             let kept = rows.known.iter().filter(|row| near(*row)).map(|(constraint, _)| *constraint);
@@ -193,7 +193,7 @@ struct Rows<'a> {
 #[derive(Default)]
 struct Search {
     modes: Modes,
-    weights: Weights,
+    forces: forces::Known,
 }
 
 /// A constraint in the program; values in m.
@@ -365,27 +365,18 @@ fn with_forces(
         return None;
     }
     let found = forces.get_or_init(|| begun(problem, search)).as_ref().ok()?;
-    let gradient = forces::gradient(truss, x, found);
-    let free = gradient.iter().filter(|(node, _)| !problem.pinned.contains(node));
-    let steepest = free.map(|(_, g)| g.norm()).fold(f64::MIN_POSITIVE, f64::max);
-    // Near a singular shape the gradient is so steep that the step would lead anywhere.
-    let tolerances = &truss.tolerances;
-    let size = tolerances.force_descent.min(tolerances.force_descent_max / steepest) * truss.unit;
+    let descent = forces::descent(truss, x, found, problem.pinned)?;
     let mut cost = cost.clone();
-    for (node, g) in gradient {
-        (0..3).for_each(|k| cost.linear[3 * node + k] -= size * g[k]);
+    for (node, g) in descent.iter().enumerate() {
+        (0..3).for_each(|k| cost.linear[3 * node + k] += g[k]);
     }
     Some(cost)
 }
 
-/// Returns the forces at the start of a step, and levels the weights for the next search.
+/// Returns the forces at the start of a step.
 fn begun(problem: &StepProblem, search: &RefCell<Search>) -> Result<Forces, ForcesError> {
     let StepProblem { truss, x, .. } = *problem;
-    let contacts = forces::contacts(truss, x, &support_polygon::contacts(truss, x));
-    let weights = &mut search.borrow_mut().weights;
-    let found = forces::within(truss, x, &contacts, weights);
-    found.iter().for_each(|found| forces::level(truss, x, found, weights));
-    found
+    search.borrow_mut().forces.at(truss, x, &support_polygon::contacts(truss, x))
 }
 
 /// Returns true if the angle between two struts is so small that their closest points jump from end to end.
@@ -479,18 +470,27 @@ fn global_violations(
             violated.entry(constraint).and_modify(|known| *known = known.max(-value)).or_insert(-value);
         }
     };
+    // A step over the edge of the support ends there.
+    let end = if problem.ground { support_polygon::standing(truss, x, y) } else { y.to_vec() };
     if truss.limits.rigidity > 0.0 {
-        for z in rigidity.violated(truss, x, y) {
+        let shorter = (end != y).then(|| rigidity.violated(truss, x, &end));
+        for z in rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()) {
             for (i, mode) in rigidity::weakest(truss, &z, MODES, &mut search.modes).iter().enumerate() {
                 check(Constraint::Rigidity(i, i), mode.spare(truss));
             }
         }
     }
     if truss.limits.forces.is_some() && problem.ground {
-        let end = support_polygon::standing(truss, x, y);
-        let contacts = forces::contacts(truss, &end, &support_polygon::staying(truss, x, &end));
-        let found = forces::within(truss, &end, &contacts, &mut search.weights);
-        check(Constraint::Force, forces::spare(truss, &found));
+        let feet = support_polygon::staying(truss, x, &end);
+        // Those that stay bear the weight from the start of the step on.
+        if feet != support_polygon::contacts(truss, x) {
+            check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
+        }
+        // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
+        let part = 1.0 - truss.tolerances.edge_part;
+        let shy = || x.iter().zip(&end).map(|(p, q)| p + (q - p) * part).collect::<Vec<Vec3>>();
+        let near = if end == y { y.to_vec() } else { shy() };
+        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated
 }

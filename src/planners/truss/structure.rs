@@ -20,7 +20,8 @@ pub struct Structure {
     pub speed: f64,
     /// The least distance between struts that share no node, and between struts and obstacles, m.
     pub clearance: f64,
-    /// The fraction of the whole mass that each node carries, in their order, in all 1: half of each of its struts.
+    /// The fraction of the whole mass that each node carries, in their order, in all 1: its own mass and half of each of its
+    /// struts.
     pub mass_fractions: Vec<f64>,
     /// The mean length of a strut at the start, m: the unit of steps and tolerances.
     pub unit: f64,
@@ -60,11 +61,9 @@ impl Structure {
     /// terrain. `struts`: the indices of the two nodes of each, which must be different; an index that is not a node
     /// panics. `strut`: the kind of the struts.
     pub fn new(strut: &Strut, start: &[Vec3], struts: &[(usize, usize)]) -> Structure {
-        let mut mass_fractions = vec![0.0; start.len()];
-        for &(a, b) in struts {
-            mass_fractions[a] += 0.5 / struts.len() as f64;
-            mass_fractions[b] += 0.5 / struts.len() as f64;
-        }
+        let masses = strut.node_masses(start.len(), struts);
+        let whole: f64 = masses.iter().sum();
+        let mass_fractions = masses.into_iter().map(|mass| mass / whole).collect();
         let length = |&(a, b): &(usize, usize)| (start[a] - start[b]).norm();
         Structure {
             nodes: start.len(),
@@ -156,8 +155,8 @@ impl Structure {
         a == c || a == d || b == c || b == d
     }
 
-    /// Returns the centre of mass with the nodes at `x`, m, of a truss whose struts have equal masses, half at either
-    /// end.
+    /// Returns the centre of mass with the nodes at `x`, m, : the mean of the nodes by their
+    /// masses.
     pub fn centre_of_mass(&self, x: &[Vec3]) -> Vec3 {
         x.iter().zip(&self.mass_fractions).map(|(p, fraction)| p * *fraction).sum()
     }

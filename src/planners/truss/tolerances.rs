@@ -60,6 +60,15 @@ pub struct Tolerances {
     /// The least singular value of the rigidity matrix up to which a truss is not rigid, without unit. Default 1e-7:
     /// rounding.
     pub not_rigid: f64,
+    /// The part of a step before the edge of the support at which forces are found where it ends on that edge. Default
+    /// 1e-3: they are the same to about as much.
+    pub edge_part: f64,
+    /// The step to which the least coefficient of friction that holds a truss is found, without unit. Default 1e-3: as
+    /// much as a message tells.
+    pub friction_step: f64,
+    /// The greatest force of a strut, as a part of its limit, from which steps bring it down. Default 0.6: it
+    /// seldom gets to the limit from there.
+    pub force_near: f64,
     /// The descent of the greatest force of a strut, as a part of its limit, that stands in the cost of a step where
     /// forces are limited: units of displacement for a gradient of 1 per unit. Default 0.65: the median force of walks
     /// halves.
@@ -90,6 +99,9 @@ impl Tolerances {
         roll_clearance_margin: 1e-4,
         coplanar: 1e-6,
         not_rigid: 1e-7,
+        edge_part: 1e-3,
+        friction_step: 1e-3,
+        force_near: 0.6,
         force_descent: 0.65,
         force_descent_max: 0.015,
     };

@@ -54,6 +54,9 @@ cell C { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_spede 0.1m/s 
 strut S { length 300mm..3m  max_speed 50mm/s  max_force 200N  mass 1kg  clearance 100mm }
 strut T { length 3m  max_speed 50mm/s  max_force 200N  mass 1kg  clearance 100mm }
 //               ^^ E0202 `length` wants
+strut U { length 300mm..3m  max_speed 50mm/s  max_force 200N  mass 1kg  clearance 100mm  buckling 90N  node_mass 200g }
+strut V { length 300mm..3m  max_speed 50mm/s  max_force 200N  mass 1kg  clearance 100mm  buckling 90mm }
+//                                                                                                ^^^^ E0201 `buckling` wants a force
 
 --- parts are modules or configurations
 cell Cube { size 100mm  shrinks_to 50mm  mass 1kg  max_force 10N  max_speed 0.1m/s }

@@ -50,3 +50,64 @@ print(morph(P, far).rms)
 //             ^^^ E0506 a target reaches to at most 1000 m
 print(locomote(P, path: [[1e6m, 0m, 0m]]).distance)
 //                      ^^^^^^^^^^^^^^^^ E0506 at most 1000 m away
+
+--- struts too weak for what they carry: half of each of three struts is at the top, and three legs hold it
+strut Weak { length 300mm..3m  max_speed 50mm/s  max_force 5N  mass 1kg  clearance 100mm }
+truss Tetra of Weak {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+}
+let w = locomote(Tetra, path: [[500mm, 600mm, 0m]])
+//               ^^^^^ E0603 would bear 6.00532N where the truss rests at first; it can bear 5N
+
+--- which may be allowed
+strut Weak { length 300mm..3m  max_speed 50mm/s  max_force 5N  mass 1kg  clearance 100mm }
+truss Tetra of Weak {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+}
+let w = locomote(Tetra, path: [[500mm, 600mm, 0m]], forces: false)
+print(w.ended, verify(w).ok)
+//> arrived true
+
+--- a strut that buckles bears as much less as the square of its length: half a newton at 3 m is 4.5 at 1 m
+strut Thin { length 300mm..3m  max_speed 50mm/s  max_force 100N  mass 1kg  clearance 100mm  buckling 500mN }
+truss Tetra of Thin {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+}
+let w = locomote(Tetra, path: [[500mm, 600mm, 0m]])
+//               ^^^^^ E0603 would bear 6.00532N where the truss rests at first; it can bear 4.5N
+
+--- nodes weigh something: here 1 kg more on the legs
+strut Heavy { length 300mm..3m  max_speed 50mm/s  max_force 8N  mass 1kg  clearance 100mm  node_mass 1kg }
+truss Tetra of Heavy {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+}
+let w = locomote(Tetra, path: [[500mm, 600mm, 0m]])
+//               ^^^^^ E0603 would bear 10.0089N where the truss rests at first; it can bear 8N
+
+--- a slope of 19.3 degrees takes a friction of 0.35
+strut Strong { length 300mm..3m  max_speed 50mm/s  max_force 500N  mass 1kg  clearance 100mm }
+truss Tetra of Strong {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+}
+let hill = terrain([[-700mm, 0m, 700mm], [-700mm, 0m, 700mm], [-700mm, 0m, 700mm]], spacing: 2m)
+let held = locomote(Tetra, path: [[500mm, 300mm, 0m]], terrain: hill, friction: 0.5)
+print(held.ended)
+//> arrived
+let slides = locomote(Tetra, path: [[500mm, 300mm, 0m]], terrain: hill, friction: 0.4)
+//                    ^^^^^ E0602 slides where the truss rests at first, with a friction of 0.32; it takes 0.35
+
+--- a node that three struts in nearly one plane hold
+strut Strong { length 300mm..3m  max_speed 50mm/s  max_force 90N  mass 1kg  clearance 10mm }
+truss Mast of Strong {
+  node a = [0m, 0m, 0m]  node b = [1m, 0m, 0m]  node c = [0.5m, 0.8660254m, 0m]  node d = [0.5m, 0.2886751m, 0.8164966m]
+  node e = [0.5m, -200mm, 0.05m]
+  strut a -- b  strut a -- c  strut a -- d  strut b -- c  strut b -- d  strut c -- d
+  strut e -- a  strut e -- b  strut e -- c
+}
+let w = locomote(Mast, path: [[500mm, 600mm, 0m]])
+//               ^^^^ E0603 the strut e -- 

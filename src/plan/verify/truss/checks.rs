@@ -135,7 +135,7 @@ impl Judgement<'_> {
         ledger: &mut Ledger,
     ) {
         let (first, last) = (&places[0], &places[places.len() - 1]);
-        let travel = support::centre(self.paths, last) - support::centre(self.paths, first);
+        let travel = self.centre(last) - self.centre(first);
         ledger.verdict.travel = [travel.x, travel.y, travel.z];
         ledger.verdict.samples = places.len();
         for (time, words) in &standing.events {

@@ -13,7 +13,7 @@ use super::support::StabilityMonitor;
 use crate::geometry::Vec3;
 use crate::optimize::{LinearProgram, Row, solve_linear_program};
 use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, Failure, Interpolation, Status, World};
+use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Interpolation, Status, World};
 use crate::robot::truss_statics::{Contact, FRICTION, ForceModel, Weights};
 use crate::units::{Dimension, quantity};
 
@@ -37,6 +37,20 @@ pub(super) struct LoadMonitor<'a> {
     pub samples: usize,
     /// The greatest of the least greatest forces so far, as a part of what the strut bears.
     worst: f64,
+    /// The forces beyond what struts bear where the plan is not excused, and where it is.
+    beyond: [Option<Beyond>; 2],
+    /// The exemptions of the plan.
+    exemptions: &'a [Exemption],
+}
+
+/// Forces beyond what struts bear, with the best distribution at every instant.
+struct Beyond {
+    /// The time from which there are some, s.
+    from: f64,
+    /// The time of the greatest, s.
+    time: f64,
+    /// The greatest.
+    best: Best,
 }
 
 /// Forces that hold a truss, found by the LP.
@@ -50,9 +64,10 @@ struct Best {
 }
 
 impl<'a> LoadMonitor<'a> {
-    /// Returns a monitor before the first step.
-    pub(super) fn new(judgement: &'a Judgement<'a>) -> LoadMonitor<'a> {
-        LoadMonitor { judgement, weights: Weights::default(), samples: 0, worst: 0.0 }
+    /// Returns a monitor before the first step of a plan with these exemptions.
+    pub(super) fn new(judgement: &'a Judgement<'a>, exemptions: &'a [Exemption]) -> LoadMonitor<'a> {
+        let beyond = [None, None];
+        LoadMonitor { judgement, weights: Weights::default(), samples: 0, worst: 0.0, beyond, exemptions }
     }
 
     /// Judges the forces during the step to the keyframe of this index, and records failures and the least margins; of
@@ -99,6 +114,7 @@ impl<'a> LoadMonitor<'a> {
             (x[a] - x[b]).norm()
         };
         let name = |strut: usize| vec![self.judgement.strut_name(strut)];
+        let excused = usize::from(self.exemptions.iter().any(|exemption| is_overload(exemption, time)));
         // The elastic distribution.
         let mut elastic = Weights::default();
         elastic.struts = (0..paths.struts.len()).map(|strut| length(strut) / kind.length.1).collect();
@@ -113,7 +129,8 @@ impl<'a> LoadMonitor<'a> {
                 break;
             };
             bound = bound.min(found.ratio);
-            if bound <= self.worst {
+            let known = self.beyond[excused].as_ref().map_or(1.0, |beyond| beyond.best.ratio);
+            if bound <= self.worst.min(known) {
                 return true;
             }
             self.weights.levelled(&found, length, model);
@@ -136,16 +153,12 @@ impl<'a> LoadMonitor<'a> {
         };
         self.worst = self.worst.max(best.ratio);
         keep_least(&mut ledger.verdict.force_margin, 1.0 - best.ratio, time, || name(best.strut));
-        if best.ratio > 1.0 + self.judgement.tolerances.load && paths.limits.forces {
-            let [force, limit] = [best.force.abs(), best.force.abs() / best.ratio]
-                .map(|force| quantity(force, Dimension::FORCE));
-            let message = format!(
-                "the strut {} would bear {force}, however forces are distributed; a {} bears {limit}",
-                self.judgement.strut_name(best.strut),
-                kind.name
-            );
-            let failure = self.judgement.failure(CheckKind::StrutLoad, time, name(best.strut), message);
-            ledger.fail(Failure { value: best.ratio, limit: 1.0, ..failure });
+        if best.ratio > 1.0 + self.judgement.tolerances.load {
+            let known = &mut self.beyond[excused];
+            if known.as_ref().is_none_or(|known| best.ratio > known.best.ratio) {
+                let from = known.as_ref().map_or(time, |known| known.from);
+                *known = Some(Beyond { from, time, best });
+            }
         }
         true
     }
@@ -176,29 +189,54 @@ impl<'a> LoadMonitor<'a> {
     /// Returns what the truss is made of in a world.
     pub(super) fn model(&self, world: World) -> ForceModel {
         let Judgement { paths, strut, .. } = self.judgement;
-        let mut loads = vec![Vec3::zeros(); paths.node_names.len()];
-        let half = Vec3::new(0.0, 0.0, -strut.mass * world.gravity / 2.0);
+        let weight = |mass: f64| Vec3::new(0.0, 0.0, -mass * world.gravity);
+        let mut loads = vec![weight(strut.node_mass.unwrap_or(0.0)); paths.node_names.len()];
         for &(a, b) in &paths.struts {
-            loads[a] += half;
-            loads[b] += half;
+            loads[a] += weight(strut.mass / 2.0);
+            loads[b] += weight(strut.mass / 2.0);
         }
         let friction = FRICTION * world.friction;
-        ForceModel { loads, friction, force_max: strut.force, buckling: f64::INFINITY }
+        ForceModel { loads, friction, force_max: strut.force, buckling: strut.euler() }
     }
 
-    /// Returns the status of the check of forces: that it was sampled, or why it was not made, with the least force that
-    /// the path needs.
-    pub(super) fn status(&self) -> Status {
-        let Judgement { paths, strut, .. } = self.judgement;
-        if paths.limits.forces || self.worst <= 1.0 {
-            return Status::Sampled(self.samples);
+    /// Records the check of forces: as failed where struts would bear more than they can and the plan is not excused,
+    /// with the least force that the path needs and where.
+    pub(super) fn conclude(&self, ledger: &mut Ledger) {
+        let strut = self.judgement.strut;
+        let words = |found: &Beyond, would: &str| {
+            let Best { force, ratio, strut: at } = found.best;
+            let [needed, limit] =
+                [force.abs(), force.abs() / ratio].map(|force| quantity(force, Dimension::FORCE));
+            let time = quantity(found.time, Dimension::TIME);
+            format!(
+                "the strut {} {would} {needed} at {time}, however forces are distributed; a {} bears {limit}",
+                self.judgement.strut_name(at),
+                strut.name
+            )
+        };
+        let [beyond, excused] = &self.beyond;
+        if let Some(found) = beyond {
+            let at = vec![self.judgement.strut_name(found.best.strut)];
+            let message = words(found, "would bear");
+            let failure = self.judgement.failure(CheckKind::StrutLoad, found.from, at, message);
+            ledger.fail(Failure { value: found.best.ratio, limit: 1.0, ..failure });
         }
-        let [needed, has] = [self.worst * strut.force, strut.force].map(|f| quantity(f, Dimension::FORCE));
-        Status::NotChecked(format!(
-            "the plan does not keep it: its struts need {needed} at best, and a {} bears {has}",
-            strut.name
-        ))
+        if let Some(found) = excused {
+            let excuses = |exemption: &Exemption| is_overload(exemption, found.time);
+            for (index, _) in self.exemptions.iter().enumerate().filter(|(_, e)| excuses(e)) {
+                ledger.use_exemption(index, CheckKind::StrutLoad);
+            }
+            ledger.note(words(found, "bears"));
+        }
+        if self.samples > 0 {
+            ledger.check(CheckKind::StrutLoad, Status::Sampled(self.samples));
+        }
     }
+}
+
+/// Returns true if an exemption excuses struts that bear too much at a time, s.
+fn is_overload(exemption: &Exemption, time: f64) -> bool {
+    matches!(exemption.kind, ExemptionKind::Overload(None)) && exemption.covers(time)
 }
 
 /// Returns true if a step to the keyframe of this index is looked at: all of small trusses, some of large ones.

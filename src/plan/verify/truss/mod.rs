@@ -76,7 +76,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     }
     let mut standing = StabilityMonitor::new(&judged);
     let mut stiff = RigidityMonitor::new(&judged);
-    let mut loads = LoadMonitor::new(&judged);
+    let mut loads = LoadMonitor::new(&judged, &plan.exemptions);
     // The start.
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
@@ -126,8 +126,6 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     }
     judged.summary(&places, &standing, plan, &mut ledger);
     ledger.check(CheckKind::Rigidity, stiff.status());
-    if loads.samples > 0 {
-        ledger.check(CheckKind::StrutLoad, loads.status());
-    }
+    loads.conclude(&mut ledger);
     ledger.finish()
 }

@@ -1,7 +1,7 @@
 //! Comparison of the margins that a plan states at its keyframes with those found there.
 
 use super::judgement::{Judgement, Step};
-use super::support::{StabilityMonitor, centre};
+use super::support::StabilityMonitor;
 use super::{rigidity, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
@@ -53,7 +53,7 @@ impl Judgement<'_> {
         let beside = || self.nearest_obstacle(x).map(|distance| distance - self.strut.clearance);
         let inside = || {
             let feet = x.iter().filter(|p| standing.touches(**p)).map(|p| [p.x, p.y]).collect::<Vec<_>>();
-            let middle = centre(self.paths, x);
+            let middle = self.centre(x);
             support_polygon::margin(&feet, [middle.x, middle.y]).map(|margin| margin.distance)
         };
         let angles = || {

@@ -5,7 +5,7 @@ use super::judgement::{Judgement, Step};
 use crate::geometry::{Vec3, pose::turned};
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::verify::support_polygon::{self, Point};
-use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
+use crate::plan::{CheckKind, Failure, Interpolation};
 use crate::units::{Dimension, quantity};
 
 /// The monitor of the static stability of a truss from step to step, which also sums the slip of its nodes.
@@ -21,11 +21,16 @@ pub(super) struct StabilityMonitor<'a> {
     pub events: Vec<(f64, String)>,
 }
 
-/// Returns the centre of mass with the nodes at `x` in the world, m: half of each strut's mass is at each of its
-/// ends.
-pub(super) fn centre(paths: &NodePaths, x: &[Vec3]) -> Vec3 {
-    let sum: Vec3 = paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
-    sum / paths.struts.len().max(1) as f64
+impl Judgement<'_> {
+    /// Returns the centre of mass with the nodes at `x` in the world, m: half of each strut's mass is at each of its
+    /// ends.
+    pub(super) fn centre(&self, x: &[Vec3]) -> Vec3 {
+        let struts: Vec3 = self.paths.struts.iter().map(|&(a, b)| (x[a] + x[b]) / 2.0).sum();
+        let node = self.strut.node_mass.unwrap_or(0.0);
+        let nodes: Vec3 = x.iter().sum();
+        let whole = self.strut.mass * self.paths.struts.len() as f64 + node * x.len() as f64;
+        (struts * self.strut.mass + nodes * node) / whole
+    }
 }
 
 /// Returns (height, fraction): the least height of a node on a step, m, and the fraction of the step, 0 to 1, at which
@@ -135,7 +140,7 @@ impl<'a> StabilityMonitor<'a> {
         }
         // Speed of the centre of mass relative to the fastest foot, per step.
         let paths = self.judgement.paths;
-        let centre_way = centre(paths, &step.to) - centre(paths, &step.from);
+        let centre_way = self.judgement.centre(&step.to) - self.judgement.centre(&step.from);
         let fastest =
             feet.iter().map(|&n| (step.to[n] - step.from[n] - centre_way).norm()).fold(0.0, f64::max);
         let mut part = 0.0;
@@ -187,8 +192,8 @@ impl<'a> StabilityMonitor<'a> {
     /// support polygon of the feet, m; negative infinity if they span no area.
     fn margin(&self, step: &Step, feet: &[usize], part: f64) -> f64 {
         let at = |node: usize| step.from[node] + (step.to[node] - step.from[node]) * part;
-        let paths = self.judgement.paths;
-        let middle = centre(paths, &step.from) * (1.0 - part) + centre(paths, &step.to) * part;
+        let middle =
+            self.judgement.centre(&step.from) * (1.0 - part) + self.judgement.centre(&step.to) * part;
         let points: Vec<Point> = feet.iter().map(|&node| [at(node).x, at(node).y]).collect();
         let margin = support_polygon::margin(&points, [middle.x, middle.y]);
         // On two feet, or on a row of them, nothing stands.
@@ -240,7 +245,7 @@ impl<'a> StabilityMonitor<'a> {
             return refuse(format!("it rolls over {name}, and stands on {foot} beyond"), ledger);
         }
         // The centre of mass must be above the edge or beyond it.
-        let centre = beyond(centre(paths, &step.from));
+        let centre = beyond(self.judgement.centre(&step.from));
         if centre < -self.judgement.tolerances.support_margin {
             let away = quantity(-centre, Dimension::LENGTH);
             return refuse(format!("it rolls over {name}, and its centre of mass is {away} behind"), ledger);
