@@ -3,8 +3,8 @@
 //! Bonds that close loops and are not of the start's tree are undocked. An exchange brings the two docks of a bond of the
 //! goal's tree together by inverse kinematics, docks them, and undocks one bond of the loop that this closes which is not
 //! of the goal's tree; there is one, for a tree has no loop. At last the joints turn to the goal's positions, and the
-//! goal's other bonds dock. Which exchange comes first, which bond it replaces and in which posture is found by a beam
-//! search for the shortest motion. Half of the exchanges are made from the start and half from the goal, backwards: close
+//! goal's other bonds dock. A beam search for the shortest motion finds the order of
+//! exchanges, the bonds that they replace and the postures. Half of the exchanges are made from the start and half from the goal, backwards: close
 //! to either the robot is folded up, and between it is spread out. Every motion is checked over its whole duration, as in
 //! [`tosnake`](crate::planners::tosnake).
 
@@ -91,7 +91,7 @@ pub(super) struct Search<'a> {
 }
 
 /// A configuration that exchanges lead to.
-struct Aim {
+struct Destination {
     /// Its bonds, which are a tree.
     wanted: BTreeSet<[usize; 5]>,
     joints: Joints,
@@ -126,7 +126,7 @@ impl Search<'_> {
     /// Searches, and returns the shortest way found; `None` if there is none. `progress` may end the search.
     pub(super) fn run(&mut self, progress: &mut dyn Progress) -> Option<Found> {
         let Correspondence { goal, wanted, exchanges, start_loops, goal_loops, .. } = self.correspondence;
-        let aim = Aim { wanted: wanted.clone(), joints: goal.joints.clone() };
+        let aim = Destination { wanted: wanted.clone(), joints: goal.joints.clone() };
         let levels = if *exchanges <= ONE_SIDED_MAX { *exchanges } else { exchanges.div_ceil(2) };
         let first = opened(self.start, start_loops);
         let halfway = self.advance(first, &aim, levels, progress);
@@ -137,7 +137,7 @@ impl Search<'_> {
                 (there.time, there, opened(goal, goal_loops))
             } else {
                 let wanted = there.state.robot.held().map(|(_, bond)| key(bond)).collect();
-                let halfway = Aim { wanted, joints: there.state.robot.joints.clone() };
+                let halfway = Destination { wanted, joints: there.state.robot.joints.clone() };
                 let limit = self.limit;
                 self.limit = f64::max(0.0, limit - there.time);
                 let back = self.all_the_way(opened(goal, goal_loops), &halfway, progress);
@@ -155,7 +155,7 @@ impl Search<'_> {
     }
 
     /// Makes all exchanges to an aim, and turns the joints to its positions.
-    fn all_the_way(&mut self, first: Node, aim: &Aim, progress: &mut dyn Progress) -> Option<Node> {
+    fn all_the_way(&mut self, first: Node, aim: &Destination, progress: &mut dyn Progress) -> Option<Node> {
         let levels = 2 * missing(&first.state, &aim.wanted).len() + 1;
         let mut best: Option<Node> = None;
         for node in self.advance(first, aim, levels, progress) {
@@ -172,7 +172,13 @@ impl Search<'_> {
     }
 
     /// Makes up to `levels` exchanges; returns the states of the beam after the last that could be made.
-    fn advance(&mut self, first: Node, aim: &Aim, levels: usize, progress: &mut dyn Progress) -> Vec<Node> {
+    fn advance(
+        &mut self,
+        first: Node,
+        aim: &Destination,
+        levels: usize,
+        progress: &mut dyn Progress,
+    ) -> Vec<Node> {
         let mut nodes = vec![first];
         for _ in 0..levels {
             if missing(&nodes[0].state, &aim.wanted).is_empty()
@@ -217,7 +223,7 @@ impl Search<'_> {
     }
 
     /// Returns the states after one exchange.
-    fn children(&mut self, node: &Node, aim: &Aim, detours: bool) -> Vec<Node> {
+    fn children(&mut self, node: &Node, aim: &Destination, detours: bool) -> Vec<Node> {
         let at = node.state.robot.bond_at();
         let mut children = Vec::new();
         let is_free = |dock: Dock| at[dock.module][dock.dock].is_none();
@@ -260,7 +266,7 @@ impl Search<'_> {
         &mut self,
         state: &State,
         wanted: &[usize; 5],
-        aim: &Aim,
+        aim: &Destination,
         detours: bool,
     ) -> Vec<(f64, Vec<Joints>)> {
         let scene = state.scene();
@@ -342,7 +348,7 @@ impl Search<'_> {
     }
 
     /// Turns the joints to the goal's positions; `None` if no way there is found.
-    fn finished(&mut self, mut node: Node, aim: &Aim) -> Option<Node> {
+    fn finished(&mut self, mut node: Node, aim: &Destination) -> Option<Node> {
         let goal = near(&aim.joints, &node.state.robot.joints);
         let path = self.way(&node.state, &goal)?;
         let mut from = node.state.robot.joints.clone();

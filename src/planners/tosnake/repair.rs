@@ -2,7 +2,7 @@
 //! such a loop are left out decides where the modules are, and with it which of them overlap.
 //!
 //! A spanning tree of the bonds is a choice: it places the modules, and the bonds outside the tree whose docks do not
-//! meet then are left out. The first choice is the tree of a breadth-first search. Where balls overlap, the bonds between
+//! meet then are left out. The first choice is the tree of a breadth-first search. If balls overlap, the bonds between
 //! them in the tree can't all hold in a choice without overlap; so the search leaves out one of them in turn
 //! (conflict-directed backtracking). Only bonds of a block with an open loop come into question: without another bond the
 //! modules are where they are. (A block is a greatest set of bonds any two of which share a cycle.) So a search that ends
