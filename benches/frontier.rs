@@ -1,8 +1,10 @@
 //! What the planners of lattices reach beside what they reached before: one cell of a block that moves, and seeded
 //! random shapes that become each other. For each set the median and the greatest time of the motion, in units of
-//! time and by the lower bound, and the time that planning took, each plan judged.
+//! time and by the lower bound, and the time that planning took, each plan judged. Then what the programs in
+//! `benches/frontier` print, of folding and of chains.
 //!
-//! `cargo bench --bench frontier`; with a number behind `--`, so many pairs of each kind.
+//! `cargo bench --bench frontier`; with a number behind `--`, so many pairs of each kind; with names of programs,
+//! those only.
 
 #[path = "../tests/support/lattices.rs"]
 mod lattices;
@@ -20,6 +22,39 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 type Shape = Vec<[i64; 3]>;
 
 fn main() {
+    let named: Vec<String> =
+        std::env::args().filter(|a| a.starts_with("fold") || a.starts_with("reconfigure")).collect();
+    if named.is_empty() {
+        lattice_table();
+    }
+    programs(&named);
+}
+
+/// Runs the programs of `benches/frontier` in the order of their names, or those that are named, and prints what they
+/// print.
+fn programs(named: &[String]) {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/frontier");
+    let entries = std::fs::read_dir(&folder).expect("the programs are there");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
+    files.sort();
+    for file in files {
+        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        if !named.is_empty() && !named.contains(&name) {
+            continue;
+        }
+        let start = Instant::now();
+        let run = std::process::Command::new(env!("CARGO_BIN_EXE_modl")).arg("run").arg(&file).output();
+        let output = run.expect("the tool runs");
+        let spent = start.elapsed().as_secs_f64();
+        println!(
+            "\n{name}, {spent:.1} s, {}:\n{}",
+            output.status,
+            String::from_utf8_lossy(&output.stdout).trim_end()
+        );
+    }
+}
+
+fn lattice_table() {
     let pairs = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(12);
     println!(
         "| shapes | cells | method | T, median | greatest | by the bound, median | greatest | plan, s |"
