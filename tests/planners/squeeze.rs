@@ -331,7 +331,7 @@ fn random_set_in(dimensions: usize, seed: &mut u64, count: usize) -> Vec<[i64; 3
 
 #[test]
 fn random_sets_become_each_other() {
-    let (sets, most) = if whole() { (1000, 400) } else { (100, 100) };
+    let (sets, most) = if whole() { (1000, 400) } else { (40, 100) };
     let mut seed = 7;
     for i in 0..sets {
         let count = 1 + (i * 7919) % most;

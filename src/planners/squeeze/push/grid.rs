@@ -10,7 +10,7 @@ const SITES_MAX: i64 = 4_000_000;
 pub(super) type Direction = u8;
 
 /// All directions.
-pub(super) const DIRECTIONS: std::ops::Range<Direction> = 0..6;
+pub(super) const DIRECTIONS: [Direction; 6] = [0, 1, 2, 3, 4, 5];
 
 /// Returns the axis of a direction, 0 to 2.
 pub(super) fn axis_of(direction: Direction) -> u8 {

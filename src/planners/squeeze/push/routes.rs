@@ -37,7 +37,12 @@ impl Routes {
 
     /// Searches from sites that can give a cell, `supply`: a hole at distance `d` is filled by `d` lines. A site with
     /// two cells gives one along its split only.
-    pub(super) fn from_supply(&mut self, (grid, boxes): (&Grid, &Boxes), stage: &Stage, supply: &[usize]) {
+    pub(super) fn measure_from_supply(
+        &mut self,
+        (grid, boxes): (&Grid, &Boxes),
+        stage: &Stage,
+        supply: &[usize],
+    ) {
         self.begin(supply);
         let mut at = 0;
         while at < self.reached.len() {
@@ -60,7 +65,12 @@ impl Routes {
     }
 
     /// Searches from holes: a cell in a site at distance `d` comes to a hole by `d` lines.
-    pub(super) fn from_holes(&mut self, (grid, boxes): (&Grid, &Boxes), stage: &Stage, holes: &[usize]) {
+    pub(super) fn measure_from_holes(
+        &mut self,
+        (grid, boxes): (&Grid, &Boxes),
+        stage: &Stage,
+        holes: &[usize],
+    ) {
         self.begin(holes);
         let mut at = 0;
         while at < self.reached.len() {

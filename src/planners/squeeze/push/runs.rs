@@ -19,7 +19,7 @@ const BEST_OVERLAYS: usize = 3;
 const RUNS_MAX: usize = 400;
 
 /// The work after which no further run begins, in visits of sites.
-const WORK_BETTER: u64 = 200_000_000;
+const WORK_BETTER: u64 = 100_000_000;
 
 /// The work after which a run ends while nothing is found.
 const WORK_FIRST: u64 = 3_000_000_000;

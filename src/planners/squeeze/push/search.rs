@@ -265,12 +265,12 @@ impl<'a> Search<'a> {
     /// does.
     fn fill_holes(&mut self, tasks: &mut Tasks, pass: Pass, firm: bool) {
         let firm = pass == Pass::FirmHoles || (pass == Pass::Heal && firm);
-        self.routes.from_supply((self.grid, &self.boxes), &self.stage, &tasks.supply);
+        self.routes.measure_from_supply((self.grid, &self.boxes), &self.stage, &tasks.supply);
         let order = self.ordered(&tasks.holes, self.style.holes, |search, hole| search.routes.distance(hole));
         let mut stale = false;
         for hole in order {
             if stale {
-                self.routes.from_supply((self.grid, &self.boxes), &self.stage, &tasks.supply);
+                self.routes.measure_from_supply((self.grid, &self.boxes), &self.stage, &tasks.supply);
                 stale = false;
             }
             if self.routes.distance(hole) == UNREACHED || self.stage.is_claimed(hole) {
@@ -323,7 +323,7 @@ impl<'a> Search<'a> {
     fn move_supply(&mut self, tasks: &mut Tasks, pass: Pass) {
         // Holes that a cell is on its way to, and that may come towards it.
         let mut promised: Vec<usize> = vec![];
-        self.routes.from_holes((self.grid, &self.boxes), &self.stage, &tasks.holes);
+        self.routes.measure_from_holes((self.grid, &self.boxes), &self.stage, &tasks.holes);
         let wanted = pass == Pass::Doubles;
         let supply: Vec<usize> =
             tasks.supply.iter().copied().filter(|&site| self.boxes.is_double(site) == wanted).collect();
@@ -340,7 +340,7 @@ impl<'a> Search<'a> {
             if stale {
                 let free = |hole: &usize| !promised.contains(hole);
                 let holes: Vec<usize> = tasks.holes.iter().copied().filter(free).collect();
-                self.routes.from_holes((self.grid, &self.boxes), &self.stage, &holes);
+                self.routes.measure_from_holes((self.grid, &self.boxes), &self.stage, &holes);
                 stale = false;
             }
             if !self.stage.is_still(site) {
