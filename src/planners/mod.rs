@@ -12,6 +12,7 @@ pub mod goals;
 pub mod locomote;
 pub mod morph;
 pub mod planar_path;
+mod push;
 pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;

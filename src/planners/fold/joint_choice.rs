@@ -1,6 +1,6 @@
 //! The choice of a layout and an order together: candidates from the search over both and from layouts that are good
-//! with the leaves first are put before the judge in order of their energy. What the other orders that the settings
-//! know would give is a candidate as well, so that none of them spends less than the answer.
+//! with the leaves first are put before the judge in order of their energy. The answers of the other orders that the
+//! settings know are candidates as well, so that none of them spends less than the answer.
 
 use super::carried_moments::CarriedMoments;
 use super::evaluation::{Candidates, Chosen};

@@ -52,7 +52,7 @@ pub(super) struct JointSearch<'s> {
     pub weights: &'s Weights,
     /// The mass of each face, kg, and how it is spread.
     pub masses: &'s [f64],
-    /// How the mass of a panel is spread.
+    /// The distribution of the mass of a panel.
     pub inertia: Inertia,
     /// Lower bounds on the energy by root, N·m for steps of one second; infinite for faces that are no root.
     pub bounds: Vec<f64>,

@@ -1,9 +1,9 @@
 //! Many runs of the search, over several overlays of the goal on the start, of which the best is kept.
 
+use super::boxes::Placed;
 use super::grid::Grid;
 use super::search::{Found, Search};
 use crate::optimize::random::SplitMix64;
-use crate::planners::squeeze::shape::Shape;
 use std::collections::BTreeMap;
 
 /// The greatest number of pairs of cells for which overlays are counted.
@@ -25,20 +25,25 @@ const WORK_BETTER: u64 = 100_000_000;
 const WORK_FIRST: u64 = 3_000_000_000;
 
 /// The best way that was found, on its grid.
-pub(super) struct Best {
-    /// The grid of the sites.
-    pub(super) grid: Grid,
-    /// The way.
-    pub(super) found: Found,
+pub(crate) struct Best {
+    grid: Grid,
+    found: Found,
     /// True if the way leads from the goal to the start.
-    pub(super) backwards: bool,
+    pub(crate) backwards: bool,
+}
+
+impl Best {
+    /// Returns the places of all `count` cells between the stages, and at both ends.
+    pub(crate) fn places(&self, count: usize) -> Vec<Vec<Placed>> {
+        self.found.states.iter().map(|state| state.places(&self.grid, count)).collect()
+    }
 }
 
 /// Returns the fastest of many ways from one shape to another; `None` if none is found that takes less than
 /// `time_limit`, in units of time. `squeezes`: whether cells shrink to half their size.
-pub(super) fn best(from: &Shape, to: &Shape, squeezes: bool, time_limit: f64) -> Option<Best> {
+pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limit: f64) -> Option<Best> {
     let mut overlays = overlays(from, to);
-    let mut random = SplitMix64(from.count());
+    let mut random = SplitMix64(from.len() as u64);
     let mut best: Option<Best> = None;
     let mut work = 0;
     let mut times: Vec<(f64, [i64; 3])> = vec![];
@@ -52,11 +57,10 @@ pub(super) fn best(from: &Shape, to: &Shape, squeezes: bool, time_limit: f64) ->
         if work > if best.is_some() { WORK_BETTER } else { WORK_FIRST } || least <= 0.0 {
             break;
         }
-        let goal: Vec<[i64; 3]> =
-            to.positions.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + overlay[axis])).collect();
-        let grid = Grid::around(from.positions.iter().chain(&goal))?;
+        let goal: Vec<[i64; 3]> = to.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + overlay[axis])).collect();
+        let grid = Grid::around(from.iter().chain(&goal))?;
         let sites = |places: &[[i64; 3]]| places.iter().map(|p| grid.site(*p)).collect::<Vec<usize>>();
-        let (mut start, mut goal) = (sites(&from.positions), sites(&goal));
+        let (mut start, mut goal) = (sites(from), sites(&goal));
         let backwards = random.below(2) == 1;
         if backwards {
             std::mem::swap(&mut start, &mut goal);
@@ -73,16 +77,16 @@ pub(super) fn best(from: &Shape, to: &Shape, squeezes: bool, time_limit: f64) ->
 }
 
 /// Returns the translations of the goal, in cells, on which most of its cells are cells of the start, the best first.
-fn overlays(from: &Shape, to: &Shape) -> Vec<[i64; 3]> {
-    if from.positions.len().saturating_mul(to.positions.len()) > PAIRS_MAX {
-        let middle = |shape: &Shape, axis: usize| {
-            shape.positions.iter().map(|p| p[axis]).sum::<i64>() / shape.positions.len() as i64
+fn overlays(from: &[[i64; 3]], to: &[[i64; 3]]) -> Vec<[i64; 3]> {
+    if from.len().saturating_mul(to.len()) > PAIRS_MAX {
+        let middle = |places: &[[i64; 3]], axis: usize| {
+            places.iter().map(|p| p[axis]).sum::<i64>() / places.len() as i64
         };
         return vec![[0, 1, 2].map(|axis| middle(from, axis) - middle(to, axis))];
     }
     let mut shared: BTreeMap<[i64; 3], usize> = BTreeMap::new();
-    for a in &from.positions {
-        for b in &to.positions {
+    for a in from {
+        for b in to {
             *shared.entry([0, 1, 2].map(|axis| a[axis] - b[axis])).or_default() += 1;
         }
     }

@@ -58,7 +58,7 @@ enum Pass {
     LooseHoles,
 }
 
-/// What is left to do in a stage.
+/// The tasks that are left in a stage.
 struct Tasks {
     /// The holes that no cell is on its way to.
     holes: Vec<usize>,

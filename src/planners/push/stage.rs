@@ -4,7 +4,7 @@
 use super::boxes::Boxes;
 use super::grid::{DIRECTIONS, Direction, Grid, axis_of, opposite};
 
-/// What the cells of a site do in a stage.
+/// The motion of the cells of a site in a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// They rest.
@@ -13,8 +13,8 @@ enum Role {
     Moves(Direction),
     /// They make room for one more, or one of two leaves: the site stays full.
     Changes,
-    /// Two cells turn their split.
-    Turns,
+    /// Two cells turn their split; they move along this axis.
+    Turns(u8),
 }
 
 /// A line of cells that moves on by one cell, from the site `from` to the site `to`.
@@ -30,6 +30,19 @@ pub(super) struct Line {
     stays: bool,
     /// True if `to` is filled, so that it holds two cells at the end.
     joins: bool,
+}
+
+impl Line {
+    /// Returns true if the sites of the line, its ends among them, have a neighbour across it among the sites between
+    /// two that differ along the line's axis only, or are the same.
+    fn is_beside(&self, grid: &Grid, first: usize, last: usize) -> bool {
+        let axis = usize::from(axis_of(self.direction));
+        let ends = [self.from, self.to, first, last].map(|site| grid.place(site));
+        let across: i64 = (0..3).filter(|&k| k != axis).map(|k| (ends[0][k] - ends[2][k]).abs()).sum();
+        let span = |a: i64, b: i64| (a.min(b), a.max(b));
+        let (own, other) = (span(ends[0][axis], ends[1][axis]), span(ends[2][axis], ends[3][axis]));
+        across == 1 && own.0 <= other.1 && other.0 <= own.1
+    }
 }
 
 /// A stage under construction on the state of a robot.
@@ -79,7 +92,7 @@ impl Stage {
         self.work += self.roles.len() as u64;
         for &site in &self.filled {
             if let Some(axis) = boxes.turning(site) {
-                self.roles[site] = Role::Turns;
+                self.roles[site] = Role::Turns(boxes.moves_along(site, axis));
                 self.turns.push((site, axis));
             }
         }
@@ -149,10 +162,14 @@ impl Stage {
         limit: usize,
     ) -> Option<usize> {
         // Two that turn side by side could touch by an edge only.
-        if DIRECTIONS.into_iter().any(|d| self.roles[grid.next(site, d)] == Role::Turns) {
+        let turns = |d: Direction| matches!(self.roles[grid.next(site, d)], Role::Turns(_));
+        let along = boxes.moves_along(site, axis);
+        // Past a line that moves along the same axis they would go too fast.
+        let passed = |line: &Line| axis_of(line.direction) == along && line.is_beside(grid, site, site);
+        if DIRECTIONS.into_iter().any(turns) || self.lines.iter().any(passed) {
             return None;
         }
-        self.roles[site] = Role::Turns;
+        self.roles[site] = Role::Turns(along);
         let pieces = self.pieces(grid, boxes);
         if pieces > limit {
             self.roles[site] = Role::Still;
@@ -162,30 +179,33 @@ impl Stage {
         Some(pieces)
     }
 
-    /// Returns true if the cells between two sites rest and are single, and if no line beside moves the other way: cells
-    /// in contact would pass each other at twice the speed.
+    /// Returns true if the cells between two sites rest and are single, and if nothing beside moves against them: cells in
+    /// contact would pass each other faster than one cell in the time of a line.
     fn has_clear_way(
         &self,
         grid: &Grid,
         boxes: &Boxes,
         (from, to, direction): (usize, usize, Direction),
     ) -> bool {
-        let against = Role::Moves(opposite(direction));
+        let axis = axis_of(direction);
+        let against = |line: &Line| line.direction == opposite(direction) && line.is_beside(grid, from, to);
+        if self.lines.iter().any(against) {
+            return false;
+        }
         let mut site = from;
-        while site != to {
-            if site != from && !self.is_passable(boxes, site) {
+        loop {
+            if site != from && site != to && !self.is_passable(boxes, site) {
                 return false;
             }
-            for side in DIRECTIONS.into_iter().filter(|d| axis_of(*d) != axis_of(direction)) {
-                let beside = grid.next(site, side);
-                let ahead = [0, 1, 2].map(|k| beside as isize + k * grid.stride(direction));
-                if ahead.into_iter().any(|q| self.roles.get(q as usize) == Some(&against)) {
-                    return false;
-                }
+            let turns = |side: Direction| self.roles[grid.next(site, side)] == Role::Turns(axis);
+            if DIRECTIONS.into_iter().any(|side| axis_of(side) != axis && turns(side)) {
+                return false;
+            }
+            if site == to {
+                return true;
             }
             site = grid.next(site, direction);
         }
-        true
     }
 
     fn mark(&mut self, grid: &Grid, line: Line) {
@@ -303,8 +323,8 @@ fn lasts(grid: &Grid, boxes: &Boxes, roles: &[Role], (a, b): (usize, usize), axi
         (Role::Moves(p), Role::Moves(q)) => {
             p == q || (axis_of(p) != axis && axis_of(q) != axis && axis_of(p) != axis_of(q))
         }
-        (Role::Moves(p), other) => axis_of(p) != axis && (other != Role::Turns || followed(a, p)),
-        (other, Role::Moves(q)) => axis_of(q) != axis && (other != Role::Turns || followed(b, q)),
+        (Role::Moves(p), other) => axis_of(p) != axis && (!matches!(other, Role::Turns(_)) || followed(a, p)),
+        (other, Role::Moves(q)) => axis_of(q) != axis && (!matches!(other, Role::Turns(_)) || followed(b, q)),
         _ => true,
     }
 }

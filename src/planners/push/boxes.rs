@@ -1,7 +1,6 @@
 //! The state of a robot between two stages: which cells are in which site of the lattice.
 
 use super::grid::{Direction, Grid, axis_of};
-use crate::planners::squeeze::domain::CellState;
 
 /// The number that stands for no cell.
 const NONE: u32 = u32::MAX;
@@ -14,6 +13,9 @@ const QUARTER: i64 = 1;
 
 /// Half of a cell's side.
 const HALF: i64 = 2;
+
+/// A cell's side.
+const WHOLE: i64 = 4;
 
 /// The cells of a robot by site. A site is empty, or holds one whole cell, or two that are each half as long along one
 /// axis, the split; while these two turn their split to another axis they are half as long along both.
@@ -80,6 +82,12 @@ impl Boxes {
         (self.turning[site] != NO_AXIS).then_some(self.turning[site])
     }
 
+    /// Returns the axis along which the two cells of a site move in the half of a turn that comes next, for a turn to
+    /// the axis `to`: along that first, and then away from their old split.
+    pub(super) fn moves_along(&self, site: usize, to: u8) -> u8 {
+        if self.turning[site] == NO_AXIS { to } else { self.split[site] }
+    }
+
     /// Does half of a turn of the split of a site with two cells to an axis: the first half, or the second if the first
     /// is done.
     pub(super) fn turn(&mut self, site: usize, axis: u8) {
@@ -130,27 +138,37 @@ impl Boxes {
 #[derive(Clone, Debug)]
 pub(super) struct Snapshot(Vec<(usize, [u32; 2], u8, u8)>);
 
+/// The place of a cell, in quarters of its full side: its centre and its sides along x, y, z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Placed {
+    /// The centre; a whole cell at the site 0 has it at 2.
+    pub(crate) center: [i64; 3],
+    /// The sides, 4 for a whole cell.
+    pub(crate) size: [i64; 3],
+}
+
 impl Snapshot {
-    /// Returns the states of all cells by number, of `count` cells.
-    pub(super) fn states(&self, grid: &Grid, count: usize) -> Vec<CellState> {
-        let mut states = vec![CellState::whole([0; 3]); count];
+    /// Returns the places of all cells by number, of `count` cells.
+    pub(super) fn places(&self, grid: &Grid, count: usize) -> Vec<Placed> {
+        let whole =
+            |site: usize| Placed { center: grid.place(site).map(|x| WHOLE * x + HALF), size: [WHOLE; 3] };
+        let mut places = vec![Placed { center: [HALF; 3], size: [WHOLE; 3] }; count];
         for &(site, cells, split, turning) in &self.0 {
-            let whole = CellState::whole(grid.place(site));
             if cells[1] == NONE {
-                states[cells[0] as usize] = whole;
+                places[cells[0] as usize] = whole(site);
                 continue;
             }
             for (cell, side) in cells.into_iter().zip([-QUARTER, QUARTER]) {
-                let mut state = whole;
+                let mut placed = whole(site);
                 for axis in [split, turning] {
                     if axis != NO_AXIS {
-                        state.center[usize::from(axis)] += side;
-                        state.size[usize::from(axis)] = HALF;
+                        placed.center[usize::from(axis)] += side;
+                        placed.size[usize::from(axis)] = HALF;
                     }
                 }
-                states[cell as usize] = state;
+                places[cell as usize] = placed;
             }
         }
-        states
+        places
     }
 }

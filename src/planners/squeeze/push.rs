@@ -1,18 +1,4 @@
-//! `push`: reconfiguration in place. The goal is laid over the start so that most cells stay, and those that are too
-//! many go to the sites that are missing: lines of cells move on by one cell, which takes 2 units of time whatever
-//! their length. A hole so wanders through the robot as a rook does on a chessboard; where it would cut the robot in
-//! two, a cell squeezes in beside another instead, and on from there, so that every site stays full.
-//!
-//! Line moves are those of Almethen, Michail and Potapov ("Pushing lines helps: Efficient universal centralised
-//! transformations for programmable matter", Theoretical Computer Science 830, 2020); here whole sets of lines move at
-//! once. The way that is best of many runs with other choices is taken.
-
-mod boxes;
-mod grid;
-mod routes;
-mod runs;
-mod search;
-mod stage;
+//! `push`: reconfiguration in place, by the search of [`crate::planners::push`], as a motion.
 
 use super::Refusal;
 use super::domain::{CellState, WHOLE};
@@ -20,7 +6,7 @@ use super::listed::Listed;
 use super::motion::{Motion, PlanLimits};
 use super::shape::Shape;
 use crate::plan::Ratio;
-use runs::Best;
+use crate::planners::push::{Placed, best};
 
 /// The name of the stages.
 const STAGE: &str = "push";
@@ -38,14 +24,14 @@ pub(super) fn push(
     time_limit: f64,
 ) -> Result<Option<Motion>, Refusal> {
     let squeezes = limits.cell.smallest.order(Ratio(1, 2)).is_le();
-    let Some(Best { grid, found, backwards }) = runs::best(from, to, squeezes, time_limit) else {
-        return Ok(None);
-    };
-    let count = from.positions.len();
-    let states: Vec<Vec<CellState>> = found.states.iter().map(|state| state.states(&grid, count)).collect();
+    let Some(way) = best(&from.positions, &to.positions, squeezes, time_limit) else { return Ok(None) };
+    let state = |placed: Placed| CellState { center: placed.center, size: placed.size };
+    let states = way.places(from.positions.len());
+    let states: Vec<Vec<CellState>> =
+        states.into_iter().map(|places| places.into_iter().map(state).collect()).collect();
     let (Some(start), Some(end)) = (states.first(), states.last()) else { return Ok(None) };
     // A way backwards numbers its cells by the goal; where they end says which they are.
-    let first = if backwards { end } else { start };
+    let first = if way.backwards { end } else { start };
     let site = |state: &CellState| state.center.map(|x| x.div_euclid(WHOLE));
     let number = |state: &CellState| from.positions.binary_search(&site(state)).ok().map(|at| numbers[at]);
     let Some(numbers) = first.iter().map(number).collect::<Option<Vec<u64>>>() else {
@@ -56,5 +42,5 @@ pub(super) fn push(
         motion.stage(STAGE, |cell, at| *at = state[cell]);
     }
     let motion = motion.into_motion(limits, &numbers)?;
-    Ok(Some(if backwards { motion.reversed() } else { motion }))
+    Ok(Some(if way.backwards { motion.reversed() } else { motion }))
 }

@@ -48,7 +48,7 @@ impl Routes {
         while at < self.reached.len() {
             let site = self.reached[at];
             at += 1;
-            // What moves in this stage is a source, but nothing passes through it.
+            // A site that moves in this stage is a source, but nothing passes through it.
             if self.distance[site] > 0 && !stage.is_passable(boxes, site) {
                 continue;
             }
