@@ -74,7 +74,7 @@ impl Task<'_> {
         let mut search = self.joint_search(&moments, found);
         let pool = self.pool(&mut search, found);
         let mut best = self.first_accepted(pool, &mut candidates.first)?;
-        // What the orders with a name lead to where the judge refuses their first layouts.
+        // The orders with a name come next, for the judge may refuse their first layouts.
         for sequence in NAMED.into_iter().filter(|_| self.problem.hinges.is_none()) {
             let cutoff = best.as_ref().map_or(f64::INFINITY, |best| self.value(&best.layout, &best.steps));
             if sequence == Sequence::LeavesFirst && found.bound >= cutoff * (1.0 - TOLERANCES.proof) {
