@@ -21,7 +21,7 @@ const RUNS_MAX: usize = 400;
 /// The work after which no further run begins, in visits of sites.
 const WORK_BETTER: u64 = 100_000_000;
 
-/// The work after which a run ends while nothing is found.
+/// The work after which the search ends while nothing is found, and nothing else is known.
 const WORK_FIRST: u64 = 3_000_000_000;
 
 /// The best way that was found, on its grid.
@@ -45,6 +45,8 @@ pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limi
     let mut overlays = overlays(from, to);
     let mut random = SplitMix64(from.len() as u64);
     let mut best: Option<Best> = None;
+    // Where another way is known already, the search need not find one at any price.
+    let most = if time_limit.is_finite() { 2 * WORK_BETTER } else { WORK_FIRST };
     let mut work = 0;
     let mut times: Vec<(f64, [i64; 3])> = vec![];
     for run in 0..RUNS_MAX {
@@ -54,7 +56,7 @@ pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limi
         }
         let overlay = *overlays.get(run % overlays.len().max(1))?;
         let least = best.as_ref().map_or(time_limit, |best| best.found.time);
-        if work > if best.is_some() { WORK_BETTER } else { WORK_FIRST } || least <= 0.0 {
+        if work > if best.is_some() { WORK_BETTER } else { most } || least <= 0.0 {
             break;
         }
         let goal: Vec<[i64; 3]> = to.iter().map(|p| [0, 1, 2].map(|axis| p[axis] + overlay[axis])).collect();
@@ -66,7 +68,7 @@ pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limi
             std::mem::swap(&mut start, &mut goal);
         }
         let mut search = Search::new(&grid, &start, &goal, squeezes, &mut random);
-        let found = search.run(least, WORK_FIRST);
+        let found = search.run(least, most);
         work += search.work();
         if let Some(found) = found {
             times.push((found.time, overlay));
