@@ -45,7 +45,7 @@ pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limi
     let mut overlays = overlays(from, to);
     let mut random = SplitMix64(from.len() as u64);
     let mut best: Option<Best> = None;
-    // Where another way is known already, the search need not find one at any price.
+    // The search need not find a way at any price where another is known already.
     let most = if time_limit.is_finite() { 2 * WORK_BETTER } else { WORK_FIRST };
     let mut work = 0;
     let mut times: Vec<(f64, [i64; 3])> = vec![];
