@@ -1,4 +1,4 @@
-//! What the planners of lattices reach beside what they reached before: one cell of a block that moves, and seeded
+//! The motions of lattices beside those of the methods before: one cell of a block that moves, and seeded
 //! random shapes that become each other. For each set the median and the greatest time of the motion, in units of
 //! time and by the lower bound, and the time that planning took, each plan judged. Then what the programs in
 //! `benches/frontier` print, of folding and of chains.

@@ -147,7 +147,7 @@ fn every_limit_holds_below_at_and_above() {
     for (constant, probe) in PROBES {
         let row = table.get(*constant).unwrap_or_else(|| panic!("{constant} is in docs/limits.md"));
         let value = row.value.unwrap_or_else(|| panic!("{constant} has a number"));
-        // How deep a value is that is carried along is looked at each time that twice as many steps were made.
+        // The depth of a value that is carried along is looked at each time that twice as many steps were made.
         let above = if *constant == "interpret::nesting::DEPTH_MAX" { 2 * value } else { value };
         for (size, beyond) in [(value - 1, false), (value, false), (above + 1, true)] {
             let (files, mode) = probe(size);

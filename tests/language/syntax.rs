@@ -98,7 +98,7 @@ fn broken_nests_are_told_once() {
     }
 }
 
-/// So many pieces of a length as are wanted, or as many as a text has room for.
+/// Returns the number of pieces of a length that are wanted, or that a text has room for if that is less.
 fn fitting(wanted: usize, length: usize) -> usize {
     wanted.min((modl::syntax::TEXT_MAX - 100) / length)
 }

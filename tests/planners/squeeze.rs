@@ -4,7 +4,9 @@
 //! dense sampling, in another language. The whole range of sizes and a thousand random sets take some
 //! minutes: `MODL_WHOLE=1 cargo test --release --test all squeeze` tries them all, in the release profile sooner.
 
-use crate::support::lattices::{BALANCED, PAPER, TERMS, judged, judged_plan, plan_of, stages_of, unit_cell};
+use crate::support::lattices::{
+    BALANCED, PAPER, TERMS, block, judged, judged_plan, plan_of, stages_of, unit_cell,
+};
 use crate::support::properties::whole;
 use modl::plan::lattice::{end_shapes, peak_forces};
 use modl::plan::{Body, Law, OperationError, Ratio, Stages, joined, reversed};
@@ -222,16 +224,6 @@ fn row(n: u64) -> Vec<[i64; 3]> {
 
 fn column(n: u64) -> Vec<[i64; 3]> {
     (0..n as i64).map(|y| [0, y, 0]).collect()
-}
-
-fn block(sides: [i64; 3]) -> Vec<[i64; 3]> {
-    let mut places = Vec::new();
-    for x in 0..sides[0] {
-        for y in 0..sides[1] {
-            places.extend((0..sides[2]).map(|z| [x, y, z]));
-        }
-    }
-    places
 }
 
 /// Up to a translation.

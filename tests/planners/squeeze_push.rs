@@ -116,14 +116,6 @@ fn random_shapes_change_in_place() {
             if dimensions == 2 && found.lower_bound > 0.0 {
                 ratios.push(found.stages.duration() / found.lower_bound);
             }
-            if std::env::var("SHOW").is_ok() {
-                println!(
-                    "{dimensions} {branches} {count}: {:?} {:.1} of {:.2}",
-                    found.method,
-                    found.stages.duration(),
-                    found.lower_bound
-                );
-            }
         }
     }
     ratios.sort_by(f64::total_cmp);
@@ -139,15 +131,7 @@ fn rows_are_piled_up_and_pushed_into_shape() {
         let shape = random_shape(3, false, &mut seed, count);
         let found = check(&row, &shape, &Settings::default());
         assert_eq!(found.method, Method::Push, "{round}");
-        let back = check(&shape, &row, &Settings::default());
-        if std::env::var("SHOW").is_ok() {
-            println!(
-                "row {count}: {:.1} and {:.1} of {:.1}",
-                found.stages.duration(),
-                back.stages.duration(),
-                found.lower_bound
-            );
-        }
+        check(&shape, &row, &Settings::default());
     }
 }
 

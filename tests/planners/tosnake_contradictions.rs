@@ -122,7 +122,7 @@ impl Tangle {
         }
     }
 
-    /// How far a connection is from meeting.
+    /// Returns the distance by which a connection fails to meet.
     fn missing(&self, edge: usize, shoes: &[Matrix]) -> f64 {
         let Edge { a, b, turn } = self.edges[edge];
         let wanted = times(&shoes[2 * a.0 + a.1], &mate(a.2, turn, b.2));
@@ -177,7 +177,7 @@ print(verify(x, world: world(ground: off, gravity: off)).ok)
 /// that is named.
 #[test]
 fn a_choice_without_overlap_is_found_wherever_there_is_one() {
-    // How often the first tree had an overlap and another had none; how often none was free.
+    // The counts of tangles whose first tree overlaps and another does not, and of those where none is free.
     let (mut other, mut none, mut forced) = (0, 0, 0);
     for seed in 0..600 {
         let tangle = Tangle::of_seed(seed);
@@ -198,7 +198,7 @@ fn a_choice_without_overlap_is_found_wherever_there_is_one() {
         assert!(warnings.iter().all(|d| d.code == code::OPEN_LOOP), "{warnings:?}");
         if free > 0 {
             other += usize::from(free < trees.len());
-            // What is kept meets, and what is left out does not.
+            // The connections that are kept meet, and those that are left out do not.
             let kept = std::str::from_utf8(&done.host.written["y.rofi"]).expect("text");
             let all = tangle.file();
             let lines: Vec<&str> = all.lines().skip(1 + tangle.joints.len()).collect();

@@ -164,7 +164,7 @@ pub enum Refusal {
         /// The number of cells at the end.
         to: usize,
     },
-    /// The cells do not shrink to half their size, as every method but the accordion needs.
+    /// The cells do not shrink to half their size, as every method but the accordion and the pushes needs.
     Stiff {
         /// The least size of a cell, as a fraction of its full size, without unit.
         smallest: Ratio,

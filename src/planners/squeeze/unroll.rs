@@ -16,9 +16,6 @@ pub fn unroll(limits: PlanLimits, sides: [u64; 3]) -> Result<Motion, Refusal> {
     let [a, b, c] = sides;
     let (count, domains) = (a * b * c, domains(sides));
     // The row in turn, to and fro: along x within each rod, along z within each layer.
-    let turned = |place: u64, in_turn: u64, length: u64| {
-        if in_turn.is_multiple_of(2) { place } else { length - 1 - place }
-    };
     let rod = move |i: u64| i / a;
     let x = move |i: u64| turned(i % a, rod(i), a);
     let y = move |i: u64| rod(i) / c;
@@ -30,6 +27,11 @@ pub fn unroll(limits: PlanLimits, sides: [u64; 3]) -> Result<Motion, Refusal> {
     builder.stage("y-unfold", WHOLE, &domains, move |i| state(x(i), i, 0))?;
     builder.stage("x-slide", WHOLE, &domains, move |i| state(0, i, 0))?;
     Ok(builder.motion())
+}
+
+/// Returns the place in a line of this length of what goes to and fro through such lines, backwards in every second one.
+fn turned(place: u64, line: u64, length: u64) -> u64 {
+    if line.is_multiple_of(2) { place } else { length - 1 - place }
 }
 
 /// Returns the domains by the parities of the layer and of the rod within it, which determine the direction
@@ -48,9 +50,6 @@ fn domains([a, b, c]: [u64; 3]) -> Vec<Domain> {
 /// Returns the sites of a pile of `count` cells: of the box of the sides `[a, _, c]` along x and z as many cells as
 /// there are, in the order in which [`unroll_pile`] numbers them.
 pub(super) fn pile(count: u64, [a, c]: [u64; 2]) -> Vec<[i64; 3]> {
-    let turned = |place: u64, in_turn: u64, length: u64| {
-        if in_turn.is_multiple_of(2) { place } else { length - 1 - place }
-    };
     let site = |i: u64| {
         let (rod, layer) = (i / a, i / (a * c));
         [turned(i % a, rod, a) as i64, layer as i64, turned(rod % c, layer, c) as i64]

@@ -155,8 +155,7 @@ impl Structure {
         a == c || a == d || b == c || b == d
     }
 
-    /// Returns the centre of mass with the nodes at `x`, m, : the mean of the nodes by their
-    /// masses.
+    /// Returns the centre of mass with the nodes at `x`, m: the mean of the nodes by their masses.
     pub fn centre_of_mass(&self, x: &[Vec3]) -> Vec3 {
         x.iter().zip(&self.mass_fractions).map(|(p, fraction)| p * *fraction).sum()
     }
