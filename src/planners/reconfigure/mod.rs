@@ -2,7 +2,7 @@
 //! the one that takes less time.
 //!
 //! Through the snake: both are unwound by [`tosnake`], and the second plan is run backwards.
-//! Directly ([`direct`]): a part that both have in common keeps its bonds ([`common_part`]), and only the others change.
+//! Directly: a part that both have in common keeps its bonds, and only the others change.
 //!
 //! With gravity one shoe, one of the two bodies of a RoFI module, is held fixed all the time. Then the second robot
 //! has to be held by a shoe that ends at the same position in the snake as the shoe by which the first is held.
