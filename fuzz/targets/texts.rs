@@ -25,7 +25,8 @@ pub fn parse(input: &[u8]) {
     for item in &parsed.file.items {
         let range = item.span.range();
         assert!(text.get(range.clone()).is_some(), "{:?} is no place", item.span);
-        assert!(end <= range.start, "items stand in their order");
+        let spans = || parsed.file.items.iter().map(|item| item.span.range()).collect::<Vec<_>>();
+        assert!(end <= range.start, "items stand in their order: {:?}", spans());
         end = range.end;
         let told = !parsed.diagnostics.is_empty();
         assert!(told || !matches!(item.kind, ItemKind::Error), "an error was not told");

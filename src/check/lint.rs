@@ -48,9 +48,9 @@ fn is_camel(name: &str) -> bool {
 fn camel(name: &str) -> String {
     let mut out = String::new();
     for word in name.split('_').filter(|w| !w.is_empty()) {
-        let (first, rest) = word.split_at(1);
-        out.push_str(&first.to_ascii_uppercase());
-        out.push_str(rest);
+        let mut letters = word.chars();
+        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
+        out.push_str(letters.as_str());
     }
     out
 }

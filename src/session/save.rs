@@ -3,7 +3,7 @@
 use super::dependencies::meant;
 use super::state::{Session, loaded_path};
 use crate::check::typed::DefId;
-use crate::check::{Checked, Entry};
+use crate::check::{Checked, Entry, check_session};
 use crate::format::format;
 use crate::source::{FileId, Symbol};
 use crate::syntax::{self, ast};
@@ -15,7 +15,8 @@ const CONTINUING: [char; 4] = ['+', '-', '(', '['];
 
 impl Session {
     /// Returns the entries of the session as the text of a program, formatted: imports first, then the entries without
-    /// what later ones replaced. `_`, the last value, is replaced by a name.
+    /// what later ones replaced, and without statements that are wrong by what their names mean since. `_`, the last value,
+    /// is replaced by a name.
     pub fn program(&self) -> String {
         let checked = self.checked();
         let saved = Saved::of(checked);
@@ -23,27 +24,59 @@ impl Session {
         let mut pieces: Vec<String> = Vec::new();
         for (entry, file) in self.entries.iter().zip(&checked.entries) {
             let text = saved.entry(entry, *file, &mut imports);
-            let text = text.trim();
-            if !text.is_empty() {
-                pieces.push(text.to_owned());
-            }
+            pieces.push(text.trim().to_owned());
         }
-        let mut text = imports.iter().map(|line| format!("{line}\n")).collect::<String>();
-        let mut before = imports.join("\n");
-        for (i, piece) in pieces.iter().enumerate() {
-            // Single lines are joined; longer pieces are separated by blank lines, and those that would seem to continue the
-            // line before.
-            let long = piece.contains('\n') || before.contains('\n');
-            let apart = i == 0 || long || piece.starts_with(CONTINUING);
-            text.push_str(if apart && !text.is_empty() { "\n" } else { "" });
-            text.push_str(&format!("{piece}\n"));
-            before.clone_from(piece);
-        }
+        pieces.retain(|piece| !piece.is_empty());
+        self.leave_out_wrong(&imports, &mut pieces);
+        pieces.retain(|piece| !piece.is_empty());
+        let (text, _) = joined(&imports, &pieces);
         match format(FileId(0), &text) {
             Some(formatted) => formatted.text,
             None => text,
         }
     }
+
+    /// Leaves out the statements that are wrong in the program of these pieces: a later entry gave another meaning to a name
+    /// that they use.
+    fn leave_out_wrong(&self, imports: &[String], pieces: &mut [String]) {
+        let (text, ranges) = joined(imports, pieces);
+        let whole = Entry { name: "<saved>".to_owned(), text, first_line: 1, value: None, last: None };
+        let checked = check_session(&*self.files, &[whole]);
+        let errors = checked.diagnostics.iter().filter(|diagnostic| diagnostic.is_error());
+        let at = errors.filter_map(|error| error.labels.first()).map(|label| label.span.start as usize);
+        let mut places = vec![Vec::new(); pieces.len()];
+        for at in at {
+            if let Some(piece) = ranges.iter().position(|range| range.contains(&at)) {
+                places[piece].push(at - ranges[piece].start);
+            }
+        }
+        for (piece, places) in pieces.iter_mut().zip(places).filter(|(_, places)| !places.is_empty()) {
+            let items = syntax::parse(FileId(0), piece).file.items;
+            let statements = items.iter().filter(|item| matches!(item.kind, ast::ItemKind::Statement(_)));
+            let wrong = statements.map(|item| item.span.range());
+            let wrong = wrong.filter(|range| places.iter().any(|at| range.contains(at)));
+            let edits = wrong.map(|range| (range, String::new())).collect();
+            *piece = edited(piece, edits).trim().to_owned();
+        }
+    }
+}
+
+/// Returns a program of imports and pieces, with the range of each piece in it, in bytes.
+fn joined(imports: &[String], pieces: &[String]) -> (String, Vec<Range<usize>>) {
+    let mut text = imports.iter().map(|line| format!("{line}\n")).collect::<String>();
+    let mut ranges = Vec::new();
+    let mut before = imports.join("\n");
+    for (i, piece) in pieces.iter().enumerate() {
+        // Single lines are joined; longer pieces are separated by blank lines, and those that would seem to continue the
+        // line before.
+        let long = piece.contains('\n') || before.contains('\n');
+        let apart = i == 0 || long || piece.starts_with(CONTINUING);
+        text.push_str(if apart && !text.is_empty() { "\n" } else { "" });
+        ranges.push(text.len()..text.len() + piece.len());
+        text.push_str(&format!("{piece}\n"));
+        before.clone_from(piece);
+    }
+    (text, ranges)
 }
 
 /// The program of a session, prepared for saving.

@@ -36,7 +36,11 @@ impl Builder<'_> {
             _ => ItemKind::Statement(self.statement(node, before).0),
         };
         if let ItemKind::ExternFn(_) | ItemKind::ExternType(_) = kind {
-            span.start = self.text[..span.start as usize].rfind("extern").map_or(span.start, |at| at as u32);
+            // A misspelt `extern` is not there; one before it belongs to another item.
+            let start = span.start as usize;
+            let word = self.text[..start].rfind("extern");
+            let own = word.filter(|at| self.read[at + "extern".len()..start].trim().is_empty());
+            span.start = own.map_or(span.start, |at| at as u32);
         }
         Item { span, doc: self.doc(span.start), kind }
     }

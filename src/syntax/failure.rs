@@ -10,6 +10,9 @@ use crate::source::suggest::suggest;
 use crate::source::{Code, Diagnostic, FileId, Span, code};
 use std::cell::Cell;
 
+/// The number of bytes behind a piece in which the token is looked for that ends it.
+const AHEAD_MAX: usize = 200;
+
 /// The kind of body in which a piece of text that does not parse stands: it decides which keywords may begin a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BodyKind {
@@ -471,10 +474,10 @@ impl Mistake<'_> {
     fn found_words(&self, whole: &str) -> String {
         let text = self.found();
         let Some(kind) = self.kind_of(self.found) else {
-            let rest = tokens(
-                whole,
-                self.base + self.text.len()..whole.len().min(self.base + self.text.len() + 200),
-            );
+            let behind = self.base + self.text.len();
+            let far = (behind..=whole.len().min(behind + AHEAD_MAX)).rev();
+            let end = far.into_iter().find(|at| whole.is_char_boundary(*at)).unwrap_or(whole.len());
+            let rest = tokens(whole, behind..end);
             return match rest.first() {
                 Some(token) => format!("`{}`", &whole[token.start..token.end]),
                 None => "the end of the file".into(),

@@ -7,12 +7,13 @@ use super::parted;
 use super::rollout::roll_out;
 use super::rollout_input::Rollout;
 use super::sample::Sample;
+use super::sampling;
 use super::succession;
 use super::tolerances::Tolerances;
 use super::torque::LoadGauge;
 use crate::geometry::{Pose, Vec3};
 use crate::plan::verify::support_polygon::hull;
-use crate::plan::{Body, Ground, Plan, validation};
+use crate::plan::{Body, Ground, Plan, Settings, validation};
 
 /// The greatest number of moments of a history besides the last: of a rollout with more samples only every second,
 /// fourth, ... is kept.
@@ -97,7 +98,13 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
     if validation::check(plan).is_err() {
         return;
     }
-    let rollout = Rollout::of(plan, tracks, tolerances);
+    let mut rollout = Rollout::of(plan, tracks, tolerances);
+    // A plan that the judge would refuse for its samples is still seen at some.
+    let (least, settings) = (tracks.duration / MOMENTS_MAX as f64, rollout.settings);
+    let coarse = Settings { sample: settings.sample.max(least), ..settings.clone() };
+    if sampling::count(&rollout.instants(), tracks, settings, tolerances) > settings.samples_max {
+        rollout.settings = &coarse;
+    }
     let Some(mut clusters) = parted::several(&rollout) else {
         roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
             see(sample, PlacedBase { pose: sample.stance.base_pose(sample.model), whole: true });
