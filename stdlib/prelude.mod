@@ -2383,6 +2383,45 @@ extern type OrderSample {
 /// ```
 extern fn random_orders(of: Folding, orders: Int = 1000, seed: Int = 0) -> OrderSample
 
+/// How the flat patterns of a shape compare.
+extern type LayoutComparison {
+  /// How many were looked at.
+  layouts: Int
+  /// Whether these are all that there are; else they are taken at random, each as likely as any other.
+  complete: Bool
+  /// What each takes with the leaves folded first, as the folding was measured.
+  energies: List<Energy>
+  /// Which takes the least, counted from 0.
+  best: Int
+  /// The least energy.
+  least: Energy
+  /// The energy in the middle: half of them take more.
+  median: Energy
+  /// The greatest energy.
+  greatest: Energy
+  /// The place of the folding's own pattern among them, with the leaves folded first: 1 if none takes less.
+  rank: Int
+  /// Which one the measure of the origami-folding paper prefers (its Method II), counted from 0.
+  preferred: Int
+  /// The place of that one.
+  preferred_rank: Int
+  /// The hinges of one, counted from 0, as pairs of faces: what `fold` takes as `hinges`.
+  fn hinges(layout: Int) -> List<List<Int>>
+}
+
+/// Compares the flat patterns of the shape of a folding, with its root, as it was measured: all if there are at most
+/// `most`, else as many at random. Patterns that overlap, or whose panels meet on the way, are among them. The same
+/// `seed` takes the same ones.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Mori
+/// use std.shapes.octahedron
+/// let all = compare_layouts(fold(octahedron(edge: 80mm), module: Mori))
+/// print(all.layouts, all.rank, all.median > all.least, len(all.hinges(all.best)))
+/// ```
+extern fn compare_layouts(of: Folding, most: Int = 10_000, seed: Int = 0) -> LayoutComparison
+
 /// What `refold` found: the motion from shape to shape, and what it takes.
 extern type Refolding is Plan {
   /// How many connections are undone in the plane, and as many made.
@@ -2615,7 +2654,7 @@ extern type Morphing is Plan {
 /// rigidity matrix (rows of unit vectors) falls that belongs to no rigid motion, as the judge asks: `auto` is
 /// 0.05, or an eighth of the value at the start if that is less; `failed` struts, by their names, that keep their length to 0.2 percent of a strut; `perimeters`, lists
 /// of struts whose lengths keep their sum, as those of one tube do. After `timeout` there is no plan.
-/// There is neither gravity nor ground, as in the paper; struts move as fast as their speed allows.
+/// There is neither gravity nor ground, as in the paper; struts move as fast as their speed and `max_accel` allow.
 /// `obstacles` are solids in the world, in which the truss begins where its nodes were declared: struts keep
 /// their clearance from them.
 ///

@@ -1,9 +1,9 @@
-//! `fold` and `random_orders`.
+//! `fold`, `random_orders` and `compare_layouts`.
 
 use super::fold_design::Joined;
 use super::fold_refusal::diagnostic;
 use super::fold_supply::{self, Passive, Sheet, Supply};
-use super::folding::OrderSample;
+use super::folding::{LayoutComparison, OrderSample};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
 use crate::interpret::design::Instance;
@@ -16,6 +16,7 @@ use crate::interpret::value::Value;
 use crate::plan::{ObjectiveValue, Plan, World};
 use crate::planners::fold::{self, Count, MassModel, Method, Minimise, Problem, Sequence, Settings};
 use crate::planners::{RequestedProgress, Solution};
+use std::any::Any;
 use std::rc::Rc;
 
 // The names of arguments that diagnostics of `fold` are about.
@@ -34,10 +35,12 @@ pub(super) const SEQUENCE: &str = "sequence";
 /// The name of `fold`'s parameter for a prescribed layout, the hinges that fold.
 pub(super) const HINGES: &str = "hinges";
 
-/// The built-ins `fold` and `random_orders`: the key of each with its parameters and its Rust function.
+/// The built-ins `fold`, `random_orders` and `compare_layouts`: the key of each with its parameters and its Rust function.
 pub(super) const TABLE: &[Native] = &[
     Native::on_run("fold", Arguments::PARAMETERS, fold),
     Native::on_run("random_orders", parameters![of: &Value, orders: usize, seed: usize], random_orders),
+    Native::on_run("compare_layouts", parameters![of: &Value, most: usize, seed: usize], compare_layouts),
+    Native::pure("LayoutComparison.hinges", parameters![self: &Value, layout: usize], hinges),
 ];
 
 arguments! {
@@ -104,6 +107,9 @@ impl Choice for Sequence {
 
 /// The greatest number of orders that are compared in one call.
 const ORDERS_MAX: usize = 100_000;
+
+/// The greatest number of hinges of all layouts that are compared in one call, together.
+const HINGES_MAX: usize = 10_000_000;
 
 /// Runs `fold`: reads the shape and its panels, plans, and returns the plan with the planner's report and
 /// verdict.
@@ -186,10 +192,47 @@ fn pairs(call: &Call, hinges: &[Value]) -> Eval<Vec<[usize; 2]>> {
     hinges.iter().map(read).collect()
 }
 
+/// Returns the plan whose report a call is about.
+fn planned<'c>(call: &'c Call) -> Option<&'c Rc<PlanValue>> {
+    let Value::Record(record) = call.arg("of") else { return None };
+    if let Record::Plan(planned) = &**record { Some(planned) } else { None }
+}
+
+/// Runs `compare_layouts` on the folding `of`.
+fn compare_layouts(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let folded = planned(call).and_then(|planned| planned.report::<fold::Report>());
+    let Some(folded) = folded else { return Ok(Value::Unknown) };
+    let most = call.count("most", "how many layouts")?;
+    let greatest = HINGES_MAX / folded.target.faces.len();
+    if most == 0 || most > greatest {
+        return Err(call.refuse("most", format!("from 1 to {greatest} layouts are compared")));
+    }
+    let seed = call.count("seed", "a seed")? as u64;
+    crate::interrupt::start_task("comparing layouts".to_owned());
+    let found = folded.compare_layouts(most, seed, &mut RequestedProgress);
+    Ok(Value::Record(Rc::new(Record::Native(Rc::new(LayoutComparison(found))))))
+}
+
+/// Runs `hinges` of a comparison of layouts.
+fn hinges(_: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let Value::Record(record) = call.arg("self") else { return Ok(Value::Unknown) };
+    let Record::Native(record) = &**record else { return Ok(Value::Unknown) };
+    let record: &dyn Any = &**record;
+    let Some(LayoutComparison(sample)) = record.downcast_ref() else {
+        return Ok(Value::Unknown);
+    };
+    let layout = call.count("layout", "a layout")?;
+    let Some(hinges) = sample.layouts.get(layout) else {
+        let count = sample.layouts.len();
+        return Err(call.refuse("layout", format!("there are {count} layouts, counted from 0")));
+    };
+    let pair = |[a, b]: &[usize; 2]| Value::list(vec![Value::count(*a), Value::count(*b)]);
+    Ok(Value::list(hinges.iter().map(pair).collect()))
+}
+
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let Value::Record(record) = call.arg("of") else { return Ok(Value::Unknown) };
-    let Record::Plan(planned) = &**record else { return Ok(Value::Unknown) };
-    let Some(folded) = planned.report::<fold::Report>() else { return Ok(Value::Unknown) };
+    let folded = planned(call).and_then(|planned| planned.report::<fold::Report>());
+    let Some(folded) = folded else { return Ok(Value::Unknown) };
     let orders = call.count("orders", "how many orders")?;
     if orders == 0 || orders > ORDERS_MAX {
         return Err(call.refuse("orders", format!("from 1 to {ORDERS_MAX} orders are compared")));

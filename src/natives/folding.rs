@@ -1,10 +1,11 @@
-//! The records of folding: the fields of a `Folding` beside those of a plan, `Layout` and `OrderSample`.
+//! The records of folding: the fields of a `Folding` beside those of a plan, `Layout`, `OrderSample` and
+//! `LayoutComparison`.
 
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
 use crate::interpret::record::{Field, NativeRecord, Record, field_names, read_field};
 use crate::interpret::value::{JointValue, Value};
 use crate::planners::fold::pattern::Pattern;
-use crate::planners::fold::{Report, Sample};
+use crate::planners::fold::{LayoutSample, Report, Sample};
 use crate::robot::JointOwner;
 use crate::units::Dimension;
 use std::rc::Rc;
@@ -71,6 +72,39 @@ impl NativeRecord for OrderSample {
     }
 }
 
+/// The value of the language's record `LayoutComparison`: the energies that layouts of a shape take.
+#[derive(Debug)]
+pub struct LayoutComparison(pub LayoutSample);
+
+/// The fields of a `LayoutComparison`.
+const LAYOUT_COMPARISON: &[Field<LayoutSample>] = &[
+    ("layouts", |sample| Value::count(sample.layouts.len())),
+    ("complete", |sample| Value::Bool(sample.complete)),
+    ("energies", |sample| Value::list(sample.energies.iter().map(|e| energy(*e)).collect())),
+    ("best", |sample| Value::count(sample.best())),
+    ("least", |sample| energy(sample.energies[sample.best()])),
+    ("median", |sample| energy(sample.median())),
+    ("greatest", |sample| energy(sample.greatest())),
+    ("rank", |sample| Value::count(sample.rank(sample.reference))),
+    ("preferred", |sample| Value::count(sample.preferred())),
+    ("preferred_rank", |sample| Value::count(sample.rank(sample.energies[sample.preferred()]))),
+];
+
+fn energy(value: f64) -> Value {
+    Value::Quantity(value, Dimension::ENERGY)
+}
+
+impl NativeRecord for LayoutComparison {
+    fn read(&self, field: &str) -> Value {
+        read_field(LAYOUT_COMPARISON, &self.0, field)
+    }
+
+    fn show(&self) -> String {
+        let LayoutSample { layouts, complete, .. } = &self.0;
+        format!("{} {}layouts compared", layouts.len(), if *complete { "" } else { "random " })
+    }
+}
+
 /// The value of the language's record `Layout`: the flat pattern in which a folding plan begins.
 #[derive(Debug)]
 pub struct LayoutValue(Rc<PlanValue>);
@@ -119,5 +153,6 @@ pub fn records() -> Vec<(&'static str, Vec<&'static str>)> {
         ("Folding", Report::names()),
         ("Layout", field_names(LAYOUT)),
         ("OrderSample", field_names(ORDER_SAMPLE)),
+        ("LayoutComparison", field_names(LAYOUT_COMPARISON)),
     ]
 }

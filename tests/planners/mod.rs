@@ -7,6 +7,7 @@ pub mod fold_clearing;
 pub mod fold_collisions;
 pub mod fold_dynamics;
 pub mod fold_files;
+pub mod fold_layouts;
 pub mod fold_objective;
 pub mod fold_orders;
 pub mod fold_random;

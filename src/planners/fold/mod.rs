@@ -29,6 +29,7 @@ mod tolerances;
 // The target, its layouts and their costs.
 pub mod inertia;
 mod layout;
+mod layout_sample;
 mod objective;
 pub mod spanning_trees;
 pub mod symmetry;
@@ -87,6 +88,7 @@ mod task;
 pub use branch_and_bound::{Optimum, Proof};
 pub use ground_faces::Protrusion;
 pub use layout::{Across, Layout};
+pub use layout_sample::LayoutSample;
 pub use legendre::Size;
 pub use load_limits::{LoadLimits, Violation};
 pub use net::{Edge, Net};
