@@ -4,7 +4,8 @@
 
 needs numpy and scipy. Of every plan it looks at every keyframe and at ten moments between, with the nodes that stay on the
 ground from one keyframe to the next: the least greatest force over all distributions in equilibrium at every node, with
-contacts in a pyramid of eight edges inside a friction cone of 0.8; the least singular value of the rigidity matrix that
+contacts in a pyramid of eight edges inside a friction cone of 0.8, at rest and, where the step accelerates or brakes, with the
+inertia of the nodes; the greatest acceleration of a strut, by second differences of its length; the least singular value of the rigidity matrix that
 belongs to no rigid motion; and what nodes on the ground slide. It compares them with what `MODL verify PLAN.json` says of
 the margin of forces and of rigidity, and fails where a force within the limit, or a singular value, is missed by more than
 the instants between the judge's allow.
@@ -23,8 +24,8 @@ GRAVITY, FRICTION, EDGES, CONTACT = 9.80665, 0.8, 8, 1e-4
 MOMENTS = 10
 
 
-def least_greatest(nodes, struts, feet, weights):
-    """The least greatest force, N; infinite if nothing holds the truss."""
+def least_greatest(nodes, struts, feet, weights, moved=None):
+    """The least greatest force, N; infinite if nothing holds the truss. moved: the accelerations of the nodes, m/s2."""
     n, m = len(nodes), len(struts)
     whole = weights.sum()
     rows, columns, values = [], [], []
@@ -48,6 +49,8 @@ def least_greatest(nodes, struts, feet, weights):
     equal = coo_matrix((values, (rows, columns)), shape=(3 * n, size))
     right = np.zeros(3 * n)
     right[2::3] = weights / whole
+    if moved is not None:
+        right += (moved * (weights / GRAVITY)[:, None]).ravel() / whole
     strut = np.arange(m)
     above = coo_matrix(
         (
@@ -74,6 +77,24 @@ def weakest(nodes, struts):
     return np.sqrt(max(squares[6], 0.0))
 
 
+def progress(times, up, down, duration):
+    """The progress of a step from rest to rest at some times, and its acceleration there."""
+    whole = duration - (up + down) / 2
+    rate = np.minimum(1, np.minimum(times / up, (duration - times) / down)) / whole
+    part = np.where(times < up, times**2 / (2 * up), np.where(times > duration - down, whole - (duration - times) ** 2 / (2 * down), times - up / 2))
+    return part / whole, np.where(times < up, 1 / (up * whole), np.where(times > duration - down, -1 / (down * whole), 0.0)), rate
+
+
+def fastest(x, y, struts, ramps, duration):
+    """The greatest acceleration of a strut's length in a step, by second differences, m/s2."""
+    times = np.linspace(0, duration, 101)
+    parts = progress(times, ramps["up"], ramps["down"], duration)[0]
+    ends = np.array(struts)
+    from_, to = (z[ends[:, 0]] - z[ends[:, 1]] for z in (x, y))
+    lengths = np.linalg.norm(from_[None] + (to - from_)[None] * parts[:, None, None], axis=2)
+    return np.abs(np.diff(lengths, 2, axis=0)).max() / (times[1] - times[0]) ** 2
+
+
 def looked_at(path, every=1):
     with open(path) as file:
         plan = json.load(file)
@@ -88,7 +109,7 @@ def looked_at(path, every=1):
         weights[[a, b]] += strut["mass"] * GRAVITY / 2
     mean = np.mean([np.linalg.norm(nodes[0][a] - nodes[0][b]) for a, b in struts])
     stands = any(world["world"]["gravity"] > 0 for world in plan["worlds"])
-    force, least, slip = 0.0, np.inf, 0.0
+    force, least, slip, quickest = 0.0, np.inf, 0.0, 0.0
     for i in range(1, len(nodes)):
         if frames[i]["interpolation"] != "linear":
             continue
@@ -97,13 +118,25 @@ def looked_at(path, every=1):
         slip += stands * np.linalg.norm((y - x)[feet, :2], axis=1).sum()
         if i % every:
             continue
+        ramps, duration = frames[i].get("ramps"), frames[i]["time"] - frames[i - 1]["time"]
+        if "acceleration" in strut:
+            quickest = max(quickest, fastest(x, y, struts, ramps, duration) if ramps else (x != y).any() * np.inf)
+        tips = i + 1 < len(frames) and frames[i + 1]["interpolation"] != "linear"
         for moment in range(MOMENTS + 2):
-            z = x + (y - x) * moment / (MOMENTS + 1)
+            part = moment / (MOMENTS + 1)
+            z = x + (y - x) * part
             least = min(least, weakest(z, struts))
-            if stands:
-                force = max(force, least_greatest(z, struts, feet, weights))
+            if not stands:
+                continue
+            force = max(force, least_greatest(z, struts, feet, weights))
+            if ramps:
+                whole = duration - (ramps["up"] + ramps["down"]) / 2
+                rates = [1 / (ramps["up"] * whole)] * (part <= ramps["up"] / (2 * whole))
+                rates += [-1 / (ramps["down"] * whole)] * (1 - part <= ramps["down"] / (2 * whole) and not tips)
+                for rate in rates:
+                    force = max(force, least_greatest(z, struts, feet, weights, (y - x) * rate))
     excused = any(exemption["kind"] != "slip" for exemption in plan.get("exemptions", []))
-    return strut, body.get("limits", {}), (stands, excused), force, least, slip
+    return strut, body.get("limits", {}), (stands, excused), force, least, slip, quickest
 
 
 def told(modl, path):
@@ -118,10 +151,11 @@ def told(modl, path):
 def main(modl, paths):
     failed = False
     for path in paths:
-        strut, limits, (stands, excused), force, least, slip = looked_at(path)
+        strut, limits, (stands, excused), force, least, slip, quickest = looked_at(path)
         _, found = told(modl, path)
         margin = 1 - force / strut["force"]
         bad = abs(found["rigidity"] - least) > 0.02 * least
+        bad |= quickest > 1.01 * strut.get("acceleration", np.inf)
         if stands:
             bad |= abs(found["force margin"] - margin) > 0.05 * (1 - margin)
             bad |= not excused and force > 1.01 * strut["force"]
@@ -129,7 +163,7 @@ def main(modl, paths):
         failed |= bad
         print(
             f"{path}: force {force:.1f} N, margin {margin:.4f} (told {found.get('force margin')}), "
-            f"least singular value {least:.5f} (told {found['rigidity']}), slip {slip:.4f} m {'BAD' if bad else ''}"
+            f"least singular value {least:.5f} (told {found['rigidity']}), slip {slip:.4f} m, greatest acceleration {quickest:.4f} m/s2 {'BAD' if bad else ''}"
         )
     return 1 if failed else 0
 

@@ -67,6 +67,7 @@ const STRUT: &[Fact] = &[
     positive("max_force", Dimension::FORCE),
     positive("mass", Dimension::MASS),
     positive("clearance", Dimension::LENGTH),
+    optional("max_accel", Dimension::ACCELERATION),
     optional("buckling", Dimension::FORCE),
     optional("node_mass", Dimension::MASS),
 ];

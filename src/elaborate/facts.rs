@@ -63,6 +63,7 @@ impl Stated {
             force: self.quantity("max_force"),
             mass: self.quantity("mass"),
             clearance: self.quantity("clearance"),
+            acceleration: self.optional("max_accel"),
             buckling: self.optional("buckling"),
             node_mass: self.optional("node_mass"),
         }

@@ -18,7 +18,7 @@ use crate::interpret::record::Record;
 use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::plan::{
-    Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ratio, Run,
+    Body, CauseId, CellLimits, Interpolation, Keyframe, Margins, Model, NodePaths, Plan, Ramps, Ratio, Run,
     Settings, Stability, Stages, Surroundings, TrussLimits, World,
 };
 use crate::planners::morph::{self, TargetShape};
@@ -312,6 +312,7 @@ fn nodes(truss: &TrussDesign, library: &mut Library) -> Option<NodePaths> {
     let start = Keyframe {
         time: 0.0,
         interpolation: Interpolation::Linear,
+        ramps: Ramps::NONE,
         nodes: positions.collect(),
         cause: CauseId(0),
         margins: Margins::default(),

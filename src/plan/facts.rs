@@ -146,13 +146,14 @@ fn of_strut(strut: &Strut) -> String {
         value.map_or_else(String::new, |value| format!(", {name} {}", quantity(value, dimension)))
     };
     format!(
-        "{}, {}..{}, {}, {}, clearance {}{}{}",
+        "{}, {}..{}, {}, {}, clearance {}{}{}{}",
         quantity(strut.mass, Dimension::MASS),
         metres(strut.length.0),
         metres(strut.length.1),
         quantity(strut.force, Dimension::FORCE),
         quantity(strut.speed, Dimension::SPEED),
         metres(strut.clearance),
+        told("max_accel", strut.acceleration, Dimension::ACCELERATION),
         told("buckling", strut.buckling, Dimension::FORCE),
         told("node_mass", strut.node_mass, Dimension::MASS)
     )

@@ -339,6 +339,11 @@ pub enum NodePathsFault {
         /// The number of nodes, which is the number of positions that the keyframe must have.
         nodes: usize,
     },
+    /// A step that lasts less than a tick: cutting and reversing could leave nothing of it.
+    ShortStep {
+        /// The time of the keyframe at which the step ends, s.
+        time: f64,
+    },
     /// A roll about two nodes that are one.
     RollEdge {
         /// The time of the keyframe at which the roll ends, s.
@@ -347,6 +352,11 @@ pub enum NodePathsFault {
     /// A roll about two nodes at one position.
     RollLength {
         /// The time of the keyframe at which the roll ends, s.
+        time: f64,
+    },
+    /// A velocity profile that no step from rest to rest has a piece of, or one of a roll.
+    Ramps {
+        /// The time of the keyframe at which the step ends, s.
         time: f64,
     },
     /// A strut between a node and itself.
@@ -569,11 +579,15 @@ impl fmt::Display for NodePathsFault {
         match self {
             NodePathsFault::FirstKeyframe => write!(f, "the first keyframe must be at 0"),
             NodePathsFault::KeyframeNodes { time, nodes } => {
-                write!(f, "the keyframe at {time} s has not {nodes} nodes")
+                write!(f, "at {time} s there are not {nodes} nodes")
             }
+            NodePathsFault::ShortStep { time } => write!(f, "the step to {time} s lasts less than 15 ps"),
             NodePathsFault::RollEdge { time } => write!(f, "the roll to {time} s is about no edge"),
             NodePathsFault::RollLength { time } => {
                 write!(f, "the roll to {time} s is about an edge without length")
+            }
+            NodePathsFault::Ramps { time } => {
+                write!(f, "the ramps to {time} s fit no step from rest to rest")
             }
             NodePathsFault::StrutEnds => write!(f, "a strut begins and ends at one node"),
             NodePathsFault::Obstacle(fault) => write!(f, "an obstacle: {fault}"),

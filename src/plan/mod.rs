@@ -47,7 +47,9 @@ pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
 pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
-pub use node_paths::{Interpolation, Keyframe, LengthSum, Margins, NodePaths, Surroundings, TrussLimits};
+pub use node_paths::{
+    Interpolation, Keyframe, LengthSum, Margins, NodePaths, Progress, Ramps, Surroundings, TrussLimits,
+};
 pub use operation_error::OperationError;
 pub use operations::{joined, retimed, reversed, sliced};
 pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile, Program, Signal, Target};

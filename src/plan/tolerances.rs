@@ -20,6 +20,8 @@ pub struct Tolerances {
     pub reported_zero: f64,
     /// The width below which support polygons count as lines, m.
     pub polygon_width: f64,
+    /// The part of a step's ramps by which they may overlap, without unit: that of rounding.
+    pub ramp_overlap: f64,
     /// The fraction of the larger by which numbers of two libraries may differ and be equal: rounding on the way
     /// through other tools.
     pub equal_facts: f64,
@@ -33,5 +35,6 @@ pub const TOLERANCES: Tolerances = Tolerances {
     joint_jump: 1e-9,
     reported_zero: 1e-9,
     polygon_width: 1e-6,
+    ramp_overlap: 1e-6,
     equal_facts: 1e-9,
 };

@@ -362,6 +362,9 @@ pub struct Strut {
     pub length: (f64, f64),
     /// The greatest speed of lengthening and shortening, m/s.
     pub speed: f64,
+    /// The greatest magnitude of the acceleration of its length, m/s²; `None`: no limit stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<f64>,
     /// The greatest magnitude of the force along the strut, N.
     pub force: f64,
     /// The mass of the strut, kg.

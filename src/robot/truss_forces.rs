@@ -56,6 +56,13 @@ pub struct ForceModel {
 }
 
 impl ForceModel {
+    /// Returns the model of struts that bear a part of what these do, without unit.
+    pub fn with_strength(mut self, part: f64) -> ForceModel {
+        self.force_max *= part;
+        self.buckling *= part;
+        self
+    }
+
     /// Returns the greatest pull and the greatest pressure of a strut of a length (m), N.
     pub fn limits(&self, length: f64) -> (f64, f64) {
         (self.force_max, self.force_max.min(self.buckling / (length * length)))

@@ -403,7 +403,12 @@ pub fn check_strut(strut: &Strut) -> Checked {
     need_positive(strut.force, QUANTITY_MAX, "`max_force`")?;
     need_positive(strut.mass, QUANTITY_MAX, "`mass`")?;
     need_not_negative(strut.clearance, EXTENT_MAX, "`clearance`")?;
-    for (value, name) in [(strut.buckling, "`buckling`"), (strut.node_mass, "`node_mass`")] {
+    let stated = [
+        (strut.acceleration, "`max_accel`"),
+        (strut.buckling, "`buckling`"),
+        (strut.node_mass, "`node_mass`"),
+    ];
+    for (value, name) in stated {
         value.map_or(Ok(()), |value| need_positive(value, QUANTITY_MAX, name))?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::number::{list, number};
 use super::solids::{Meshes, solids};
 use super::surroundings;
-use crate::plan::{Interpolation, Keyframe, NodePaths};
+use crate::plan::{Interpolation, Keyframe, NodePaths, Ramps};
 use crate::robot::Library;
 use serde_json::{Value, json};
 
@@ -32,5 +32,11 @@ fn keyframe(keyframe: &Keyframe) -> Value {
         Interpolation::RigidRoll { edge: (a, b), angle } => json!([a, b, number(angle)]),
     };
     let at = list(keyframe.nodes.iter().flatten().copied());
-    json!({ "time": number(keyframe.time), "roll": roll, "at": at, "cause": keyframe.cause.0 })
+    let mut data =
+        json!({ "time": number(keyframe.time), "roll": roll, "at": at, "cause": keyframe.cause.0 });
+    if !keyframe.ramps.is_none() {
+        let Ramps { up, down, before, after } = keyframe.ramps;
+        data["ramps"] = list([up, down, before, after]);
+    }
+    data
 }

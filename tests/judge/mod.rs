@@ -14,6 +14,7 @@ mod rolling;
 mod slip_spread;
 pub mod slopes;
 mod snapping;
+mod truss_acceleration;
 pub mod truss_judge;
 mod truss_loads;
 pub mod verify;

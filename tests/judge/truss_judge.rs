@@ -5,7 +5,7 @@ use crate::plans::plan_operations::plan_of;
 use crate::support::programs::*;
 use crate::support::robots::{chain, reel};
 use modl::plan::{
-    Body, CauseId, CheckKind, Ground, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Plan,
+    Body, CauseId, CheckKind, Ground, Interpolation, Keyframe, LengthSum, Margins, NodePaths, Plan, Ramps,
     TrussLimits, Verdict, World, WorldFrom, verify,
 };
 use modl::robot::Library;
@@ -25,7 +25,8 @@ const FREE: World = World::FREE;
 const STANDING: World = World { gravity: 9.80665, ground: Ground::Settle, ..World::FREE };
 
 pub fn keyframe(time: f64, interpolation: Interpolation, nodes: &[Place]) -> Keyframe {
-    Keyframe { time, interpolation, nodes: nodes.to_vec(), cause: CauseId(0), margins: Margins::default() }
+    let (nodes, cause, margins) = (nodes.to_vec(), CauseId(0), Margins::default());
+    Keyframe { time, interpolation, ramps: Ramps::NONE, nodes, cause, margins }
 }
 
 pub fn straight(time: f64, nodes: &[Place]) -> Keyframe {
@@ -239,7 +240,11 @@ fn plans_of_the_planners_pass_and_changed_ones_fail() {
             change(paths);
             kinds(&verify::verify(&plan))
         };
-        let faster = changed(&|paths| paths.keyframes.iter_mut().for_each(|keyframe| keyframe.time /= 1.01));
+        let faster = changed(&|paths| {
+            paths.keyframes.iter_mut().for_each(|Keyframe { time, ramps, .. }| {
+                (*time, ramps.up, ramps.down) = (*time / 1.01, ramps.up / 1.01, ramps.down / 1.01);
+            });
+        });
         assert!(faster.contains(&CheckKind::Speed), "{name}: {faster:?}");
         let sunk = changed(&|paths| {
             paths.keyframes.iter_mut().flat_map(|keyframe| &mut keyframe.nodes).for_each(|p| p[2] -= 1e-6);

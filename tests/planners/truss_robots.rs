@@ -89,11 +89,14 @@ fn walks_carry_their_weight() {
              let w = locomote(Pyramid, path: path, objective: {objective})\n\
              let v = verify(w)\n\
              print(w.ended, v.ok, w.slip < 1m)\n\
+             print(w.steps, w.rolls, w.slip, v.duration, v.rigidity)\n\
              for c in v.checks {{ print(c) }}\n"
         );
         let out = run(&program);
         assert!(out.starts_with("arrived true true"), "{turned}, {objective}: {out}");
         assert!(out.contains("strut load: sampled("), "{out}");
+        assert!(out.contains("acceleration: proved"), "{out}");
+        eprintln!("{turned}, {objective}: {}", out.lines().nth(1).unwrap_or_default());
     }
 }
 

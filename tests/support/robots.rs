@@ -289,6 +289,6 @@ pub fn at_rest(robot: &Assembly) -> State {
 /// A strut that reels out to ten times its shortest length.
 pub fn reel() -> Strut {
     let (name, length, clearance) = ("Reel".into(), (0.3, 3.0), 0.1);
-    let (buckling, node_mass) = (None, None);
-    Strut { name, length, speed: 0.05, force: 200.0, mass: 1.0, clearance, buckling, node_mass }
+    let (acceleration, buckling, node_mass) = (None, None, None);
+    Strut { name, length, speed: 0.05, force: 200.0, mass: 1.0, clearance, acceleration, buckling, node_mass }
 }

@@ -15,9 +15,9 @@ pub fn truth() -> Value {
 /// Struts of a length of 1 at first.
 pub fn actuator() -> Strut {
     let name = "Actuator".to_owned();
-    let (buckling, node_mass) = (None, None);
+    let (acceleration, buckling, node_mass) = (None, None, None);
     let (length, clearance) = ((0.3, 3.0), 0.1);
-    Strut { name, length, speed: 1.0, force: 1.0, mass: 1.0, clearance, buckling, node_mass }
+    Strut { name, length, speed: 1.0, force: 1.0, mass: 1.0, clearance, acceleration, buckling, node_mass }
 }
 
 /// By the steps of the paper, with relaxed ones where they are needed.

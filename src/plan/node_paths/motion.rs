@@ -1,6 +1,7 @@
 //! The body of plans of trusses: trajectories of the nodes, from which strut lengths follow.
 
 use super::limits::{Margins, Surroundings, TrussLimits};
+use super::ramps::Ramps;
 use crate::geometry::Vec3;
 use crate::geometry::pose::turned;
 use crate::plan::cause::CauseId;
@@ -35,6 +36,9 @@ pub struct Keyframe {
     pub time: f64,
     /// The motion of the nodes from the keyframe before to this one; without meaning at the first.
     pub interpolation: Interpolation,
+    /// The velocity profile of a linear motion to this keyframe; none: its rate is constant.
+    #[serde(default = "no_ramps", skip_serializing_if = "Ramps::is_none")]
+    pub ramps: Ramps,
     /// The world position of each node, by its index in [`NodePaths::node_names`], m.
     pub nodes: Vec<[f64; 3]>,
     /// The index in the plan's causes of the source command that this keyframe comes from.
@@ -44,11 +48,15 @@ pub struct Keyframe {
     pub margins: Margins,
 }
 
-/// The motion of the nodes between two keyframes, at a constant rate.
+fn no_ramps() -> Ramps {
+    Ramps::NONE
+}
+
+/// The path of the nodes between two keyframes; the rate at which they follow it is constant, but for [`Keyframe::ramps`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Interpolation {
-    /// Every node moves along a straight line at constant speed.
+    /// Every node moves along a straight line, and all progress alike.
     Linear,
     /// The whole truss turns as a rigid body about the line through two nodes that stay, directed from the first to
     /// the second, by the right-hand rule. No strut changes its length.
@@ -79,7 +87,7 @@ impl NodePaths {
             return self.keyframes.first().map_or_else(Vec::new, |k| k.nodes.clone());
         };
         let Some(next) = self.keyframes.get(after) else { return before.nodes.clone() };
-        let part = (t - before.time) / (next.time - before.time);
+        let part = next.ramps.progress(next.time - before.time).at(t - before.time);
         match next.interpolation {
             Interpolation::Linear => straight(&before.nodes, &next.nodes, part),
             Interpolation::RigidRoll { edge, angle } => rolled(&before.nodes, edge, angle * part),

@@ -17,6 +17,7 @@ impl NodePaths {
             Keyframe {
                 time: d - keyframes[i].time,
                 interpolation,
+                ramps: out.ramps.reversed(),
                 nodes: keyframes[i].nodes.clone(),
                 cause: out.cause,
                 margins: keyframes[i].margins,

@@ -2,6 +2,7 @@
 
 use super::limits::Margins;
 use super::motion::{Interpolation, Keyframe, NodePaths};
+use super::ramps::Ramps;
 
 impl NodePaths {
     /// Returns the paths between two times, s from the start of the plan, with keyframes at both; a new keyframe
@@ -23,12 +24,18 @@ impl NodePaths {
                 }
                 other => other,
             };
+            let begins = self.keyframes[after.saturating_sub(1)].time;
+            let ramps = match time > from {
+                true => keyframe.ramps.sliced(whole, before - begins, time - begins),
+                false => Ramps::NONE,
+            };
             before = time;
             // The margins at the cut are others.
             let margins = if keyframe.time == time { keyframe.margins } else { Margins::default() };
             Keyframe {
                 time: time - from,
                 interpolation,
+                ramps,
                 nodes: self.state(time),
                 cause: keyframe.cause,
                 margins,

@@ -6,6 +6,7 @@ use crate::geometry::soundness::{EXTENT_MAX, check_placed};
 use crate::plan::fault::{
     NodePathsFault, PlanFault, need, need_ascending, need_bounded, need_finite, need_index,
 };
+use crate::plan::time::TICK;
 use crate::robot::Library;
 use crate::robot::validation::POSITION_MAX;
 
@@ -26,9 +27,14 @@ impl NodePaths {
         let times: Vec<f64> = self.keyframes.iter().map(|k| k.time).collect();
         need(times.first() == Some(&0.0), || NodePathsFault::FirstKeyframe)?;
         need_ascending(&times, "the keyframes")?;
+        let short = times.windows(2).find(|ends| ends[1] - ends[0] < TICK);
+        short.map_or(Ok(()), |ends| Err(NodePathsFault::ShortStep { time: ends[1] }))?;
         for keyframe in &self.keyframes {
             let time = keyframe.time;
             need_index(keyframe.cause.0 as usize, causes, "cause")?;
+            let before = self.keyframes.partition_point(|k| k.time < time);
+            let duration = before.checked_sub(1).map_or(time, |i| time - self.keyframes[i].time);
+            keyframe.ramps.check(keyframe.interpolation, time, duration)?;
             let complete = keyframe.nodes.len() == count;
             need(complete, || NodePathsFault::KeyframeNodes { time, nodes: count })?;
             if let Interpolation::RigidRoll { edge: (a, b), .. } = keyframe.interpolation {

@@ -14,9 +14,10 @@
 //! let pairs = (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j)));
 //! let struts: Vec<(usize, usize)> = pairs.filter(|(i, j)| i / 2 != j / 2).collect();
 //! let name = "Actuator".to_owned();
-//! let (buckling, node_mass) = (None, None);
+//! let (acceleration, buckling, node_mass) = (Some(2.0), None, None);
 //! let (length, clearance) = ((0.3, 3.0), 0.05);
-//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, node_mass };
+//! let (speed, force, mass) = (1.0, 300.0, 1.0);
+//! let strut = Strut { name, length, speed, acceleration, force, mass, clearance, buckling, node_mass };
 //! let truss = TrussProblem {
 //!     strut,
 //!     node_names: (0..6).map(|i| format!("n[{i}]")).collect(),
@@ -55,6 +56,9 @@ use crate::plan::Body;
 use crate::robot::truss_statics::{Forces, ForcesError};
 use crate::units::{Dimension, number, quantity};
 use std::fmt;
+
+/// The part of what struts bear that steps may use at rest, where struts have a limit on their acceleration.
+const STRENGTH_AT_REST: f64 = 0.98;
 
 /// A problem of locomotion: a truss, and the path that its centre of mass has to follow.
 #[derive(Clone, Debug)]
@@ -181,7 +185,13 @@ pub fn plan(
         return Err(Refusal::TooFar);
     }
     bears_its_weight(&problem.truss, &truss, &start)?;
-    let travel = follow_path(&truss, &start, &problem.path, settings, progress);
+    // A part of the strength is left for the inertia of the nodes while they accelerate.
+    let mut resting = truss.clone();
+    if truss.acceleration.is_some() {
+        resting.limits.forces =
+            truss.limits.forces.clone().map(|model| model.with_strength(STRENGTH_AT_REST));
+    }
+    let travel = follow_path(&resting, &start, &problem.path, settings, progress);
     let report = Report {
         ended: ended(&problem.truss, &truss, settings, (&start, &travel)),
         distance: travelled_distance(&truss, &start, &travel.moves),

@@ -12,9 +12,10 @@
 //! let (a, b) = (3f64.sqrt() / 2.0, (2f64 / 3.0).sqrt());
 //! let nodes = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, a, 0.0], [0.5, a / 3.0, b]].map(Vec3::from);
 //! let name = "Actuator".to_owned();
-//! let (buckling, node_mass) = (None, None);
+//! let (acceleration, buckling, node_mass) = (Some(2.0), None, None);
 //! let (length, clearance) = ((0.3, 3.0), 0.05);
-//! let strut = Strut { name, length, speed: 1.0, force: 300.0, mass: 1.0, clearance, buckling, node_mass };
+//! let (speed, force, mass) = (1.0, 300.0, 1.0);
+//! let strut = Strut { name, length, speed, acceleration, force, mass, clearance, buckling, node_mass };
 //! let truss = TrussProblem {
 //!     strut,
 //!     node_names: (0..4).map(|i| format!("n[{i}]")).collect(),

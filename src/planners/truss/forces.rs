@@ -192,6 +192,33 @@ pub(in crate::planners) fn holds(truss: &Structure, x: &[Vec3]) -> bool {
     found.is_ok_and(|found| found.ratio <= 1.0)
 }
 
+/// Returns true if forces within the limits hold the truss with the nodes at `x` (m) on `feet` (their indices) while they
+/// accelerate (m/s²), by node (d'Alembert): false also where levelling does not find them.
+pub(super) fn bears(
+    truss: &Structure,
+    x: &[Vec3],
+    feet: &[usize],
+    accelerations: &[Vec3],
+    weights: &mut Weights,
+) -> bool {
+    let Some(model) = &truss.limits.forces else { return true };
+    let inertia =
+        |(node, load): (usize, &Vec3)| load - accelerations[node] * (truss.mass * truss.mass_fractions[node]);
+    let model = ForceModel { loads: model.loads.iter().enumerate().map(inertia).collect(), ..model.clone() };
+    let contacts = contacts(truss, x, feet);
+    for _ in 0..LEVELLINGS_STEP {
+        match weights.forces(&truss.layout, x, &truss.struts, &contacts, &model) {
+            Ok(found) if found.ratio <= 1.0 => return true,
+            Ok(found) => weights.levelled(&found, |strut| truss.length(x, strut), &model),
+            Err(_) => {
+                *weights = Weights::default();
+                return false;
+            }
+        }
+    }
+    false
+}
+
 /// Returns what a step has to add to its linear cost, by coordinate, so that the greatest force becomes less; the greatest
 /// displacement that it asks of a free node is a part of a step. None far from the limit.
 /// `forces`: those found for the nodes at `x`, m; `pinned`: the nodes that do not move.

@@ -33,6 +33,7 @@ mod rotation;
 
 pub mod motion;
 pub mod problem;
+pub mod timing;
 
 pub use rigidity::kept as rigidity_kept;
 pub(super) use rigidity::weakest_node as rigidity_weakest;

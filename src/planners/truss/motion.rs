@@ -4,8 +4,10 @@ use super::margins::margins;
 use super::problem::TrussProblem;
 use super::roll::{Roll, rolled};
 use super::structure::Structure;
+use super::timing::Timing;
 use crate::geometry::Vec3;
-use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Surroundings, TrussLimits};
+use crate::plan::{CauseId, Interpolation, Keyframe, LengthSum, NodePaths, Ramps, Surroundings, TrussLimits};
+use crate::robot::truss_statics::Weights;
 
 /// A move: one piece of a motion of all nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,14 +35,10 @@ impl Default for TimeLaw {
 }
 
 impl TimeLaw {
-    /// Returns the least duration (s) of a move from positions `x` of the nodes (m): that in which the speed of the
-    /// struts suffices, or of a roll its angle divided by `roll_speed`. It is not rounded up to `step_duration_min`.
+    /// Returns the least duration (s) of a move from positions `x` of the nodes (m), as [`timing`](TimeLaw::timing) has it.
     /// `truss`: the truss with its limits; `step`: the move.
     pub fn duration(&self, truss: &Structure, x: &[Vec3], step: &Move) -> f64 {
-        match step {
-            Move::Linear(y) => truss.rates(x, y).fold(0.0, f64::max) / truss.speed,
-            Move::Roll(roll) => roll.angle.abs() / self.roll_speed,
-        }
+        self.timing(truss, x, step).duration
     }
 }
 
@@ -69,8 +67,8 @@ pub fn travelled_distance(truss: &Structure, start: &[Vec3], moves: &[Move]) -> 
 }
 
 /// Returns the moves from `start` as node paths: a keyframe for the start at time 0 s, then one for the end of each
-/// move, in the order of `moves`. Each move takes the least time that the struts' speed allows, but no less than the
-/// law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`]. `truss`: the
+/// move, in the order of `moves`. Each step goes from rest to rest in the least time that the struts' speed and acceleration
+/// allow, and the forces that they bear, but no less than the law's shortest. Every keyframe has the margins of its positions, with `stands` as for [`margins`]. `truss`: the
 /// structure made of the problem.
 ///
 /// `start`: the position of each node in the order of the problem's, m, in the world's frame. The strut's kind is
@@ -86,19 +84,21 @@ pub fn node_paths(
     let places = |x: &[Vec3]| x.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>();
     let cause = CauseId(0);
     let (mut time, mut x) = (0.0, start.to_vec());
-    let keyframe = |time: f64, interpolation: Interpolation, x: &[Vec3]| {
+    let keyframe = |time: f64, (interpolation, ramps): (Interpolation, Ramps), x: &[Vec3]| {
         let margins = margins(truss, x, stands);
-        Keyframe { time, interpolation, nodes: places(x), cause, margins }
+        Keyframe { time, interpolation, ramps, nodes: places(x), cause, margins }
     };
-    let mut keyframes = vec![keyframe(time, Interpolation::Linear, &x)];
-    for step in moves {
-        time += law.duration(truss, &x, step).max(law.step_duration_min);
+    let mut keyframes = vec![keyframe(time, (Interpolation::Linear, Ramps::NONE), &x)];
+    let mut weights = Weights::default();
+    for (index, step) in moves.iter().enumerate() {
+        let Timing { duration, ramps } = law.borne(truss, &x, (step, moves.get(index + 1)), &mut weights);
+        time += duration;
         x = moved(&x, step);
         let interpolation = match step {
             Move::Linear(_) => Interpolation::Linear,
             Move::Roll(roll) => Interpolation::RigidRoll { edge: roll.edge, angle: roll.angle },
         };
-        keyframes.push(keyframe(time, interpolation, &x));
+        keyframes.push(keyframe(time, (interpolation, ramps), &x));
     }
     NodePaths {
         strut: 0,

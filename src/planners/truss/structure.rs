@@ -18,8 +18,12 @@ pub struct Structure {
     pub lengths: Vec<(f64, f64)>,
     /// The greatest rate of length of a strut, m/s.
     pub speed: f64,
+    /// The greatest acceleration of the length of a strut, m/s²; `None` for no limit.
+    pub acceleration: Option<f64>,
     /// The least distance between struts that share no node, and between struts and obstacles, m.
     pub clearance: f64,
+    /// The whole mass, kg.
+    pub mass: f64,
     /// The fraction of the whole mass that each node carries, in their order, in all 1: its own mass and half of each of its
     /// struts.
     pub mass_fractions: Vec<f64>,
@@ -70,7 +74,9 @@ impl Structure {
             struts: struts.to_vec(),
             lengths: vec![strut.length; struts.len()],
             speed: strut.speed,
+            acceleration: strut.acceleration,
             clearance: strut.clearance,
+            mass: whole,
             mass_fractions,
             unit: struts.iter().map(length).sum::<f64>() / struts.len().max(1) as f64,
             limits: Limits::default(),
@@ -169,6 +175,22 @@ impl Structure {
             let change = to - from;
             let rate = |d: &Vec3| change.dot(d) / d.norm();
             rate(&from).abs().max(rate(&to).abs())
+        })
+    }
+
+    /// Returns for each strut, in their order, the greatest second derivative of its length, m, by the progress of a linear
+    /// motion of the nodes from `x` to `y`, m: h² c² / L³ with the change c of the vector between its ends and the distance h
+    /// of that vector's line from zero, at the least length L. It is never negative.
+    pub fn bends(&self, x: &[Vec3], y: &[Vec3]) -> impl Iterator<Item = f64> {
+        self.struts.iter().map(|&(a, b)| {
+            let (from, to) = (x[a] - x[b], y[a] - y[b]);
+            let change = to - from;
+            let squared = change.norm_squared();
+            if squared == 0.0 {
+                return 0.0;
+            }
+            let part = (-from.dot(&change) / squared).clamp(0.0, 1.0);
+            from.cross(&change).norm_squared() / (from + change * part).norm().powi(3)
         })
     }
 }

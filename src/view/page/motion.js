@@ -305,6 +305,20 @@ function latticeMotion(plan, body) {
 /** Ways of a truss that are marked one by one. */
 const KEYFRAMES_MARKED = 12;
 
+/** The progress of a step, 0..1: even, or with a trapezoid of rates of which `before` and `after` are cut off. */
+function progress(ramps, duration, t) {
+  if (!ramps) return t / duration;
+  const [up, down, before, after] = ramps;
+  const risen = clamp(up - before, 0, duration);
+  const falls = clamp(duration + after - down, risen, duration);
+  const over = t => {
+    const rise = up > 0 ? (Math.min(t, risen) * (Math.min(t, risen) + 2 * before)) / (2 * up) : 0;
+    const [first, last] = [duration - falls + after, duration - Math.max(t, falls) + after];
+    return rise + Math.max(Math.min(t, falls) - risen, 0) + (down > 0 ? (first * first - last * last) / (2 * down) : 0);
+  };
+  return over(t) / over(duration);
+}
+
 function trussMotion(plan, body) {
   const nodes = body.nodes.length;
   const times = body.keyframes.map(keyframe => keyframe.time);
@@ -335,7 +349,7 @@ function trussMotion(plan, body) {
     const a = body.keyframes[Math.max(after - 1, 0)];
     const b = body.keyframes[after];
     if (!b) return i => a.at.slice(3 * i, 3 * i + 3);
-    const u = (t - a.time) / (b.time - a.time);
+    const u = progress(b.ramps, b.time - a.time, t - a.time);
     if (!b.roll) return i => [0, 1, 2].map(k => mix(a.at[3 * i + k], b.at[3 * i + k], u));
     const [from, to, angle] = b.roll;
     const origin = a.at.slice(3 * from, 3 * from + 3);

@@ -2,12 +2,18 @@
 //! between struts, and the summary of a plan.
 
 use super::judgement::{Judgement, Step};
+use super::lengths::Lengths;
 use super::support::StabilityMonitor;
 use super::{lengths, strut_distance, support};
 use crate::geometry::Vec3;
 use crate::plan::verify::ledger::{Ledger, keep_least};
-use crate::plan::{CheckKind, Failure, Interpolation, Plan, Status, World, Worst};
+use crate::plan::{CheckKind, ExemptionKind, Failure, Interpolation, Plan, Ramps, Status, World, Worst};
 use crate::units::{Dimension, quantity};
+
+/// Returns true if an exemption of the plan excuses accelerations at a time, s.
+fn excused(time: f64, ledger: &mut Ledger) -> bool {
+    ledger.excuses(CheckKind::Acceleration, time, |kind| *kind == ExemptionKind::Acceleration)
+}
 
 impl Judgement<'_> {
     /// Judges a plan of a single keyframe, whose nodes are at `x` in the world (m), as a step in which nothing moves;
@@ -23,6 +29,7 @@ impl Judgement<'_> {
             from: x.to_vec(),
             to: x.to_vec(),
             interpolation: Interpolation::Linear,
+            ramps: Ramps::NONE,
             start: 0.0,
             duration: 1.0,
         };
@@ -40,15 +47,18 @@ impl Judgement<'_> {
         }
     }
 
-    /// Checks the length of every strut and its rate on a step against the strut's range and speed, in closed form,
-    /// and keeps the least speed margin. A rigid roll changes neither.
-    pub(super) fn lengths(&self, step: &Step, ledger: &mut Ledger) {
+    /// Checks the length of every strut, its rate and its acceleration on a step against the strut's range, speed and limit
+    /// on acceleration, in closed form, and keeps the least speed margin. A rigid roll changes none. Returns the rates of the
+    /// struts at the start and at the end, m/s; empty for a roll.
+    pub(super) fn lengths(&self, step: &Step, ledger: &mut Ledger) -> [Vec<f64>; 2] {
+        let mut rates = [Vec::new(), Vec::new()];
         if step.interpolation != Interpolation::Linear {
-            return;
+            return rates;
         }
         for (strut, &(a, b)) in self.paths.struts.iter().enumerate() {
             let found = lengths::along(step, a, b);
-            if let Some((length, time)) = found.outside(self.strut.length, self.tolerances.length) {
+            rates.iter_mut().zip(found.rates).for_each(|(rates, rate)| rates.push(rate));
+            if let Some((length, part)) = found.outside(self.strut.length, self.tolerances.length) {
                 let (low, high) = self.strut.length;
                 let [length_, low_, high_] = [length, low, high].map(|x| quantity(x, Dimension::LENGTH));
                 let message = format!(
@@ -56,24 +66,61 @@ impl Judgement<'_> {
                     self.strut_name(strut),
                     self.strut.name
                 );
-                let failure =
-                    self.failure(CheckKind::JointRange, time, vec![self.strut_name(strut)], message);
+                let at = vec![self.strut_name(strut)];
+                let failure = self.failure(CheckKind::JointRange, step.time(part), at, message);
                 ledger.fail(Failure {
                     value: length,
                     limit: if length < low { low } else { high },
                     ..failure
                 });
             }
-            let margin = 1.0 - found.rate / self.strut.speed;
-            keep_least(&mut ledger.verdict.speed_margin, margin, step.start, || vec![self.strut_name(strut)]);
-            if found.too_fast(self.strut.speed, self.tolerances.rate) {
-                let [rate, limit] = [found.rate, self.strut.speed].map(|x| quantity(x, Dimension::SPEED));
-                let message =
-                    format!("the strut {} changes by {rate}; its limit is {limit}", self.strut_name(strut));
-                let failure =
-                    self.failure(CheckKind::Speed, step.start, vec![self.strut_name(strut)], message);
-                ledger.fail(Failure { value: found.rate, limit: self.strut.speed, ..failure });
-            }
+            self.rates(strut, &found, step, ledger);
+        }
+        rates
+    }
+
+    /// Checks the bound on a strut's rate on a step against its speed, and that on its acceleration against its limit if it
+    /// has one.
+    fn rates(&self, strut: usize, found: &Lengths, step: &Step, ledger: &mut Ledger) {
+        let margin = 1.0 - found.rate / self.strut.speed;
+        keep_least(&mut ledger.verdict.speed_margin, margin, step.start, || vec![self.strut_name(strut)]);
+        let failure = |kind: CheckKind, message: String, (value, limit): (f64, f64)| {
+            let failure = self.failure(kind, step.start, vec![self.strut_name(strut)], message);
+            Failure { value, limit, ..failure }
+        };
+        if found.too_fast(self.strut.speed, self.tolerances.rate) {
+            let [rate, limit] = [found.rate, self.strut.speed].map(|x| quantity(x, Dimension::SPEED));
+            let message =
+                format!("the strut {} changes by {rate}; its limit is {limit}", self.strut_name(strut));
+            ledger.fail(failure(CheckKind::Speed, message, (found.rate, self.strut.speed)));
+        }
+        let Some(limit) = self.strut.acceleration else { return };
+        if found.acceleration > limit * (1.0 + self.tolerances.rate) && !excused(step.start, ledger) {
+            let [value, most] = [found.acceleration, limit].map(|x| quantity(x, Dimension::ACCELERATION));
+            let message =
+                format!("the strut {} accelerates by {value}; its limit is {most}", self.strut_name(strut));
+            ledger.fail(failure(CheckKind::Acceleration, message, (found.acceleration, limit)));
+        }
+    }
+
+    /// Checks that the rate of no strut changes at once between two steps, where its acceleration is limited. `before`,
+    /// `after`: those of the struts (m/s) at the end of the one and at the start of the next; none before the first and after
+    /// the last, where the truss is at rest, and in rolls.
+    pub(super) fn jumps(&self, (before, after): (&[f64], &[f64]), time: f64, ledger: &mut Ledger) {
+        let Some(limit) = self.strut.acceleration else { return };
+        let rate = |rates: &[f64], strut: usize| rates.get(strut).copied().unwrap_or(0.0);
+        let changes = (0..self.paths.struts.len())
+            .map(|strut| ((rate(after, strut) - rate(before, strut)).abs(), strut));
+        let Some((change, strut)) = changes.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+        // A change belongs to the motion before it as to that after it.
+        let is_excused = |ledger: &mut Ledger| excused(time, ledger) || excused(time.next_down(), ledger);
+        if change > self.tolerances.jump && !is_excused(ledger) {
+            let (name, change) = (self.strut_name(strut), quantity(change, Dimension::SPEED));
+            let most = quantity(limit, Dimension::ACCELERATION);
+            let message =
+                format!("the strut {name} changes its speed at once, by {change}; it can do {most}");
+            let failure = self.failure(CheckKind::Acceleration, time, vec![name], message);
+            ledger.fail(Failure { value: f64::MAX, limit, ..failure });
         }
     }
 
@@ -86,7 +133,7 @@ impl Judgement<'_> {
         let limits = (self.strut.clearance, self.tolerances.strut_distance);
         for near in strut_distance::nearest(self.paths, step, limits, &self.samples) {
             let names = || vec![self.strut_name(near.struts.0), self.strut_name(near.struts.1)];
-            let time = step.start + step.duration * near.part;
+            let time = step.time(near.part);
             keep_least(&mut ledger.verdict.clearance, near.distance, time, names);
             if near.holds {
                 continue;
@@ -119,8 +166,7 @@ impl Judgement<'_> {
             let name = self.paths.node_names[node].clone();
             let depth = quantity(-height, Dimension::LENGTH);
             let message = format!("the node {name} goes {depth} into the ground");
-            let failure =
-                self.failure(CheckKind::Ground, step.start + part * step.duration, vec![name], message);
+            let failure = self.failure(CheckKind::Ground, step.time(part), vec![name], message);
             ledger.fail(Failure { value: -height, ..failure });
         }
     }
@@ -150,7 +196,8 @@ impl Judgement<'_> {
         }
         ledger.check(CheckKind::Ground, stands(Status::Proved));
         ledger.check(CheckKind::Stability, stands(Status::Proved));
-        ledger.check(CheckKind::Acceleration, Status::NoLimit);
+        let accelerates = self.strut.acceleration.map_or(Status::NoLimit, |_| Status::Proved);
+        ledger.check(CheckKind::Acceleration, accelerates);
         if on_ground {
             let (slid, node) = standing.slid();
             ledger.verdict.slip = Some(Worst {

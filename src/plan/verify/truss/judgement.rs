@@ -5,7 +5,7 @@ use super::shape::Corner;
 use super::surroundings::Obstacle;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
-use crate::plan::{CheckKind, Failure, Interpolation, NodePaths};
+use crate::plan::{CheckKind, Failure, Interpolation, NodePaths, Progress, Ramps};
 use crate::robot::Strut;
 use crate::robot::truss_statics::Layout;
 
@@ -17,10 +17,24 @@ pub(super) struct Step {
     pub to: Vec<Vec3>,
     /// The interpolation of the nodes between start and end.
     pub interpolation: Interpolation,
+    /// The velocity profile of the step.
+    pub ramps: Ramps,
     /// The time at which the step starts, s from the start of the plan.
     pub start: f64,
     /// The duration of the step, s; positive.
     pub duration: f64,
+}
+
+impl Step {
+    /// Returns the progress of the step by time.
+    pub(super) fn progress(&self) -> Progress {
+        self.ramps.progress(self.duration)
+    }
+
+    /// Returns the time at which the step has progressed by a part, 0 to 1, s from the start of the plan.
+    pub(super) fn time(&self, part: f64) -> f64 {
+        self.start + self.progress().time(part)
+    }
 }
 
 /// A truss plan under judgement.

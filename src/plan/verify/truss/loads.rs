@@ -1,7 +1,8 @@
 //! The forces in struts and contacts that hold a truss under its weight: the best distribution that there is, and the
 //! elastic one.
 //!
-//! Statics at the ends and in the middle of every linear step, on the nodes that stay on the ground all the way of it.
+//! Equilibrium at the ends and in the middle of every linear step, at rest and with the inertia of nodes that accelerate
+//! (d'Alembert), on the nodes that stay on the ground all the way of it.
 //! Forces are in equilibrium at every node with half the weight of each of its struts; contacts push, within a pyramid
 //! inside the friction cone. *The best distribution* is the one whose greatest force, as a part of what a strut bears,
 //! is least, over all self-stresses that the motors may give the truss: a linear program (LP), which is solved where a
@@ -17,8 +18,6 @@ use crate::plan::{CheckKind, Exemption, ExemptionKind, Failure, Interpolation, S
 use crate::robot::truss_statics::{Contact, FRICTION, ForceModel, Weights};
 use crate::units::{Dimension, quantity};
 
-/// The fractions of a step at which forces are looked for.
-const PARTS: [f64; 3] = [0.0, 0.5, 1.0];
 /// The number of edges of the pyramid inside a friction cone.
 const EDGES: usize = 8;
 /// The number of times that the weights of struts are levelled before the LP is asked.
@@ -71,10 +70,10 @@ impl<'a> LoadMonitor<'a> {
     }
 
     /// Judges the forces during the step to the keyframe of this index, and records failures and the least margins; of
-    /// rolls, which are falls, nothing is judged.
+    /// rolls, which are falls, nothing is judged. `tips`: true if a roll is next, so that the truss may tip while it brakes.
     pub(super) fn step(
         &mut self,
-        step: &Step,
+        (step, tips): (&Step, bool),
         keyframe: usize,
         world: World,
         standing: &StabilityMonitor,
@@ -86,14 +85,16 @@ impl<'a> LoadMonitor<'a> {
         let paths = self.judgement.paths;
         let feet: Vec<usize> = (0..step.from.len()).filter(|&n| standing.stays_down(step, n)).collect();
         let model = self.model(world);
-        for part in PARTS {
+        for (part, rate) in moments(step, tips) {
+            let moving = (step.from.iter().zip(&step.to)).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
+            let model = if rate == 0.0 { &model } else { &self.accelerating(&model, &moving) };
             let x: Vec<Vec3> = step.from.iter().zip(&step.to).map(|(p, q)| p + (q - p) * part).collect();
             let normal = |node: usize| paths.surroundings.normal(x[node]);
             let contacts: Vec<Contact> =
                 feet.iter().map(|&node| Contact { node, normal: normal(node) }).collect();
-            let time = step.start + part * step.duration;
+            let time = step.time(part);
             self.samples += 1;
-            if !self.instant(&x, &contacts, &model, time, ledger) {
+            if !self.instant(&x, &contacts, model, time, ledger) {
                 return;
             }
         }
@@ -199,6 +200,14 @@ impl<'a> LoadMonitor<'a> {
         ForceModel { loads, friction, force_max: strut.force, buckling: strut.euler() }
     }
 
+    /// Returns the model with the inertia of the nodes in the loads, where they accelerate (m/s²), by node (d'Alembert).
+    fn accelerating(&self, model: &ForceModel, accelerations: &[Vec3]) -> ForceModel {
+        let Judgement { paths, strut, .. } = self.judgement;
+        let masses = strut.node_masses(paths.node_names.len(), &paths.struts);
+        let felt = model.loads.iter().zip(accelerations).zip(masses);
+        ForceModel { loads: felt.map(|((load, a), mass)| load - a * mass).collect(), ..model.clone() }
+    }
+
     /// Records the check of forces: as failed where struts would bear more than they can and the plan is not excused,
     /// with the least force that the path needs and where.
     pub(super) fn conclude(&self, ledger: &mut Ledger) {
@@ -232,6 +241,25 @@ impl<'a> LoadMonitor<'a> {
             ledger.check(CheckKind::StrutLoad, Status::Sampled(self.samples));
         }
     }
+}
+
+/// Returns the moments of a step at which forces are looked for, each as (progress, acceleration of progress in 1/s²): at
+/// rest at both ends and in the middle, and where the truss accelerates at the start, brakes at the end unless it tips, and
+/// does either in the middle.
+fn moments(step: &Step, tips: bool) -> Vec<(f64, f64)> {
+    let mut moments: Vec<(f64, f64)> = vec![(0.0, 0.0), (0.5, 0.0), (1.0, 0.0)];
+    let progress = step.progress();
+    let [up, down] = progress.accelerations();
+    let middle = !progress.coasts();
+    moments.extend(
+        [(0.0, up), (0.5, if middle { up } else { 0.0 })].into_iter().filter(|(_, rate)| *rate > 0.0),
+    );
+    if !tips {
+        let brakes = [(0.5, if middle { -down } else { 0.0 }), (1.0, -down)];
+        moments.extend(brakes.into_iter().filter(|(_, rate)| *rate < 0.0));
+    }
+    moments.sort_by(|a, b| a.0.total_cmp(&b.0));
+    moments
 }
 
 /// Returns true if an exemption excuses struts that bear too much at a time, s.

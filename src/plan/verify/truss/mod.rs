@@ -80,7 +80,8 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
     // The start.
     judged.enclosed(&places[0], &mut ledger);
     judged.at_rest(&places[0], world_at(0.0), &mut standing, &mut ledger);
-    // Every step: lengths, distances, obstacles, shape, ground, static stability.
+    let mut rates = Vec::new();
+    // Every step: lengths, accelerations, distances, obstacles, shape, ground, static stability.
     for (i, keyframe) in paths.keyframes.iter().enumerate().skip(1) {
         interrupt::progress_checkpoint(|| format!("step {i} of {}", paths.keyframes.len() - 1));
         let begins = paths.keyframes[i - 1].time;
@@ -88,11 +89,14 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
             from: places[i - 1].clone(),
             to: places[i].clone(),
             interpolation: keyframe.interpolation,
+            ramps: keyframe.ramps,
             start: begins,
             duration: keyframe.time - begins,
         };
         let world = world_at(begins);
-        judged.lengths(&step, &mut ledger);
+        let [starts, ends] = judged.lengths(&step, &mut ledger);
+        judged.jumps((&rates, &starts), begins, &mut ledger);
+        rates = ends;
         judged.distances(&step, &mut ledger);
         judged.obstacles(&step, &mut ledger);
         judged.shape(&step, &mut ledger);
@@ -104,7 +108,9 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
                 standing.step(&step, &mut ledger);
                 // Forces are of no interest where it topples.
                 if ledger.verdict.failures.len() == stood {
-                    loads.step(&step, i, world, &standing, &mut ledger);
+                    let next = paths.keyframes.get(i + 1).map(|keyframe| keyframe.interpolation);
+                    let tips = matches!(next, Some(Interpolation::RigidRoll { .. }));
+                    loads.step((&step, tips), i, world, &standing, &mut ledger);
                 }
             }
         }
@@ -116,6 +122,7 @@ pub(super) fn judge(plan: &Plan, paths: &NodePaths) -> Verdict {
             ledger.fail(judged.failure(CheckKind::Ground, begins, vec![], message));
         }
     }
+    judged.jumps((&rates, &[]), paths.duration(), &mut ledger);
     // The margins that the plan states at its keyframes.
     for (keyframe, x) in
         paths.keyframes.iter().zip(&places).filter(|(keyframe, _)| !keyframe.margins.is_none())

@@ -35,7 +35,7 @@ impl<'a> RigidityMonitor<'a> {
             // The start of a step is the end of the one before.
             if part > 0.0 || keyframe <= 1 {
                 let x: Vec<Vec3> = step.from.iter().zip(&step.to).map(|(p, q)| p + (q - p) * part).collect();
-                self.instant(&x, step.start + part * step.duration, ledger);
+                self.instant(&x, step.time(part), ledger);
             }
         }
     }

@@ -51,7 +51,7 @@ impl Judgement<'_> {
             part = (part + spare / speed).min(1.0);
             None
         });
-        let time = step.start + step.duration * least.1;
+        let time = step.time(least.1);
         let names = || vec![self.strut_name(i), self.strut_name(j)];
         keep_least(&mut ledger.verdict.angle, least.0, time, names);
         if decided == Some(true) {
@@ -127,7 +127,7 @@ impl Judgement<'_> {
         } else {
             format!("{what}; the plan keeps {low} to {high}")
         };
-        let failure = self.failure(CheckKind::JointRange, step.start + part * step.duration, names, message);
+        let failure = self.failure(CheckKind::JointRange, step.time(part), names, message);
         let limit = if length < sum.range.0 { sum.range.0 } else { sum.range.1 };
         ledger.fail(Failure { value: length, limit, ..failure });
     }

@@ -5,7 +5,7 @@ use super::support::StabilityMonitor;
 use super::{rigidity, strut_distance};
 use crate::geometry::Vec3;
 use crate::plan::verify::support_polygon;
-use crate::plan::{CheckKind, Failure, Interpolation, Margins};
+use crate::plan::{CheckKind, Failure, Interpolation, Margins, Ramps};
 use crate::robot::truss_statics::Modes;
 use crate::units::number;
 
@@ -43,6 +43,7 @@ impl Judgement<'_> {
                 from: x.to_vec(),
                 to: x.to_vec(),
                 interpolation: Interpolation::Linear,
+                ramps: Ramps::NONE,
                 start: time,
                 duration: 1.0,
             };

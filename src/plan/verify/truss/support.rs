@@ -150,7 +150,7 @@ impl<'a> StabilityMonitor<'a> {
         let judgement = self.judgement;
         judgement.samples.advance(|| {
             let inside = self.margin(step, &feet, part);
-            let time = step.start + part * step.duration;
+            let time = step.time(part);
             let names = || feet.iter().map(|&n| paths.node_names[n].clone()).collect();
             keep_least(&mut ledger.verdict.margin, inside, time, names);
             lost = Some((inside, time));

@@ -106,7 +106,7 @@ impl Judgement<'_> {
             None
         });
         // The least distance found goes to the verdict.
-        let time = step.start + step.duration * least.1;
+        let time = step.time(least.1);
         let names = || vec![self.strut_name(strut), obstacle.name.clone()];
         if least.0 <= 2.0 * clearance {
             keep_least(&mut ledger.verdict.clearance, least.0, time, names);
@@ -184,7 +184,7 @@ impl Judgement<'_> {
             1 => format!("{what} goes {deep} into the ground"),
             _ => format!("{what} goes {deep} into the ground; between its nodes it may go {allowed}"),
         };
-        let failure = self.failure(CheckKind::Ground, step.start + at * step.duration, names, message);
+        let failure = self.failure(CheckKind::Ground, step.time(at), names, message);
         ledger.fail(Failure { value: depth, ..failure });
     }
 

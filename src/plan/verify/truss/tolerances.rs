@@ -9,6 +9,8 @@ pub(super) struct Tolerances {
     /// The relative excess of a strut's rate over its limit that is not a failure. Default 1e-9: rounding of the
     /// plan's coordinates and times.
     pub rate: f64,
+    /// The change of a strut's rate at once that is not a failure, m/s. Default 1e-9 m/s: rounding.
+    pub jump: f64,
     /// The lack of an angle between two struts that is not a failure, rad. Default 1e-9 rad: rounding.
     pub angle: f64,
     /// The excess of a sum of lengths over its range that is not a failure, m. Default 1e-9 m: rounding.
@@ -66,6 +68,7 @@ impl Default for Tolerances {
         Tolerances {
             length: 1e-9,
             rate: 1e-9,
+            jump: 1e-9,
             angle: 1e-9,
             length_sum: 1e-9,
             rigidity: 1e-7,

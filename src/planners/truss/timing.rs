@@ -1,0 +1,101 @@
+//! The velocity profile of a move: the least time from rest to rest under the speed and the acceleration of the struts, and
+//! under the forces that they bear while the truss accelerates.
+
+use super::forces::bears;
+use super::motion::{Move, TimeLaw};
+use super::structure::Structure;
+use super::support_polygon::staying;
+use crate::geometry::Vec3;
+use crate::plan::Ramps;
+use crate::robot::truss_statics::Weights;
+
+/// The factor by which accelerations become less where struts would bear too much.
+const SLOWER: f64 = 0.6;
+/// The number of times that they become less; what is left then is 1e-4 of what the struts could do.
+const TRIES: usize = 18;
+
+/// The duration of a move and its velocity profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// The duration, s.
+    pub duration: f64,
+    /// The velocity profile; none for rolls, and for struts without a limit on their acceleration.
+    pub ramps: Ramps,
+}
+
+impl TimeLaw {
+    /// Returns the least duration of a move from positions `x` of the nodes (m), not rounded up to `step_duration_min`, with
+    /// its profile: of a step that in which the speed and the acceleration of the struts suffice, of a roll its angle
+    /// divided by `roll_speed`. `truss`: the truss with its limits; `step`: the move.
+    pub fn timing(&self, truss: &Structure, x: &[Vec3], step: &Move) -> Timing {
+        match step {
+            Move::Linear(y) => least(truss, x, y, truss.acceleration),
+            Move::Roll(roll) => Timing { duration: roll.angle.abs() / self.roll_speed, ramps: Ramps::NONE },
+        }
+    }
+
+    /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
+    /// than its struts can bear at both ends of a step, with the inertia of its nodes, if they bear the weight alone.
+    /// A truss that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
+    pub(super) fn borne(
+        &self,
+        truss: &Structure,
+        x: &[Vec3],
+        (step, next): (&Move, Option<&Move>),
+        weights: &mut Weights,
+    ) -> Timing {
+        let mut timing = self.lasting(self.timing(truss, x, step));
+        let (Move::Linear(y), Some(acceleration), true) =
+            (step, truss.acceleration, truss.limits.forces.is_some())
+        else {
+            return timing;
+        };
+        let feet = staying(truss, x, y);
+        let mut part = 1.0;
+        for _ in 0..TRIES {
+            let [up, down] = timing.ramps.progress(timing.duration).accelerations();
+            let accelerated = |rate: f64| x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
+            let starts = bears(truss, x, &feet, &accelerated(up), weights);
+            let tips = matches!(next, Some(Move::Roll(_)));
+            if starts && (tips || bears(truss, y, &feet, &accelerated(-down), weights)) {
+                break;
+            }
+            part *= SLOWER;
+            timing = self.lasting(least(truss, x, y, Some(part * acceleration)));
+        }
+        timing
+    }
+
+    /// Returns a timing stretched to the least duration.
+    fn lasting(&self, timing: Timing) -> Timing {
+        let Timing { duration, ramps } = timing;
+        if duration >= self.step_duration_min {
+            return timing;
+        }
+        // A step that lasts no time has no ramps, either.
+        let stretch = if duration > 0.0 { self.step_duration_min / duration } else { 0.0 };
+        let ramps = Ramps { up: ramps.up * stretch, down: ramps.down * stretch, ..Ramps::NONE };
+        Timing { duration: self.step_duration_min, ramps }
+    }
+}
+
+/// Returns the timing of a step from `x` to `y` (m) from rest to rest, with an acceleration (m/s²) that no strut exceeds.
+fn least(truss: &Structure, x: &[Vec3], y: &[Vec3], acceleration: Option<f64>) -> Timing {
+    let fastest = truss.rates(x, y).fold(0.0, f64::max);
+    let Some(acceleration) = acceleration else {
+        return Timing { duration: fastest / truss.speed, ramps: Ramps::NONE };
+    };
+    if fastest == 0.0 {
+        return Timing { duration: 0.0, ramps: Ramps::NONE };
+    }
+    // A length accelerates by L' s'' + L'' s'^2 (chain rule): half of the limit is left for the first term.
+    let bends: Vec<f64> = truss.bends(x, y).collect();
+    let bend = bends.iter().copied().fold(0.0, f64::max);
+    let peak = (truss.speed / fastest).min((acceleration / (2.0 * bend)).sqrt());
+    let rises = truss.rates(x, y).zip(&bends).filter(|(rate, _)| *rate > 0.0);
+    let rise =
+        rises.map(|(rate, bend)| (acceleration - bend * peak * peak) / rate).fold(f64::INFINITY, f64::min);
+    let peak = peak.min(rise.sqrt());
+    let ramp = peak / rise;
+    Timing { duration: 1.0 / peak + ramp, ramps: Ramps { up: ramp, down: ramp, ..Ramps::NONE } }
+}
