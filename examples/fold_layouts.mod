@@ -2,7 +2,7 @@
 use std.mori.Mori
 use std.shapes.{tetrahedron, octahedron, quadruped18}
 
-record Target { name: Text  shape: Mesh  panels: Int }
+record Target { name: Text, shape: Mesh, panels: Int }
 
 let targets = [
   Target(name: "tetrahedron", shape: tetrahedron(edge: 80mm), panels: 4),
