@@ -1,5 +1,6 @@
-//! Programs that are edited by their picture: changes of the text, what is shown of it, and the page's server.
+//! Programs that are edited by their picture: changes of the text, the page's server, the page in a browser.
 
+mod browser;
 mod edits;
 mod picture;
 mod random;
