@@ -96,7 +96,7 @@ impl Document {
             true => (self.history.after(&self.text), "made again"),
             false => (self.history.before(&self.text), "undone"),
         };
-        let none = || Refusal::Refused(format!("there is nothing to be {what}: the text was typed since"));
+        let none = || Refusal::Refused(format!("there is nothing to be {what}, or the text was typed since"));
         found.map(str::to_owned).ok_or_else(none)
     }
 

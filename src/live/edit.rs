@@ -13,15 +13,15 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// A change that is asked for. `robot`: the name of the configuration whose text is changed.
+/// A change that is asked for. `robot`: the name of the declaration whose text is changed.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "edit", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Edit {
     /// Another default of a parameter.
     Parameter {
-        /// The configuration.
+        /// The configuration, lattice or truss.
         robot: String,
-        /// The behaviour that has the parameter; `None` for one of the configuration.
+        /// The behaviour that has the parameter; `None` for one of the declaration.
         behavior: Option<String>,
         /// The name of the parameter.
         name: String,
@@ -64,7 +64,7 @@ pub enum Setting {
 }
 
 impl Edit {
-    /// Returns the name of the configuration whose text is changed.
+    /// Returns the name of the declaration whose text is changed.
     pub fn robot(&self) -> &str {
         match self {
             Edit::Parameter { robot, .. } | Edit::Joint { robot, .. } | Edit::Dock { robot, .. } => robot,
@@ -104,11 +104,13 @@ fn replacements(text: &str, model: &Model, edit: &Edit) -> Result<Vec<Replacemen
     let name = edit.robot();
     let robot = model.robot.as_ref().filter(|robot| robot.name == name);
     let robot = robot.ok_or_else(|| format!("the text has no `{name}` to change"))?;
-    let config = model.tree.as_ref().and_then(|tree| {
-        let place = Span::new(tree.id, robot.place.start, robot.place.end);
-        config_of(tree, place)
-    });
-    let config = config.ok_or_else(|| format!("`{name}` is no configuration"))?;
+    let config = || {
+        let found = model.tree.as_ref().and_then(|tree| {
+            let place = Span::new(tree.id, robot.place.start, robot.place.end);
+            config_of(tree, place)
+        });
+        found.ok_or_else(|| format!("`{name}` is no configuration"))
+    };
     match edit {
         Edit::Parameter { behavior, name, value, .. } => {
             let named = |known: &&Parameter| known.name == *name && known.behavior == *behavior;
@@ -120,7 +122,7 @@ fn replacements(text: &str, model: &Model, edit: &Edit) -> Result<Vec<Replacemen
         Edit::Joint { joint, value, .. } => {
             let found = robot.joints.iter().find(|known| known.name == *joint);
             let found = found.ok_or_else(|| format!("there is no joint `{joint}` that can be set"))?;
-            Ok(vec![position(text, config, found, *value)?])
+            Ok(vec![position(text, config()?, found, *value)?])
         }
         Edit::Dock { port, part, at, turn, .. } => {
             let free = robot.ports.iter().find(|known| known.name == *port);
@@ -132,7 +134,7 @@ fn replacements(text: &str, model: &Model, edit: &Edit) -> Result<Vec<Replacemen
             if *turn >= free.turns {
                 return Err(format!("`{port}` mates in {} turns, from 0", free.turns));
             }
-            docked(text, model, config, (port, free.turns), (part, at, *turn))
+            docked(text, model, config()?, (port, free.turns), (part, at, *turn))
         }
     }
 }

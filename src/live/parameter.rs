@@ -1,18 +1,18 @@
-//! The parameters of a configuration and of its behaviours, as the text states their defaults.
+//! The parameters of a declaration and of its behaviours, as the text states their defaults.
 
 use super::literal::{Written, literal};
 use super::robot::{Place, place};
 use crate::check::Type;
-use crate::check::typed;
+use crate::check::typed::{self, DefKind};
 use crate::source::SourceFile;
 use crate::syntax::ast;
 use crate::units::Dimension;
 use serde::Serialize;
 
-/// A parameter with a default, of a configuration or of one of its behaviours.
+/// A parameter with a default, of the shown declaration or of one of its behaviours.
 #[derive(Clone, Debug, Serialize)]
 pub struct Parameter {
-    /// The behaviour that has the parameter; `None` for one of the configuration.
+    /// The behaviour that has the parameter; `None` for one of the declaration.
     pub behavior: Option<String>,
     /// The name of the parameter.
     pub name: String,
@@ -38,9 +38,19 @@ pub struct Parameter {
     pub(super) written: Option<Written>,
 }
 
-/// Returns the parameters of a configuration and its behaviours that are numbers or truth values and have a default.
-/// `config`: the declaration as it is written; `def`: as it was checked.
-pub(super) fn parameters(config: &ast::Config, def: &typed::ConfigDef, file: &SourceFile) -> Vec<Parameter> {
+/// Returns the parameters of a declaration, and those of the behaviours of a configuration, that are numbers or truth values and
+/// have a default. `item`: the declaration as it is written; `def`: as it was checked.
+pub(super) fn parameters(item: &ast::ItemKind, def: &DefKind, file: &SourceFile) -> Vec<Parameter> {
+    let (config, def) = match (item, def) {
+        (ast::ItemKind::Config(config), DefKind::Config(def)) => (config, def),
+        (ast::ItemKind::Lattice(lattice), DefKind::Lattice(def)) => {
+            return listed(None, &lattice.params, &def.params, file);
+        }
+        (ast::ItemKind::Truss(truss), DefKind::Truss(def)) => {
+            return listed(None, &truss.params, &def.params, file);
+        }
+        _ => return Vec::new(),
+    };
     let mut all = listed(None, &config.params, &def.params, file);
     for clause in &config.clauses {
         let ast::ConfigClauseKind::Behavior(behavior) = &clause.kind else { continue };

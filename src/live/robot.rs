@@ -13,7 +13,7 @@ use crate::natives;
 use crate::plan::Plan;
 use crate::robot::JointOwner;
 use crate::source::{SourceFile, Span};
-use crate::syntax::ast::{Config, ConfigClause, ConfigClauseKind, File, ItemKind};
+use crate::syntax::ast::{Config, ConfigClause, ConfigClauseKind, File, Item, ItemKind};
 use crate::view::{self, RenderInput};
 use serde::Serialize;
 use serde_json::Value;
@@ -95,11 +95,12 @@ pub(super) fn robot(interpreter: &mut Interpreter, read: &Read, def: DefId) -> E
     };
     let Some(plan) = natives::as_declared(interpreter, &design, declared.span)? else { return Ok(None) };
     let mut robot = bare(read, &plan, declared.name.as_str(), declared.span);
-    let (Some(config), DefKind::Config(typed)) = (config_of(read.tree, declared.span), &declared.kind) else {
-        return Ok(Some(robot));
-    };
+    let named = |item: &&Item| item.kind.name().is_some_and(|name| name.span == declared.span);
+    if let Some(item) = read.tree.items.iter().find(named) {
+        robot.parameters = parameters(&item.kind, &declared.kind, read.file);
+    }
+    let Some(config) = config_of(read.tree, declared.span) else { return Ok(Some(robot)) };
     let assembled = interpreter.robot_of(&design, declared.span)?;
-    robot.parameters = parameters(config, typed, read.file);
     if let Some(assembled) = assembled {
         robot.modules = modules(read, &design, &assembled);
         robot.marks = marks(read, &design);

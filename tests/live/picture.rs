@@ -1,6 +1,6 @@
 //! What the page shows of a text: the robot, the lines that its modules come from, values and free ports.
 
-use super::edits::{document, model};
+use super::edits::{after, document, joint, model, parameter};
 
 const WALKER: &str = "\
 use std.smores.Smores
@@ -83,6 +83,14 @@ fn lattices_and_trusses_are_shown_without_parts() {
     let robot = shown.robot.expect("it is sound");
     assert_eq!((robot.name.as_str(), robot.modules.len(), robot.ports.len()), ("Row", 0, 0));
     assert_eq!(robot.picture["body"]["count"], 3);
+    assert!(robot.parameters.is_empty() && robot.joints.is_empty());
+    let tower = "use std.truss.PneumaticReel\ntruss Tower(edge: Length = 4m) of PneumaticReel = octet(edge: edge, divisions: 2)\n";
+    let robot = model(&document(tower), "").robot.expect("it is sound");
+    assert_eq!((robot.parameters[0].name.as_str(), robot.parameters[0].value), ("edge", Some(4.0)));
+    let found = after(tower, &parameter("Tower", None, "edge", 3.5));
+    assert_eq!(found, Ok(tower.replace("4m", "3.5m")));
+    let refused = after(tower, &joint("Tower", "edge", 1.0)).expect_err("a truss has no joints");
+    assert!(refused.contains("no joint"), "{refused}");
     let empty = model(&document("let a = 1\n"), "");
     assert!(empty.robot.is_none() && empty.robots.is_empty() && empty.findings.is_empty());
 }

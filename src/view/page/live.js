@@ -117,6 +117,7 @@ function live() {
     const { robot } = model;
     if (robot) {
       page.robot = robot;
+      document.body.classList.add("shown");
       document.title = robot.name;
       $("head").querySelector("h1").textContent = visible(robot.name);
       const count = robot.modules.length;

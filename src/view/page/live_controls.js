@@ -74,7 +74,7 @@ function controlsOf(on) {
       const ports = robot.ports.filter(p => chosen.has(p.module)).length;
       sections.push([name, joints.map(j => ["joint " + j.name, "joint", j]), (joints.length ? "Drag a link of it to turn its joint. " : "") + (ports ? ports + " free ports: click a dot to dock something there." : "")]);
     } else if (joints.length && chosen.size < 9) sections.push(["Joints of " + chosen.size + " modules", joints.map(j => ["joint " + j.name, "joint", j])]);
-    else sections.push(["Selection", [], robot.modules.length ? "Click a module in the picture, or a line of the text." : ""]);
+    else if (robot.modules.length) sections.push(["Selection", [], "Click a module in the picture, or a line of the text."]);
     return sections;
   }
 

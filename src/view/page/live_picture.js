@@ -36,9 +36,9 @@ function pictureOf(on) {
   /** The picture of one robot as it is declared, without the ground. What was its base stays where it was, so that a change of
       one joint, or a new base, does not move everything. Several robots stand where they are placed. */
   let anchor = null;
+  const isFree = ({ picture: { body } }) => body.form === "tracks" && !body.paths && !body.around;
   function asDeclared({ picture, modules }) {
     const { body } = picture;
-    if (body.form !== "tracks" || body.paths || body.around) return picture;
     const free = { ...picture, ground: null, floor: 0, stand: [], contacts: [], body: { ...body, base: [[0, 0, 0, 0, 0, 0, 0, 1]] } };
     const known = anchor ? modules.findIndex(module => module.name === anchor.name) : -1;
     let base = { p: [0, 0, 0], q: [0, 0, 0, 1] };
@@ -60,7 +60,8 @@ function pictureOf(on) {
   function show(next) {
     const other = !robot || robot.name !== next.name;
     if (other) anchor = null;
-    [robot, plan] = [next, state.grounded ? next.picture : asDeclared(next)];
+    [robot, plan] = [next, state.grounded || !isFree(next) ? next.picture : asDeclared(next)];
+    $("rest").hidden = !isFree(next);
     [standTimesKnown, contactTimesKnown] = [null, null];
     motion = motionOf(plan);
     X = new Float32Array(POSE * motion.bodies);
