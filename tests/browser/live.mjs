@@ -18,7 +18,8 @@ const first = text();
 
 const browser = await chromium.launch({ executablePath, args: [...quiet, ...drawing] });
 const page = await (await browser.newContext({ viewport: { width: 1000, height: 620 }, deviceScaleFactor: 0.5, reducedMotion: "reduce" })).newPage();
-page.on("console", message => faults.push("console: " + message.text()));
+// The driver may complain that picking takes time.
+page.on("console", message => /GL Driver Message \(OpenGL, Performance/.test(message.text()) || faults.push("console: " + message.text()));
 page.on("pageerror", error => faults.push("error: " + error.message));
 page.on("request", request => request.url().startsWith(address) || faults.push("asks for " + request.url()));
 
@@ -31,8 +32,8 @@ const inPage = at => page.evaluate(at => { const { left, top } = document.getEle
 const version = () => page.evaluate(() => window.modl.wire.version);
 const later = v => until("a newer text after " + v, v => window.modl.wire.version > v, v);
 
-/** A place of the canvas where a module, or a joint's link of it, is seen. */
-const seen = (module, joint) => page.evaluate(([module, joint]) => {
+/** A place of the canvas where a module, or a joint's link of it, is seen, once the picture is one in full. */
+const seen = (module, joint) => until("a picture at rest", () => performance.now() - window.modl.picture.state.moved > 500 && !window.modl.picture.state.dirty).then(() => page.evaluate(([module, joint]) => {
   const { picture, page: { robot } } = window.modl;
   const { clientWidth: w, clientHeight: h } = document.getElementById("view");
   const index = robot.modules.findIndex(known => known.name === module);
@@ -44,7 +45,7 @@ const seen = (module, joint) => page.evaluate(([module, joint]) => {
     places.push([x, y]);
   }
   return places[Math.floor(places.length / 2)] || null;
-}, [module, joint || null]);
+}, [module, joint || null]));
 
 await page.goto(address);
 await until("a picture", () => window.modl && window.modl.picture.stats.frames > 0);

@@ -80,6 +80,8 @@ function pictureOf(on) {
     camera.lowest = plan.ground ? -0.2 : -1.55;
     colouring = colouringsOf(plan, motion)[0];
     if (other) fit(stats.shown === 0);
+    // Where drawing takes long, the first picture of a newer text is a quick one.
+    if (stats.shown) state.moved = performance.now();
     stats.shown++;
     touch();
   }
