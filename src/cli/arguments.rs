@@ -77,8 +77,8 @@ pub(super) enum Command {
     #[command(
         after_help = "Examples:\n  modl watch walkbot.mod\n  modl watch --test parts/*.mod\n\nWatched are the programs, \
         what they import, and the files they read. A run that takes\nlong is given up for a newer text. Ctrl-C ends.\n\n\
-        `modl watch --page walkbot.mod` prints the address of a page, on this machine only, that shows the\nrobot while it is \
-        typed: a click selects a part in the text, and sliders, joints and free ports change\nthe text. docs/live_page.md tells \
+        `modl watch --page walkbot.mod` prints the address of a page, on this machine only, that\nshows the robot while it is \
+        typed: a click selects a part in the text, and sliders, joints\nand free ports change the text. docs/live_page.md tells \
         of it."
     )]
     Watch {
