@@ -43,6 +43,7 @@ pub mod execute;
 
 pub mod document;
 pub mod language_server;
+pub mod live;
 pub mod session;
 
 pub mod cli;

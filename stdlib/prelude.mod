@@ -1985,6 +1985,11 @@ extern type Report {
   bond_margin: Number
   /// What the speed limits leave: 1 - speed / limit.
   speed_margin: Number
+  /// Of a truss that carries its weight: what its struts leave of the force that they bear, where forces are distributed
+  /// as well as can be.
+  force_margin: Number
+  /// Of a truss that carries its weight: the same where nobody adjusts them; negative where they would bear too much.
+  elastic_margin: Number
   /// The greatest speed with which a link comes down on the ground, under full dynamics: what that costs is not in
   /// `torque_margin`.
   impact: Speed

@@ -12,6 +12,7 @@ mod hostile;
 mod house;
 mod judge;
 mod language;
+mod live;
 mod planners;
 mod plans;
 mod robots;

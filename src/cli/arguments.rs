@@ -76,7 +76,10 @@ pub(super) enum Command {
     /// Check programs again whenever a file changes that they read
     #[command(
         after_help = "Examples:\n  modl watch walkbot.mod\n  modl watch --test parts/*.mod\n\nWatched are the programs, \
-        what they import, and the files they read. A run that takes\nlong is given up for a newer text. Ctrl-C ends."
+        what they import, and the files they read. A run that takes\nlong is given up for a newer text. Ctrl-C ends.\n\n\
+        `modl watch --page walkbot.mod` prints the address of a page, on this machine only, that\nshows the robot while it is \
+        typed: a click selects a part in the text, and sliders, joints\nand free ports change the text. docs/live_page.md tells \
+        of it."
     )]
     Watch {
         /// The programs
@@ -88,6 +91,15 @@ pub(super) enum Command {
         /// Run their tests instead
         #[arg(long)]
         test: bool,
+        /// Show the robot of one program on a page, which changes the text, too
+        #[arg(long, conflicts_with_all = ["run", "test"])]
+        page: bool,
+        /// The port of the page; a free one by default
+        #[arg(long, value_name = "PORT", requires = "page")]
+        port: Option<u16>,
+        /// Open the page in the browser
+        #[arg(long, requires = "page")]
+        open: bool,
     },
     /// Serve an editor with diagnostics, completion and documentation
     #[command(

@@ -16,6 +16,7 @@ mod fmt;
 mod folders;
 mod import;
 mod judge;
+mod live;
 mod lsp;
 mod manifest;
 mod memory;
@@ -180,7 +181,8 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         Command::Run { file } => program::run(std::slice::from_ref(file), program::Task::Run, globals),
         Command::Check { files } => program::run(files, program::Task::Check, globals),
         Command::Test { files, filter } => program::run(files, program::Task::Test(filter.clone()), globals),
-        Command::Watch { files, run, test } => {
+        Command::Watch { files, page: true, port, open, .. } => live::run(files, *port, *open, globals),
+        Command::Watch { files, run, test, .. } => {
             let task = match (run, test) {
                 (true, _) => program::Task::Run,
                 (_, true) => program::Task::Test(None),
@@ -222,6 +224,7 @@ fn no_json(command: &Command) -> Option<&'static str> {
              runs a program",
         ),
         Command::Lsp { .. } => Some("`lsp` has no `--json`: it speaks the protocol of editors"),
+        Command::Watch { page: true, .. } => Some("`watch --page` has no `--json`: it serves a page"),
         Command::Completions { .. } => {
             Some("`completions` has no `--json`: it prints a script for the shell")
         }

@@ -79,6 +79,14 @@ fn title(plan: &Plan, stem: &str) -> String {
 /// # Errors
 /// A message if the program for it can't be started.
 pub(super) fn open_page(page: &str) -> Result<(), CallError> {
+    open_address(page).map_err(|why| CallError(format!("`{page}` is written, but {why}")))
+}
+
+/// Opens a page, by its path or address, in the system's browser.
+///
+/// # Errors
+/// The reason, `... can't open it`, if the program for it can't be started.
+pub(super) fn open_address(page: &str) -> Result<(), String> {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {
@@ -89,10 +97,5 @@ pub(super) fn open_page(page: &str) -> Result<(), CallError> {
     let mut command = Command::new(program);
     command.args(arguments).arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let opened = command.spawn();
-    opened.map(drop).map_err(|e| {
-        CallError(format!(
-            "`{page}` is written, but `{program}` can't open it: {}",
-            super::disk::system_words(&e)
-        ))
-    })
+    opened.map(drop).map_err(|e| format!("`{program}` can't open it: {}", super::disk::system_words(&e)))
 }

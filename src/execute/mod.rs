@@ -8,8 +8,10 @@ mod standard;
 
 use crate::check::Checked;
 use crate::check::typed::DefId;
+use crate::interpret::interpreter::Interpreter;
 use crate::interpret::routines::Routines;
 use crate::interpret::session::Evaluator;
+use crate::interpret::stop::Eval;
 use crate::interpret::study::StudyWorker;
 use crate::interpret::{self, Host, Mode, Options, Outcome};
 use crate::interrupt::CancelState;
@@ -44,6 +46,19 @@ pub fn run(
     options: &Options,
 ) -> Outcome {
     interpret::run(&ROUTINES, checked, mode, files, host, options)
+}
+
+/// Returns the result of `work`, which is called on a thread of its own with the interpreter of a checked program, of which
+/// nothing was run. `None` where it met a fault or a limit, reported an error or was cancelled, or where the thread can't be
+/// started. `files` and `host` serve its requests; `options`: the choices of the user.
+pub fn with_interpreter<T: Send>(
+    checked: &Checked,
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+    work: impl FnOnce(&mut Interpreter) -> Eval<T> + Send,
+) -> Option<T> {
+    interpret::with_interpreter(&ROUTINES, checked, files, host, options, work)
 }
 
 /// Calls `work` with an evaluator of a study's rows, on a thread of its own, and returns its result; `None` if the user

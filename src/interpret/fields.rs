@@ -110,6 +110,8 @@ const REPORT: &[Field<Rc<Verdict>>] = &[
     ("torque_margin", |verdict| worst(verdict.torque_margin.as_ref(), Dimension::NUMBER)),
     ("bond_margin", |verdict| worst(verdict.bond_margin.as_ref(), Dimension::NUMBER)),
     ("speed_margin", |verdict| worst(verdict.speed_margin.as_ref(), Dimension::NUMBER)),
+    ("force_margin", |verdict| worst(verdict.force_margin.as_ref(), Dimension::NUMBER)),
+    ("elastic_margin", |verdict| worst(verdict.elastic_margin.as_ref(), Dimension::NUMBER)),
     ("impact", |verdict| Value::Quantity(verdict.impact.as_ref().map_or(0.0, |w| w.value), Dimension::SPEED)),
     ("angle", |verdict| worst(verdict.angle.as_ref(), Dimension::ANGLE)),
     ("rigidity", |verdict| worst(verdict.rigidity.as_ref(), Dimension::NUMBER)),

@@ -57,13 +57,16 @@ mod waypoints;
 
 pub use embed::capabilities;
 
+use crate::interpret::design::Design;
 use crate::interpret::fields::fields;
 use crate::interpret::interpreter::Interpreter;
 pub use crate::interpret::native::Native;
 use crate::interpret::plan_value::ReportFields;
 use crate::interpret::stop::Eval;
-use crate::source::Symbol;
+use crate::plan::Plan;
+use crate::source::{Span, Symbol};
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::LazyLock;
 
 /// The natives of one file, with the records that it defines and the names of their fields.
@@ -139,6 +142,16 @@ pub fn fields_of(record: &str) -> Option<Vec<&'static str>> {
 /// `Stop::Halt` if a limit is reached or the user cancels.
 pub fn draw_declared(interpreter: &mut Interpreter) -> Eval<()> {
     interpreter.draw_declarations()
+}
+
+/// Returns a configuration, lattice or truss as it is declared: a plan in which nothing moves, and that is not judged. `None`
+/// for another design, and for what is broken. `at`: the code that asks for it.
+///
+/// # Errors
+/// A fault at `at` for a configuration without modules, a fault of a declaration that the robot needs, or `Stop::Halt` if a
+/// limit is reached or the user cancels.
+pub fn as_declared(interpreter: &mut Interpreter, design: &Rc<Design>, at: Span) -> Eval<Option<Plan>> {
+    interpreter.as_declared(design, at)
 }
 
 static BY_KEY: LazyLock<HashMap<Symbol, &'static Native>> =

@@ -228,6 +228,19 @@ impl Interpreter<'_> {
         Ok(())
     }
 
+    /// Returns a design as it is declared: a plan in which nothing moves, and that is not judged. `None` for other designs
+    /// than configurations, lattices and trusses, and for what is broken.
+    ///
+    /// # Errors
+    /// A fault at `at` for a configuration without modules, a fault of a declaration that the robot needs, or
+    /// `Stop::Halt` if a limit is reached or the user cancels.
+    pub(super) fn as_declared(&mut self, design: &Rc<Design>, at: Span) -> Eval<Option<Plan>> {
+        match self.still(design) {
+            Some(plan) => Ok(Some(plan)),
+            None => Ok(self.plan_pose(design, at)?.map(|planned| planned.plan.clone())),
+        }
+    }
+
     fn draw_design(&mut self, design: &Rc<Design>, path: &str, at: Span) -> Eval<()> {
         if let Some(plan) = self.still(design) {
             let bytes = self.drawn(&design.name, &plan, Form::Page);

@@ -5,7 +5,7 @@ use super::{Code, Diagnostic, Label, Severity, Sources};
 use serde::Serialize;
 
 /// A diagnostic as JSON, with positions that an editor can jump to.
-#[derive(Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct JsonDiagnostic {
     /// The code of the diagnostic, such as `E0201`.
     pub code: String,
@@ -20,7 +20,7 @@ pub struct JsonDiagnostic {
 }
 
 /// A label as JSON: a span in a file. Lines and columns count from 1; columns count characters.
-#[derive(Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct JsonLabel {
     /// The name of the file, with the project folder before it as [`Style::name`] gives it.
     pub file: String,

@@ -54,7 +54,7 @@ pub mod plot;
 pub use input::{RenderInput, title};
 pub use link_paths::LinkPaths;
 pub use models::{Triangle, link_colours, triangles};
-pub use page::{page, page_name, simulation_page, target_page};
+pub use page::{live_page, page, page_name, simulation_page, still_data, target_page};
 pub use picture::{PictureStyle, Side, StillOptions, frames, indexed_png, png};
 pub use primitives::{Primitive, primitives};
 pub use simulation::SimulationInput;

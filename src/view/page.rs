@@ -30,6 +30,17 @@ const SCRIPTS: [&str; 15] = [
     include_str!("page/main.js"),
 ];
 
+/// The page of a program that is typed, with its own style and the scripts that it has in place of the last one.
+const LIVE_PAGE: &str = include_str!("page/live.html");
+const LIVE_STYLE: &str = include_str!("page/live.css");
+const LIVE_SCRIPTS: [&str; 5] = [
+    include_str!("page/live_wire.js"),
+    include_str!("page/live_source.js"),
+    include_str!("page/live_controls.js"),
+    include_str!("page/live_picture.js"),
+    include_str!("page/live.js"),
+];
+
 /// The scripts that only pages of simulations have; they stand before the others.
 const SIMULATION_SCRIPTS: [&str; 2] = [include_str!("page/measured.js"), include_str!("page/forces.js")];
 
@@ -52,6 +63,12 @@ pub fn page(input: &RenderInput) -> String {
     whole(input, &data::data(input), &lean(&SCRIPTS.concat()))
 }
 
+/// Returns the data of a plan in which nothing moves, as the scripts of a [`live_page`] read it: JSON, whose texts never become
+/// markup.
+pub fn still_data(input: &RenderInput) -> Value {
+    data::data(input)
+}
+
 /// Returns the page that plays a plan of a truss, with the surface that it takes on as a ghost: the corners of its triangles,
 /// m, in the world's frame.
 pub fn target_page(input: &RenderInput, target: &[[Vec3; 3]]) -> String {
@@ -67,19 +84,24 @@ pub fn simulation_page(input: &RenderInput, shown: &SimulationInput) -> String {
     whole(input, &simulation::data(input, shown), &lean(&scripts))
 }
 
+/// Returns the page that shows a program while it is typed: the same picture as the others, without data. It asks the server that
+/// it comes from for what it shows.
+pub fn live_page() -> String {
+    let scripts = SCRIPTS[..SCRIPTS.len() - 1].concat() + &LIVE_SCRIPTS.concat();
+    let script = format!("(() => {{\n\"use strict\";\n{}}})();\n", lean(&scripts));
+    let style = lean(STYLE) + &lean(LIVE_STYLE);
+    filled(LIVE_PAGE, &[("style", &style), ("script", &script)])
+}
+
 /// Returns a page with this data and these scripts.
 fn whole(input: &RenderInput, data: &Value, scripts: &str) -> String {
     let script = format!("(() => {{\n\"use strict\";\n{scripts}}})();\n");
     let plan = unmarked(&data.to_string());
     let title = escaped(input.title);
     let still = base64(&small_png(input, &STILL));
-    filled(&[
-        ("title", &title),
-        ("style", &lean(STYLE)),
-        ("still", &still),
-        ("plan", &plan),
-        ("script", &script),
-    ])
+    let texts: [(&str, &str); 5] =
+        [("title", &title), ("style", &lean(STYLE)), ("still", &still), ("plan", &plan), ("script", &script)];
+    filled(PAGE, &texts)
 }
 
 /// Returns the path of the page of a plan file: the same path with the ending `.html` instead of
@@ -96,11 +118,11 @@ fn without<'a>(name: &'a str, ending: &str) -> &'a str {
     if ends { &name[..at] } else { name }
 }
 
-/// Returns the template with texts for its placeholders. Placeholders are searched in the template only,
+/// Returns a template with texts for its placeholders. Placeholders are searched in the template only,
 /// never in an inserted text.
-fn filled(texts: &[(&str, &str)]) -> String {
+fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     let mut page = String::new();
-    let mut rest = PAGE;
+    let mut rest = template;
     while let Some(at) = rest.find('{') {
         let (before, from) = rest.split_at(at);
         page.push_str(before);

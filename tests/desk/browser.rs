@@ -26,7 +26,7 @@ use std::sync::Arc;
 
 /// playwright-core and Chromium: where `MODL_PLAYWRIGHT` and `MODL_CHROMIUM` say, or where `.ci/run`
 /// puts them.
-fn tools() -> Option<(PathBuf, PathBuf)> {
+pub fn tools() -> Option<(PathBuf, PathBuf)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let or = |name: &str, local: PathBuf| std::env::var_os(name).map_or(local, PathBuf::from);
     let playwright = or("MODL_PLAYWRIGHT", root.join("target/browser/node_modules/playwright-core"));

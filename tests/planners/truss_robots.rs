@@ -89,7 +89,7 @@ fn walks_carry_their_weight() {
              let w = locomote(Pyramid, path: path, objective: {objective})\n\
              let v = verify(w)\n\
              print(w.ended, v.ok, w.slip < 1m)\n\
-             print(w.steps, w.rolls, w.slip, v.duration, v.rigidity)\n\
+             print(w.steps, w.rolls, w.slip, v.duration, v.rigidity, v.force_margin)\n\
              for c in v.checks {{ print(c) }}\n"
         );
         let out = run(&program);

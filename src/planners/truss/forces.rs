@@ -192,32 +192,69 @@ pub(in crate::planners) fn holds(truss: &Structure, x: &[Vec3]) -> bool {
     found.is_ok_and(|found| found.ratio <= 1.0)
 }
 
-/// Returns true if forces within the limits hold the truss with the nodes at `x` (m) on `feet` (their indices) while they
-/// accelerate (m/s²), by node (d'Alembert): false also where levelling does not find them.
-pub(super) fn bears(
+/// Returns the part, at most 1, of some accelerations of the nodes (m/s²) under which forces within the limits hold the truss
+/// with the nodes at `x` (m) on `feet` (their indices), with the inertia of the nodes (d'Alembert). Forces at rest and forces
+/// under all of the accelerations, mixed, are in equilibrium with the same mixture of loads, and within the same cones: what
+/// they bear is no more than the mixture. [`PART_LEAST`] where forces at rest leave nothing.
+pub(super) fn bearable_part(
     truss: &Structure,
     x: &[Vec3],
     feet: &[usize],
     accelerations: &[Vec3],
     weights: &mut Weights,
-) -> bool {
-    let Some(model) = &truss.limits.forces else { return true };
-    let inertia =
-        |(node, load): (usize, &Vec3)| load - accelerations[node] * (truss.mass * truss.mass_fractions[node]);
-    let model = ForceModel { loads: model.loads.iter().enumerate().map(inertia).collect(), ..model.clone() };
+) -> f64 {
+    let Some(model) = &truss.limits.forces else { return 1.0 };
     let contacts = contacts(truss, x, feet);
-    for _ in 0..LEVELLINGS_STEP {
-        match weights.forces(&truss.layout, x, &truss.struts, &contacts, &model) {
-            Ok(found) if found.ratio <= 1.0 => return true,
-            Ok(found) => weights.levelled(&found, |strut| truss.length(x, strut), &model),
-            Err(_) => {
-                *weights = Weights::default();
-                return false;
+    let mut part = 1.0;
+    while part > PART_LEAST {
+        let inertia = |(node, load): (usize, &Vec3)| {
+            load - accelerations[node] * (part * truss.mass * truss.mass_fractions[node])
+        };
+        let loads = model.loads.iter().enumerate().map(inertia).collect();
+        let moving = ForceModel { loads, ..model.clone() };
+        match least_ratio(truss, x, &contacts, &moving, weights) {
+            Some(moving) if moving <= 1.0 => return part,
+            Some(moving) => {
+                let rest = least_ratio(truss, x, &contacts, model, weights).unwrap_or(1.0);
+                let borne = if rest < 1.0 { (1.0 - rest) / (moving - rest) } else { 0.0 };
+                return (part * borne).max(PART_LEAST);
             }
+            // A contact slides or lifts.
+            None => part /= 2.0,
         }
     }
-    false
+    PART_LEAST
 }
+
+/// The least part of accelerations that is looked at.
+const PART_LEAST: f64 = 0.01;
+
+/// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most
+/// [`RATIO_ENOUGH`]; `None` if nothing holds the truss.
+fn least_ratio(
+    truss: &Structure,
+    x: &[Vec3],
+    contacts: &[Contact],
+    model: &ForceModel,
+    weights: &mut Weights,
+) -> Option<f64> {
+    let mut least: Option<f64> = None;
+    for _ in 0..LEVELLINGS_STEP {
+        let Ok(found) = weights.forces(&truss.layout, x, &truss.struts, contacts, model) else {
+            *weights = Weights::default();
+            break;
+        };
+        least = Some(least.map_or(found.ratio, |least| least.min(found.ratio)));
+        if least.is_some_and(|least| least <= RATIO_ENOUGH) {
+            break;
+        }
+        weights.levelled(&found, |strut| truss.length(x, strut), model);
+    }
+    least
+}
+
+/// The greatest force, as a part of the limit, from which on no less one is looked for.
+const RATIO_ENOUGH: f64 = 0.95;
 
 /// Returns what a step has to add to its linear cost, by coordinate, so that the greatest force becomes less; the greatest
 /// displacement that it asks of a free node is a part of a step. None far from the limit.

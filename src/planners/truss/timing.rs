@@ -1,18 +1,13 @@
 //! The velocity profile of a move: the least time from rest to rest under the speed and the acceleration of the struts, and
 //! under the forces that they bear while the truss accelerates.
 
-use super::forces::bears;
+use super::forces::bearable_part;
 use super::motion::{Move, TimeLaw};
 use super::structure::Structure;
 use super::support_polygon::staying;
 use crate::geometry::Vec3;
 use crate::plan::Ramps;
 use crate::robot::truss_statics::Weights;
-
-/// The factor by which accelerations become less where struts would bear too much.
-const SLOWER: f64 = 0.6;
-/// The number of times that they become less; what is left then is 1e-4 of what the struts could do.
-const TRIES: usize = 18;
 
 /// The duration of a move and its velocity profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,16 +46,14 @@ impl TimeLaw {
             return timing;
         };
         let feet = staying(truss, x, y);
-        let mut part = 1.0;
-        for _ in 0..TRIES {
-            let [up, down] = timing.ramps.progress(timing.duration).accelerations();
-            let accelerated = |rate: f64| x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
-            let starts = bears(truss, x, &feet, &accelerated(up), weights);
-            let tips = matches!(next, Some(Move::Roll(_)));
-            if starts && (tips || bears(truss, y, &feet, &accelerated(-down), weights)) {
-                break;
-            }
-            part *= SLOWER;
+        let [up, down] = timing.ramps.progress(timing.duration).accelerations();
+        let accelerated = |rate: f64| x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
+        let mut part = bearable_part(truss, x, &feet, &accelerated(up), weights);
+        if !matches!(next, Some(Move::Roll(_))) {
+            part = part.min(bearable_part(truss, y, &feet, &accelerated(-down), weights));
+        }
+        // Under a part of the limit a step accelerates by no more than that part.
+        if part < 1.0 {
             timing = self.lasting(least(truss, x, y, Some(part * acceleration)));
         }
         timing

@@ -138,15 +138,7 @@ function main() {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     document.body.classList.toggle("figure", figure);
     $("figure").setAttribute("aria-pressed", figure);
-    const axes = dark ? { axisX: rgb("#e07a5f"), axisY: rgb("#7fb8d8"), accent: rgb("#6cb6ee") } : { axisX: rgb("#b4532f"), axisY: rgb("#2f6f9f"), accent: rgb("#0b63a5") };
-    state.theme = {
-      dark, figure, ...axes,
-      ...(dark
-        ? { above: rgb("#161b21"), below: rgb("#262d36"), ink: [0, 0, 0], good: rgb("#4fcfa6"), bad: rgb("#ff7a3c"), contact: rgb("#ffd24a"), paper: rgb("#14181e") }
-        : figure
-          ? { above: [1, 1, 1], below: [1, 1, 1], ink: rgb("#30363c"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: [1, 1, 1] }
-          : { above: rgb("#dfe4e8"), below: rgb("#f7f6f3"), ink: rgb("#222c36"), good: rgb("#00755a"), bad: rgb(FAILED), contact: rgb("#8a2be2"), paper: rgb("#fffefb") }),
-    };
+    state.theme = themeOf(dark, figure);
     state.lineInk = dark ? rgb("#e6e8ea") : rgb("#222c36");
     timeline.draw();
     touch();

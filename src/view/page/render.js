@@ -2,6 +2,8 @@
 
 const SUN = unit([0.42, -0.55, 1.05]);
 const SHADOW_SIZE = 2048;
+/** The shapes that every plan has, before the meshes of its own. */
+const OWN_SHAPES = 3;
 /** Pixels of the map of one direction of the sky. */
 const SKY_SIZE = 256;
 const SKY_DETAIL = 0.15;
@@ -41,7 +43,7 @@ function rendererOf(canvas, plan, motion) {
   const programOf = name => programs[name] || (programs[name] = finishProgram(gl, begun[name]));
   const quad = bufferOf(gl, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
   const square = arrayOf(gl, [[0, quad, 2, 8, 0, 0]]);
-  const meshes = shapesOf(plan, DETAILS.map(detail => detail.round)).map(levels => levels.map(shape => meshOf(gl, shape)));
+  let meshes = shapesOf(plan, DETAILS.map(detail => detail.round)).map(levels => levels.map(shape => meshOf(gl, shape)));
   const ghosts = [null, null];
   const shadows = shadowMap(gl, SHADOW_SIZE);
   const skies = shadowMap(gl, SKY_TILES * SKY_SIZE);
@@ -280,7 +282,14 @@ function rendererOf(canvas, plan, motion) {
     return depth ? (found[3] ? value / 16777215 : -1) : value - 1;
   }
 
-  return { gl, software, show, pick, ready: () => Object.keys(PROGRAMS).forEach(programOf), ghosts };
+  /** Draws something else from now on. */
+  function replace(...next) {
+    [plan, motion] = next;
+    meshes = [...meshes.slice(0, OWN_SHAPES), ...(plan.meshes || []).map(mesh => [meshOf(gl, meshShape(mesh))])];
+    lists.clear();
+  }
+
+  return { gl, software, show, pick, replace, ready: () => Object.keys(PROGRAMS).forEach(programOf), ghosts };
 }
 
 function beginProgram(gl, texts) {
