@@ -114,6 +114,26 @@ fn angles_sums_and_rigidity_are_judged_where_a_plan_keeps_them() {
     assert!(rigid.rigidity.expect("told").value < 1e-6);
 }
 
+/// The top goes through the plane of its feet after two thirds of the way, where nothing holds it: at both ends and in the
+/// middle it is far from that.
+#[test]
+fn rigidity_that_is_lost_between_the_samples_is_found() {
+    let way = |last: f64| {
+        let keyframes = vec![
+            straight(0.0, &[A, B, C, [0.5, HIGH / 3.0, 0.8]]),
+            straight(100.0, &[A, B, C, [0.5, HIGH / 3.0, last]]),
+        ];
+        limited(TrussLimits { rigidity: 0.05, ..TrussLimits::default() }, keyframes)
+    };
+    assert_eq!(way(0.2).failures, vec![]);
+    let through = way(-0.4);
+    let [failure] = &through.failures[..] else { panic!("one failure: {:?}", through.failures) };
+    assert_eq!((failure.kind, failure.limit), (CheckKind::Rigidity, 0.025));
+    // Half of the way it still has half of its height, and at two thirds none.
+    assert!((60.0..72.0).contains(&failure.time), "{}", failure.time);
+    assert!(failure.value < 0.025);
+}
+
 fn kinds(verdict: &Verdict) -> Vec<CheckKind> {
     let mut kinds: Vec<CheckKind> = verdict.failures.iter().map(|f| f.kind).collect();
     kinds.dedup();

@@ -204,6 +204,9 @@ pub(super) fn bearable_part(
     weights: &mut Weights,
 ) -> f64 {
     let Some(model) = &truss.limits.forces else { return 1.0 };
+    // A cone within the pyramid of eight edges that is within the cone of friction.
+    let model =
+        &ForceModel { friction: model.friction * libm::cos(std::f64::consts::FRAC_PI_8), ..model.clone() };
     let contacts = contacts(truss, x, feet);
     let mut part = 1.0;
     while part > PART_LEAST {

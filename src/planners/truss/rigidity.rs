@@ -30,6 +30,10 @@ const CHANGE_ITERATIONS: usize = 8;
 const Z_MIN: f64 = 0.01;
 /// The number of checks after which more than the limit is asked again.
 const MODEST_CHECKS: usize = 8;
+/// The part of the limit that singular values keep between the ends and the middle of a step.
+const DIP: f64 = 0.5;
+/// The number of times that half a step is halved to find where they do not.
+const HALVINGS: usize = 4;
 /// The multiple of the limit above which singular values are of no interest.
 const INTEREST: f64 = 2.0;
 
@@ -114,7 +118,7 @@ impl Default for Bound {
 
 impl Bound {
     /// Returns those of the positions `y` and half-way to them from `x` (m) at which a singular value is below the limit
-    /// of the truss, or within rounding of it.
+    /// of the truss, or within rounding of it; if there are none, others on the way at which it is far below.
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
         let limit = truss.limits.rigidity;
         let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
@@ -126,9 +130,10 @@ impl Bound {
         if self.modest == 0 {
             let asked = limit + self.gain * back;
             if is_above(truss, y, asked) {
-                let gain = self.gain * GAIN_CHANGES.0;
-                *self = Bound { x: y.to_vec(), least: asked, gain, modest: 0 };
-                return Vec::new();
+                let asked_gain = self.gain;
+                *self = Bound { x: y.to_vec(), least: asked, gain: asked_gain * GAIN_CHANGES.0, modest: 0 };
+                // The start is twice as far as the middle.
+                return if asked_gain < 2.0 { dips(truss, x, &middle, HALVINGS) } else { Vec::new() };
             }
             // Little more than the middle needs would not serve another step.
             self.gain *= GAIN_CHANGES.1;
@@ -138,12 +143,36 @@ impl Bound {
         }
         self.modest = self.modest.saturating_sub(1);
         self.x.clear();
-        [y.to_vec(), middle].into_iter().filter(|z| !is_above(truss, z, limit)).collect()
+        let low = |z: &&[Vec3]| !is_above(truss, z, limit);
+        let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(low).map(<[Vec3]>::to_vec).collect();
+        if !low.is_empty() {
+            return low;
+        }
+        [dips(truss, x, &middle, HALVINGS), dips(truss, &middle, y, HALVINGS)].concat()
     }
 
     fn holds(&self, truss: &Structure, y: &[Vec3], limit: f64) -> bool {
         self.x.len() == y.len() && self.least - change(truss, &self.x, y) >= limit
     }
+}
+
+/// Returns positions on the way from `x` to `y` (m) at which a singular value is below [`DIP`] of the limit of the truss: none if
+/// bounds on what it changes by tell that there are none, or after so many halvings of the way.
+fn dips(truss: &Structure, x: &[Vec3], y: &[Vec3], halvings: usize) -> Vec<Vec<Vec3>> {
+    let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
+    let floor = DIP * truss.limits.rigidity;
+    let reach = change(truss, &middle, x).max(change(truss, &middle, y));
+    if is_above(truss, &middle, floor + reach) {
+        return Vec::new();
+    }
+    if !is_above(truss, &middle, floor) {
+        return vec![middle];
+    }
+    if halvings == 0 {
+        return Vec::new();
+    }
+    let first = dips(truss, x, &middle, halvings - 1);
+    if first.is_empty() { dips(truss, &middle, y, halvings - 1) } else { first }
 }
 
 /// Returns true if no more singular values of the rigidity matrix than the six of rigid motions are below a limit.

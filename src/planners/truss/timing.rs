@@ -30,7 +30,8 @@ impl TimeLaw {
     }
 
     /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
-    /// than its struts can bear at both ends of a step, with the inertia of its nodes, if they bear the weight alone.
+    /// than its struts can bear at both ends of a step and in its middle, with the inertia of its nodes, if they bear the
+    /// weight alone.
     /// A truss that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
     pub(super) fn borne(
         &self,
@@ -46,15 +47,27 @@ impl TimeLaw {
             return timing;
         };
         let feet = staying(truss, x, y);
-        let [up, down] = timing.ramps.progress(timing.duration).accelerations();
-        let accelerated = |rate: f64| x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
-        let mut part = bearable_part(truss, x, &feet, &accelerated(up), weights);
-        if !matches!(next, Some(Move::Roll(_))) {
-            part = part.min(bearable_part(truss, y, &feet, &accelerated(-down), weights));
-        }
+        let tips = matches!(next, Some(Move::Roll(_)));
+        let mut part_at = |at: f64, rate: f64| {
+            let z: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| p + (q - p) * at).collect();
+            let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
+            bearable_part(truss, &z, &feet, &accelerated, weights)
+        };
         // Under a part of the limit a step accelerates by no more than that part.
-        if part < 1.0 {
-            timing = self.lasting(least(truss, x, y, Some(part * acceleration)));
+        let mut part = 1.0;
+        let mut slowed = |more: f64, timing: Timing| {
+            part *= more;
+            if more < 1.0 { self.lasting(least(truss, x, y, Some(part * acceleration))) } else { timing }
+        };
+        let [up, down] = timing.ramps.progress(timing.duration).accelerations();
+        let brakes = if tips { 1.0 } else { part_at(1.0, -down) };
+        timing = slowed(part_at(0.0, up).min(brakes), timing);
+        // A step that never goes evenly accelerates and brakes in its middle, too.
+        let progress = timing.ramps.progress(timing.duration);
+        if !progress.coasts() {
+            let [up, down] = progress.accelerations();
+            let brakes = if tips { 1.0 } else { part_at(0.5, -down) };
+            timing = slowed(part_at(0.5, up).min(brakes), timing);
         }
         timing
     }

@@ -31,6 +31,11 @@ impl Step {
         self.ramps.progress(self.duration)
     }
 
+    /// Returns the positions of the nodes at which a linear step has progressed by a part, 0 to 1, in the world, m.
+    pub(super) fn at(&self, part: f64) -> Vec<Vec3> {
+        self.from.iter().zip(&self.to).map(|(p, q)| p + (q - p) * part).collect()
+    }
+
     /// Returns the time at which the step has progressed by a part, 0 to 1, s from the start of the plan.
     pub(super) fn time(&self, part: f64) -> f64 {
         self.start + self.progress().time(part)

@@ -1,5 +1,5 @@
-//! The rigidity that is left: the least singular value of the rigidity matrix, sampled at the ends and in the middle of
-//! every step.
+//! The rigidity that is left: the least singular value of the rigidity matrix, at the ends and in the middle of every step, and
+//! a bound on it between these: no singular value changes by more than the norm of the change of the matrix (Weyl 1912).
 
 use super::judgement::{Judgement, Step};
 use super::loads::looked_at;
@@ -9,18 +9,25 @@ use crate::plan::{CheckKind, Failure, Interpolation, NodePaths, Status};
 use crate::robot::truss_statics::{Layout, Modes};
 use crate::units::number;
 
+/// The part of the limit that the least singular value keeps between the ends and the middle of a step.
+const DIP: f64 = 0.5;
+/// The part of a step below which no more moments are looked at.
+const PARTS_LEAST: f64 = 1.0 / 256.0;
+
 /// The monitor of the rigidity of a truss from step to step.
 pub(super) struct RigidityMonitor<'a> {
     judgement: &'a Judgement<'a>,
     modes: Modes,
     /// The instants looked at.
     samples: usize,
+    /// The least singular value at the end of the step before, without unit; `None` if it is not known.
+    last: Option<f64>,
 }
 
 impl<'a> RigidityMonitor<'a> {
     /// Returns a monitor before the first step.
     pub(super) fn new(judgement: &'a Judgement<'a>) -> RigidityMonitor<'a> {
-        RigidityMonitor { judgement, modes: Modes::default(), samples: 0 }
+        RigidityMonitor { judgement, modes: Modes::default(), samples: 0, last: None }
     }
 
     /// Checks the least singular value during the step to the keyframe of this index; a rigid roll does not change it.
@@ -31,18 +38,69 @@ impl<'a> RigidityMonitor<'a> {
         {
             return;
         }
-        for part in [0.0, 0.5, 1.0] {
+        let limit = self.judgement.rigidity;
+        let failures = ledger.verdict.failures.len();
+        let mut found = [self.last.unwrap_or_default(), 0.0, 0.0];
+        for (part, value) in [0.0, 0.5, 1.0].into_iter().zip(&mut found) {
             // The start of a step is the end of the one before.
-            if part > 0.0 || keyframe <= 1 {
-                let x: Vec<Vec3> = step.from.iter().zip(&step.to).map(|(p, q)| p + (q - p) * part).collect();
-                self.instant(&x, step.time(part), ledger);
+            if part > 0.0 || self.last.is_none() {
+                *value = self.instant(&step.at(part), (step.time(part), limit), ledger);
+            }
+        }
+        self.last = looked_at(self.judgement, keyframe + 1).then_some(found[2]);
+        // One failure of a step is enough.
+        if ledger.verdict.failures.len() == failures {
+            let [start, middle, end] = found;
+            let first = self.between(step, (0.0, start), (0.5, middle), ledger);
+            if first {
+                self.between(step, (0.5, middle), (1.0, end), ledger);
             }
         }
     }
 
-    /// Checks the least singular value of the rigidity matrix at an instant.
-    fn instant(&mut self, x: &[Vec3], time: f64, ledger: &mut Ledger) {
-        let Judgement { paths, layout, rigidity: limit, .. } = self.judgement;
+    /// Checks that the least singular value stays above a part of its limit between two moments of a step, each as (progress,
+    /// singular value): by what it may change by, or at more moments between. Returns false if that failed.
+    fn between(&mut self, step: &Step, a: (f64, f64), b: (f64, f64), ledger: &mut Ledger) -> bool {
+        let floor = DIP * self.judgement.rigidity;
+        let middle = (a.0 + b.0) / 2.0;
+        let x = step.at(middle);
+        let reaches = [a, b].map(|(part, value)| value - self.change(&step.at(part), &x) >= floor);
+        if reaches == [true, true] {
+            return true;
+        }
+        let failures = ledger.verdict.failures.len();
+        let value = self.instant(&x, (step.time(middle), floor), ledger);
+        if ledger.verdict.failures.len() > failures {
+            return false;
+        }
+        if b.0 - a.0 < PARTS_LEAST {
+            let message = format!("it is not proved that the truss stays as rigid as {}", number(floor));
+            let failure = self.judgement.failure(CheckKind::Rigidity, step.time(middle), Vec::new(), message);
+            ledger.fail(Failure { value, limit: floor, ..failure });
+            return false;
+        }
+        self.between(step, a, (middle, value), ledger) && self.between(step, (middle, value), b, ledger)
+    }
+
+    /// Returns an upper bound on what any singular value changes by on the way between two positions of the nodes, m: the
+    /// norm of the change E of the matrix. The square of that is at most the greatest sum of the squares of the changes of
+    /// the directions of struts, over the two nodes of a strut (Anderson and Morley 1985, for the Laplacian EᵀE). On straight
+    /// lines a direction turns one way, so that no moment between has changed more.
+    fn change(&self, x: &[Vec3], y: &[Vec3]) -> f64 {
+        let struts = &self.judgement.paths.struts;
+        let along = |x: &[Vec3], a: usize, b: usize| (x[b] - x[a]).normalize();
+        let mut sums = vec![0.0; x.len()];
+        for &(a, b) in struts {
+            let square = (along(y, a, b) - along(x, a, b)).norm_squared();
+            sums[a] += square;
+            sums[b] += square;
+        }
+        struts.iter().map(|&(a, b)| sums[a] + sums[b]).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Checks the least singular value of the rigidity matrix at an instant against a limit, and returns it.
+    fn instant(&mut self, x: &[Vec3], (time, limit): (f64, f64), ledger: &mut Ledger) -> f64 {
+        let Judgement { paths, layout, .. } = self.judgement;
         let (weakest, at) = weakest(paths, layout, x, &mut self.modes);
         let names = || at.iter().map(|&node| paths.node_names[node].clone()).collect();
         self.samples += 1;
@@ -52,11 +110,12 @@ impl<'a> RigidityMonitor<'a> {
                 "the truss is near to losing its rigidity at the node {}: a singular value of {}; it keeps {}",
                 names().join(" and "),
                 number(weakest),
-                number(*limit)
+                number(limit)
             );
             let failure = self.judgement.failure(CheckKind::Rigidity, time, names(), message);
-            ledger.fail(Failure { value: weakest, limit: *limit, ..failure });
+            ledger.fail(Failure { value: weakest, limit, ..failure });
         }
+        weakest
     }
 
     /// Returns the status of the check.
