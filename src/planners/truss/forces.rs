@@ -215,10 +215,10 @@ pub(super) fn bearable_part(
         };
         let loads = model.loads.iter().enumerate().map(inertia).collect();
         let moving = ForceModel { loads, ..model.clone() };
-        match least_ratio(truss, x, &contacts, &moving, weights) {
+        match least_ratio(truss, x, &contacts, (&moving, 1.0), weights) {
             Some(moving) if moving <= 1.0 => return part,
             Some(moving) => {
-                let rest = least_ratio(truss, x, &contacts, model, weights).unwrap_or(1.0);
+                let rest = least_ratio(truss, x, &contacts, (model, RATIO_ENOUGH), weights).unwrap_or(1.0);
                 let borne = if rest < 1.0 { (1.0 - rest) / (moving - rest) } else { 0.0 };
                 return (part * borne).max(PART_LEAST);
             }
@@ -232,13 +232,13 @@ pub(super) fn bearable_part(
 /// The least part of accelerations that is looked at.
 const PART_LEAST: f64 = 0.01;
 
-/// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most
-/// [`RATIO_ENOUGH`]; `None` if nothing holds the truss.
+/// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most `enough`;
+/// `None` if nothing holds the truss.
 fn least_ratio(
     truss: &Structure,
     x: &[Vec3],
     contacts: &[Contact],
-    model: &ForceModel,
+    (model, enough): (&ForceModel, f64),
     weights: &mut Weights,
 ) -> Option<f64> {
     let mut least: Option<f64> = None;
@@ -248,7 +248,7 @@ fn least_ratio(
             break;
         };
         least = Some(least.map_or(found.ratio, |least| least.min(found.ratio)));
-        if least.is_some_and(|least| least <= RATIO_ENOUGH) {
+        if least.is_some_and(|least| least <= enough) {
             break;
         }
         weights.levelled(&found, |strut| truss.length(x, strut), model);
@@ -256,7 +256,7 @@ fn least_ratio(
     least
 }
 
-/// The greatest force, as a part of the limit, from which on no less one is looked for.
+/// The greatest force at rest, as a part of the limit, from which on no less one is looked for.
 const RATIO_ENOUGH: f64 = 0.95;
 
 /// Returns what a step has to add to its linear cost, by coordinate, so that the greatest force becomes less; the greatest

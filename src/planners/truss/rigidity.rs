@@ -33,7 +33,7 @@ const MODEST_CHECKS: usize = 8;
 /// The part of the limit that singular values keep between the ends and the middle of a step.
 const DIP: f64 = 0.5;
 /// The number of times that half a step is halved to find where they do not.
-const HALVINGS: usize = 4;
+const HALVINGS: usize = 6;
 /// The multiple of the limit above which singular values are of no interest.
 const INTEREST: f64 = 2.0;
 
@@ -130,10 +130,11 @@ impl Bound {
         if self.modest == 0 {
             let asked = limit + self.gain * back;
             if is_above(truss, y, asked) {
-                let asked_gain = self.gain;
-                *self = Bound { x: y.to_vec(), least: asked, gain: asked_gain * GAIN_CHANGES.0, modest: 0 };
-                // The start is twice as far as the middle.
-                return if asked_gain < 2.0 { dips(truss, x, &middle, HALVINGS) } else { Vec::new() };
+                let gain = self.gain * GAIN_CHANGES.0;
+                *self = Bound { x: y.to_vec(), least: asked, gain, modest: 0 };
+                // Directions may turn more before the middle than behind it.
+                let reaches = asked - change(truss, y, x) >= DIP * limit;
+                return if reaches { Vec::new() } else { dips(truss, x, &middle, HALVINGS) };
             }
             // Little more than the middle needs would not serve another step.
             self.gain *= GAIN_CHANGES.1;

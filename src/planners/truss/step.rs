@@ -455,7 +455,7 @@ fn violated(
     violated.into_iter().collect()
 }
 
-/// Returns those of the constraints on rigidity and forces that are violated at y or half-way to it, with the shortfall
+/// Returns those of the constraints on rigidity and forces that are violated at y or on the way to it, with the shortfall
 /// of each, m.
 fn global_violations(
     problem: &StepProblem,
@@ -475,7 +475,13 @@ fn global_violations(
     if truss.limits.rigidity > 0.0 {
         let shorter = (end != y).then(|| rigidity.violated(truss, x, &end));
         for z in rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()) {
-            for (i, mode) in rigidity::weakest(truss, &z, MODES, &mut search.modes).iter().enumerate() {
+            // Where the shape changes quickly, modes of nearby positions may not lead to the least.
+            let mut modes = rigidity::weakest(truss, &z, MODES, &mut search.modes);
+            if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
+                search.modes = rigidity::coarse(Modes::default(), truss);
+                modes = rigidity::weakest(truss, &z, MODES, &mut search.modes);
+            }
+            for (i, mode) in modes.iter().enumerate() {
                 check(Constraint::Rigidity(i, i), mode.spare(truss));
             }
         }
@@ -486,6 +492,8 @@ fn global_violations(
         if feet != support_polygon::contacts(truss, x) {
             check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
         }
+        let middle: Vec<Vec3> = x.iter().zip(&end).map(|(p, q)| (p + q) / 2.0).collect();
+        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &middle, &feet)));
         // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
         let part = 1.0 - truss.tolerances.edge_part;
         let shy = || x.iter().zip(&end).map(|(p, q)| p + (q - p) * part).collect::<Vec<Vec3>>();
