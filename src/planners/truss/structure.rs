@@ -190,7 +190,8 @@ impl Structure {
                 return 0.0;
             }
             let part = (-from.dot(&change) / squared).clamp(0.0, 1.0);
-            from.cross(&change).norm_squared() / (from + change * part).norm().powi(3)
+            let least = (from + change * part).norm();
+            from.cross(&change).norm_squared() / (least * least * least)
         })
     }
 }

@@ -101,7 +101,7 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
     let mut rollout = Rollout::of(plan, tracks, tolerances);
     // A plan that the judge would refuse for its samples is still seen at some.
     let (least, settings) = (tracks.duration / MOMENTS_MAX as f64, rollout.settings);
-    let coarse = Settings { sample: settings.sample.max(least), ..settings.clone() };
+    let coarse = Settings { sample: settings.sample.max(least), ..*settings };
     if sampling::count(&rollout.instants(), tracks, settings, tolerances) > settings.samples_max {
         rollout.settings = &coarse;
     }

@@ -50,7 +50,11 @@ pub(super) fn along(step: &Step, a: usize, b: usize) -> Lengths {
     let rates = [rate(&from, start), rate(&to, end)];
     let fastest = rates[0].max(rates[1]);
     // The second derivative of a length by progress is h² c² / L³ with the distance h of the line from zero.
-    let bend = if least > 0.0 { from.cross(&change).norm_squared() / least.powi(3) } else { f64::INFINITY };
+    let bend = if least > 0.0 {
+        from.cross(&change).norm_squared() / (least * least * least)
+    } else {
+        f64::INFINITY
+    };
     let bend = if fastest > 0.0 || bend.is_finite() { bend } else { 0.0 };
     let peak = progress.peak();
     let [up, down] = progress.accelerations();
