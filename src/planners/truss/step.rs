@@ -475,7 +475,7 @@ fn global_violations(
     if truss.limits.rigidity > 0.0 {
         let shorter = (end != y).then(|| rigidity.violated(truss, x, &end));
         for z in rigidity.violated(truss, x, y).into_iter().chain(shorter.into_iter().flatten()) {
-            // Where the shape changes quickly, modes of nearby positions may not lead to the least.
+            // Modes of nearby positions may not lead to the least where the shape changes quickly.
             let mut modes = rigidity::weakest(truss, &z, MODES, &mut search.modes);
             if modes.iter().all(|mode| mode.spare(truss) >= 0.0) {
                 search.modes = rigidity::coarse(Modes::default(), truss);
