@@ -211,6 +211,7 @@ fn the_judge_knows_what_is_around() {
         paths.keyframes.truncate(roll + 1);
         paths.keyframes.drain(..roll - 1);
         paths.keyframes.iter_mut().enumerate().for_each(|(i, keyframe)| keyframe.time = 100.0 * i as f64);
+        paths.keyframes[0].ramps = modl::plan::Ramps::NONE;
         let post = Shape::Sphere { radius: 0.05 };
         paths.surroundings.obstacles = vec![vec![Placed { pose: shifted(at), shape: post }]];
         paths.keyframes.iter_mut().for_each(|keyframe| keyframe.margins.obstacle = None);
