@@ -8,6 +8,7 @@ use crate::interpret::stop::Eval;
 use crate::interpret::value::Value;
 use crate::natives::folding::LayoutValue;
 use crate::natives::plot::PlotValue;
+use crate::source::floor_char_boundary;
 use std::any::Any;
 
 /// The greatest number of lines of a displayed tree; the number of those left out is shown.
@@ -25,8 +26,7 @@ impl Interpreter<'_> {
     pub(super) fn display_value(&mut self, value: &Value) -> Eval<String> {
         let mut shown = self.display_whole(value)?;
         if shown.len() > BYTES_MAX {
-            let end = (0..=BYTES_MAX).rev().find(|&at| shown.is_char_boundary(at)).unwrap_or(0);
-            shown.truncate(end);
+            shown.truncate(floor_char_boundary(&shown, BYTES_MAX));
             shown.push_str(" ...");
         }
         Ok(shown)

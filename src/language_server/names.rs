@@ -4,9 +4,8 @@ use super::analysis::Analysis;
 use crate::check::summary::{self, Inside};
 use crate::check::typed::{Def, DefId, DefKind};
 use crate::check::{self, Checked, Meaning};
-use crate::source::{FileId, Files, ReadError, Span};
+use crate::source::{FileId, Replaced, Span};
 use crate::syntax::{Outline, TokenKind};
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -145,8 +144,8 @@ impl Analysis {
     }
 
     /// Returns the files of the program, some with other texts, by their names.
-    pub(super) fn with_texts(&self, texts: BTreeMap<String, String>) -> Renamed<'_> {
-        Renamed { files: &*self.files, texts }
+    pub(super) fn with_texts(&self, texts: BTreeMap<String, String>) -> Replaced<'_> {
+        Replaced { files: &*self.files, texts }
     }
 
     /// Returns all places in the files of the project at which a member of a declaration is named, and that of its own
@@ -173,21 +172,5 @@ impl Analysis {
     pub(super) fn is_own(&self, def: DefId) -> bool {
         let declared = self.checked.program.def(def);
         !self.checked.sources.file(declared.file).library && !matches!(declared.kind, DefKind::Error)
-    }
-}
-
-/// The files of a program, some with other texts.
-pub(super) struct Renamed<'a> {
-    files: &'a dyn Files,
-    texts: BTreeMap<String, String>,
-}
-
-impl Files for Renamed<'_> {
-    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
-        self.texts.get(path).map_or_else(|| self.files.read(path), |text| Ok(text.clone().into_bytes()))
-    }
-
-    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
-        self.files.library(path)
     }
 }

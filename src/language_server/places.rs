@@ -1,5 +1,6 @@
 //! Places in texts: offsets in bytes, and the lines and columns of the protocol.
 
+use crate::source::{floor_char_boundary, percent};
 use std::ops::Range;
 
 /// The unit in which columns count, as editor and server have agreed.
@@ -24,10 +25,7 @@ pub(super) struct Place {
 /// Returns the place of an offset (bytes); an offset beyond the text is its end, one within a character that character's
 /// begin.
 pub(super) fn place(text: &str, offset: usize, encoding: Encoding) -> Place {
-    let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
+    let offset = floor_char_boundary(text, offset);
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let line = text[..start].bytes().filter(|byte| *byte == b'\n').count();
     let column = match encoding {
@@ -72,17 +70,7 @@ pub(super) fn path_of(uri: &str) -> Option<String> {
     let rest = uri.strip_prefix("file://")?;
     // A host before the path is that of this machine.
     let encoded = &rest[rest.find('/')?..];
-    let mut bytes = Vec::with_capacity(encoded.len());
-    let mut left = encoded.bytes();
-    while let Some(byte) = left.next() {
-        if byte != b'%' {
-            bytes.push(byte);
-            continue;
-        }
-        let digits = [left.next()?, left.next()?];
-        bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?);
-    }
-    String::from_utf8(bytes).ok()
+    percent::decoded(encoded)
 }
 
 /// Returns the URI of an absolute path.

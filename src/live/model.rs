@@ -3,17 +3,19 @@
 use super::robot::{Read, Robot, robot};
 use crate::check::typed::{DefId, DefKind};
 use crate::check::{self, Checked};
+use crate::interpret::interpreter::Interpreter;
 use crate::interpret::{Mode, Options, SilentHost};
 use crate::interrupt::CancelState;
 use crate::session::Project;
 use crate::source::json::{JsonDiagnostic, to_json};
 use crate::source::render::Style;
-use crate::source::{Files, ReadError, Severity};
+use crate::source::{Replaced, Severity};
 use crate::syntax::{self, ast};
 use serde::Serialize;
-use std::borrow::Cow;
+use std::collections::BTreeMap;
 
-/// The model of a text: what a page shows of it. It does not depend on anything but the text, what it imports, and the wish which declaration is shown.
+/// The model of a text: what a page shows of it. It does not depend on anything but the text, what it imports, and the wish
+/// which declaration is shown.
 #[derive(Clone, Debug, Serialize)]
 pub struct Model {
     /// The diagnostics, as `modl check` finds them.
@@ -37,7 +39,8 @@ impl Model {
         wanted: Option<&str>,
         cancel: &CancelState,
     ) -> Model {
-        let typed = Typed { files, program, text };
+        let texts = BTreeMap::from([(program.to_owned(), text.to_owned())]);
+        let typed = Replaced { files: &**files, texts };
         let checked = check::check(&typed, program);
         let options = Options::default();
         let mut host = SilentHost(cancel.clone());
@@ -56,8 +59,7 @@ impl Model {
         let def = wished.map(|index| shown[index]).or_else(|| preferred(&checked, &shown));
         let robot = def.filter(|_| !checked.has_errors()).and_then(|def| {
             let read = Read { checked: &checked, file, tree: &tree };
-            let work =
-                |interpreter: &mut crate::interpret::interpreter::Interpreter| robot(interpreter, &read, def);
+            let work = |interpreter: &mut Interpreter| robot(interpreter, &read, def);
             crate::execute::with_interpreter(&checked, &typed, &mut host, &options, work).flatten()
         });
         Model { findings, robots, robot, tree: Some(tree) }
@@ -88,25 +90,4 @@ fn shown(checked: &Checked, tree: &ast::File) -> Vec<DefId> {
 fn preferred(checked: &Checked, shown: &[DefId]) -> Option<DefId> {
     let is_config = |def: &&DefId| matches!(checked.program.def(**def).kind, DefKind::Config(_));
     shown.iter().rev().find(is_config).or(shown.last()).copied()
-}
-
-/// The files of a project with another text in place of the program's.
-struct Typed<'a> {
-    files: &'a Project,
-    program: &'a str,
-    text: &'a str,
-}
-
-impl Files for Typed<'_> {
-    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
-        if path == self.program { Ok(self.text.as_bytes().to_vec()) } else { self.files.read(path) }
-    }
-
-    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
-        self.files.library(path)
-    }
-
-    fn list(&self, folder: &str) -> Vec<String> {
-        self.files.list(folder)
-    }
 }

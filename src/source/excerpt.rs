@@ -4,7 +4,7 @@
 //! An [`Excerpt`] is a small text of its own, made of blocks from one or several files, so the cost of
 //! drawing does not depend on the position in a large file.
 
-use super::{FileId, Label, LineColumn, Sources};
+use super::{FileId, Label, LineColumn, Sources, floor_char_boundary};
 use std::ops::Range;
 
 /// The number of lines shown before the first and after the last labelled line of a block.
@@ -124,7 +124,7 @@ fn mark(sources: &Sources, text: &str, place: LabelPlace, shown: Range<usize>, c
     let one_line = place.first == place.last;
     let drawn = if one_line { marked.chars().take(room).map(char::len_utf8).sum() } else { end - start };
     let first = sources.file(place.file).line(place.first);
-    let column = first[..floor(first, place.start)].chars().count() + 1;
+    let column = first[..floor_char_boundary(first, place.start)].chars().count() + 1;
     Mark {
         range: start..start + drawn,
         position: LineColumn { line: place.first, column },
@@ -149,8 +149,8 @@ fn place(sources: &Sources, label: &Label) -> LabelPlace {
 /// Returns the range without the blanks at its end. An empty range is moved to the character after it, or,
 /// if that is blank, to the last visible one before it on its line; on a blank line it stays empty.
 fn visible_range(text: &str, start: usize, end: usize) -> Range<usize> {
-    let start = floor(text, start);
-    let end = start + text[start..floor(text, end).max(start)].trim_end().len();
+    let start = floor_char_boundary(text, start);
+    let end = start + text[start..floor_char_boundary(text, end).max(start)].trim_end().len();
     if start < end {
         return start..end;
     }
@@ -165,15 +165,6 @@ fn visible_range(text: &str, start: usize, end: usize) -> Range<usize> {
         Some(c) => from + before.len() - c.len_utf8()..from + before.len(),
         None => start..start,
     }
-}
-
-/// Returns the greatest character boundary that is not after `offset`.
-fn floor(text: &str, offset: usize) -> usize {
-    let mut offset = offset.min(text.len());
-    while !text.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    offset
 }
 
 /// Returns the runs of lines to show: those of the first label's file first, then other files in order; in
@@ -253,10 +244,11 @@ fn cut_line(line: &str, focus: Range<usize>, columns: usize) -> CutLine {
 /// Returns the byte at which a shown line begins, so that `focus` is visible with some text before it and
 /// room for the label's text below it.
 fn window_start(line: &str, focus: Range<usize>, columns: usize) -> usize {
-    let start = floor(line, focus.start);
+    let start = floor_char_boundary(line, focus.start);
     let count = |text: &str| text.chars().take(columns).map(columns_of).sum::<usize>();
     let before = line[..start].chars().map(columns_of).sum::<usize>();
-    let middle = before + count(&line[start..floor(line, focus.end).max(start)]).min(columns) / 2;
+    let middle =
+        before + count(&line[start..floor_char_boundary(line, focus.end).max(start)]).min(columns) / 2;
     if before + count(&line[start..]) <= columns && middle + LABEL_ROOM <= columns || before <= columns / 3 {
         return 0;
     }

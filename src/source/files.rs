@@ -2,6 +2,7 @@
 //! folder, tests onto a map.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// The reason why a file can't be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,6 +35,28 @@ pub trait Files {
     /// read, and by default.
     fn list(&self, _folder: &str) -> Vec<String> {
         Vec::new()
+    }
+}
+
+/// The files of a project, some with other texts, by their paths.
+pub struct Replaced<'a> {
+    /// The project.
+    pub files: &'a dyn Files,
+    /// The texts that stand for those of files.
+    pub texts: BTreeMap<String, String>,
+}
+
+impl Files for Replaced<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        self.texts.get(path).map_or_else(|| self.files.read(path), |text| Ok(text.clone().into_bytes()))
+    }
+
+    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
+        self.files.library(path)
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        self.files.list(folder)
     }
 }
 

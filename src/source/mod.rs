@@ -10,6 +10,7 @@ pub mod files;
 pub(crate) mod foreign;
 pub mod json;
 pub mod library;
+pub mod percent;
 pub mod render;
 mod span;
 pub(crate) mod suggest;
@@ -18,7 +19,7 @@ mod text;
 
 pub use code::Code;
 pub use diagnostic::{Diagnostic, Label, Severity};
-pub use files::{Files, ReadError};
+pub use files::{Files, ReadError, Replaced};
 pub use span::{FileId, Span};
 pub use symbol::Symbol;
-pub use text::{LineColumn, SourceFile, Sources};
+pub use text::{LineColumn, SourceFile, Sources, floor_char_boundary};

@@ -3,6 +3,15 @@
 use super::{FileId, Span};
 use std::sync::Arc;
 
+/// Returns the greatest character boundary of a text that is not after `offset`.
+pub fn floor_char_boundary(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
 /// A position in a text: line and column, both from 1; the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct LineColumn {
@@ -31,10 +40,7 @@ impl SourceFile {
     /// Returns the line and column (from 1) of a byte offset (from 0). An offset beyond the text is taken as its end,
     /// and one within a character as that character's first byte.
     pub fn line_column(&self, offset: usize) -> LineColumn {
-        let mut offset = offset.min(self.text.len());
-        while !self.text.is_char_boundary(offset) {
-            offset -= 1;
-        }
+        let offset = floor_char_boundary(&self.text, offset);
         let line = self.line_starts.partition_point(|&s| s as usize <= offset) - 1;
         let start = self.line_starts[line] as usize;
         LineColumn { line: line + self.first_line, column: self.text[start..offset].chars().count() + 1 }

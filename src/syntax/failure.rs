@@ -7,7 +7,7 @@ use super::split::tokens;
 use super::words;
 use crate::source::foreign;
 use crate::source::suggest::suggest;
-use crate::source::{Code, Diagnostic, FileId, Span, code};
+use crate::source::{Code, Diagnostic, FileId, Span, code, floor_char_boundary};
 use std::cell::Cell;
 
 /// The number of bytes behind a piece in which the token is looked for that ends it.
@@ -475,9 +475,7 @@ impl Mistake<'_> {
         let text = self.found();
         let Some(kind) = self.kind_of(self.found) else {
             let behind = self.base + self.text.len();
-            let far = (behind..=whole.len().min(behind + AHEAD_MAX)).rev();
-            let end = far.into_iter().find(|at| whole.is_char_boundary(*at)).unwrap_or(whole.len());
-            let rest = tokens(whole, behind..end);
+            let rest = tokens(whole, behind..floor_char_boundary(whole, behind + AHEAD_MAX));
             return match rest.first() {
                 Some(token) => format!("`{}`", &whole[token.start..token.end]),
                 None => "the end of the file".into(),

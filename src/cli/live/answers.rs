@@ -3,6 +3,7 @@
 use super::http::{Request, Response};
 use super::program::{Program, Shown};
 use crate::live::{Edit, Model, Refusal};
+use crate::source::percent;
 use crate::view;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -100,15 +101,5 @@ fn state(shown: &Shown) -> Value {
 fn value_of(query: &str, name: &str) -> Option<String> {
     let (_, value) =
         query.split('&').filter_map(|pair| pair.split_once('=')).find(|(known, _)| *known == name)?;
-    let mut bytes = Vec::with_capacity(value.len());
-    let mut left = value.bytes();
-    while let Some(byte) = left.next() {
-        if byte != b'%' {
-            bytes.push(byte);
-            continue;
-        }
-        let digits = [left.next()?, left.next()?];
-        bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?);
-    }
-    String::from_utf8(bytes).ok()
+    percent::decoded(value)
 }
