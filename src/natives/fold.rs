@@ -3,7 +3,7 @@
 use super::fold_design::Joined;
 use super::fold_refusal::diagnostic;
 use super::fold_supply::{self, Passive, Sheet, Supply};
-use super::folding::{LayoutComparison, OrderSample};
+use super::folding::{LayoutComparison, OrderSample, pair};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
 use crate::interpret::design::Instance;
@@ -226,8 +226,7 @@ fn hinges(_: &mut Interpreter, call: &Call) -> Eval<Value> {
         let count = sample.layouts.len();
         return Err(call.refuse("layout", format!("there are {count} layouts, counted from 0")));
     };
-    let pair = |[a, b]: &[usize; 2]| Value::list(vec![Value::count(*a), Value::count(*b)]);
-    Ok(Value::list(hinges.iter().map(pair).collect()))
+    Ok(Value::list(hinges.iter().copied().map(pair).collect()))
 }
 
 fn random_orders(_: &mut Interpreter, call: &Call) -> Eval<Value> {

@@ -143,7 +143,8 @@ const LAYOUT: &[Field<Report>] = &[
     }),
 ];
 
-fn pair([a, b]: [usize; 2]) -> Value {
+/// Returns two faces, by their indices, as a list.
+pub(super) fn pair([a, b]: [usize; 2]) -> Value {
     Value::list(vec![Value::count(a), Value::count(b)])
 }
 

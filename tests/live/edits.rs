@@ -11,7 +11,7 @@ pub fn document(text: &str) -> Document {
     Document::new(Arc::new(MapFiles::default()), "main.mod", text)
 }
 
-/// What a document shows; the robot is the one of this name, if it is not empty.
+/// The model of a document; the robot is the one of this name, if it is not empty.
 pub fn model(document: &Document, robot: &str) -> Model {
     document.model(Some(robot).filter(|robot| !robot.is_empty()), &CancelState::default())
 }
@@ -141,7 +141,7 @@ fn loops_and_branches_are_left_alone() {
                 m[i].bottom -- m[i + 1].top }\n  for i in 0..n { set m[i].tilt = 10deg }\n}\n";
     let refused = after(text, &joint("Row", "m[1].tilt", 20.0)).expect_err("a loop sets it");
     assert!(refused.contains("in a loop or a branch"), "{refused}");
-    // What no loop sets is set after all of them.
+    // A joint that no loop sets is set after all of them.
     let found = after(text, &joint("Row", "m[1].left", 20.0)).expect("nothing sets it");
     assert_eq!(found, text.replace("10deg }\n", "10deg }\n  set m[1].left = 20deg\n"));
 }

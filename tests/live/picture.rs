@@ -1,4 +1,4 @@
-//! What the page shows of a text: the robot, the lines that its modules come from, values and free ports.
+//! The model of a text as the page shows it: the robot, the lines that its modules come from, values and free ports.
 
 use super::edits::{after, document, joint, model, parameter};
 

@@ -190,7 +190,7 @@ fn a_thousand_random_changes_keep_text_and_picture_one() {
             }
             assert!(refused < 4 * CHANGES, "{refused} changes were refused");
         }
-        // What the page shows in the end is what the text says, read afresh; and all of it is undone.
+        // The page shows in the end what the text says, read afresh; and all of it is undone.
         let fresh = serde_json::to_value(model(&document, name)).expect("it is data");
         assert_eq!(serde_json::to_value(&shown).expect("it is data"), fresh);
         for _ in 0..done {

@@ -82,7 +82,7 @@ impl Served {
         format!("Host: 127.0.0.1:{0}\r\nOrigin: http://127.0.0.1:{0}\r\n", self.port)
     }
 
-    /// What the page shows once it has another version than `since`.
+    /// The state that the page shows once it has another version than `since`.
     pub fn state(&self, since: u64) -> Value {
         let target = format!("/{}/state?since={since}&robot=", self.token);
         let answer = self.request("GET", &target, &self.own(), "").expect("it answers");

@@ -158,7 +158,7 @@ fn what_changed_under_the_hand_is_not_overwritten() {
     let version = served.state(0)["version"].as_u64().expect("a number");
     let typed = TEXT.replace("30deg", "35deg");
     served.write(&typed);
-    // Whether the server has seen the change by now or not, the page's version is an old one.
+    // The page's version is an old one, also if the server has not seen the change by now.
     let (status, answer) = served.ask("edit", version, Some(tilt(-20.0)));
     assert_eq!(status, 409, "{answer}");
     assert_eq!(served.text(), typed);

@@ -123,12 +123,12 @@ impl Progress {
 
     /// Returns the progress at a time (s from the start of the step), 0 to 1.
     pub fn at(&self, t: f64) -> f64 {
-        if self.ramps.is_none() { t / self.duration } else { self.integral(t) / self.whole }
+        self.integral(t) / self.whole
     }
 
     /// Returns the time (s from the start of the step) at which the step has progressed by a part, 0 to 1.
     pub fn time(&self, part: f64) -> f64 {
-        if self.ramps.is_none() || part == 0.0 || part == 1.0 {
+        if part == 0.0 || part == 1.0 {
             return part * self.duration;
         }
         let Ramps { up, down, before, after } = self.ramps;
@@ -151,7 +151,7 @@ impl Progress {
         let Ramps { up, down, before, after } = self.ramps;
         let rising = if up > 0.0 { (t + before) / up } else { 1.0 };
         let falling = if down > 0.0 { (self.duration - t + after) / down } else { 1.0 };
-        rising.min(falling).min(1.0) / self.whole_time()
+        rising.min(falling).min(1.0) / self.whole
     }
 
     /// Returns the greatest rate of progress, 1/s.
@@ -164,16 +164,12 @@ impl Progress {
     pub fn accelerations(&self) -> [f64; 2] {
         let Ramps { up, down, .. } = self.ramps;
         let [risen, falls] = self.knots;
-        let of = |ramp: f64, there: bool| if there { 1.0 / (ramp * self.whole_time()) } else { 0.0 };
+        let of = |ramp: f64, there: bool| if there { 1.0 / (ramp * self.whole) } else { 0.0 };
         [of(up, up > 0.0 && risen > 0.0), of(down, down > 0.0 && falls < self.duration)]
     }
 
     /// Returns true if the rate of progress is constant for some time.
     pub fn coasts(&self) -> bool {
         self.knots[1] - self.knots[0] > TOLERANCES.ramp_overlap * self.duration
-    }
-
-    fn whole_time(&self) -> f64 {
-        if self.ramps.is_none() { self.duration } else { self.whole }
     }
 }

@@ -17,17 +17,18 @@ impl NodePaths {
         let keyframe = |time: f64| {
             let after = self.keyframes.partition_point(|k| k.time < time).min(self.keyframes.len() - 1);
             let keyframe = &self.keyframes[after];
-            let whole = keyframe.time - self.keyframes[after.saturating_sub(1)].time;
+            let begins = self.keyframes[after.saturating_sub(1)].time;
+            let whole = keyframe.time - begins;
             let interpolation = match keyframe.interpolation {
                 Interpolation::RigidRoll { edge, angle } if whole > 0.0 => {
                     Interpolation::RigidRoll { edge, angle: angle * ((time - before) / whole) }
                 }
                 other => other,
             };
-            let begins = self.keyframes[after.saturating_sub(1)].time;
-            let ramps = match time > from {
-                true => keyframe.ramps.sliced(whole, before - begins, time - begins),
-                false => Ramps::NONE,
+            let ramps = if time > from {
+                keyframe.ramps.sliced(whole, before - begins, time - begins)
+            } else {
+                Ramps::NONE
             };
             before = time;
             // The margins at the cut are others.

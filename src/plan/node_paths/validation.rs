@@ -29,11 +29,11 @@ impl NodePaths {
         need_ascending(&times, "the keyframes")?;
         let short = times.windows(2).find(|ends| ends[1] - ends[0] < TICK);
         short.map_or(Ok(()), |ends| Err(NodePathsFault::ShortStep { time: ends[1] }))?;
+        let mut before = 0.0;
         for keyframe in &self.keyframes {
             let time = keyframe.time;
             need_index(keyframe.cause.0 as usize, causes, "cause")?;
-            let before = self.keyframes.partition_point(|k| k.time < time);
-            let duration = before.checked_sub(1).map_or(time, |i| time - self.keyframes[i].time);
+            let duration = time - std::mem::replace(&mut before, time);
             keyframe.ramps.check(keyframe.interpolation, time, duration)?;
             let complete = keyframe.nodes.len() == count;
             need(complete, || NodePathsFault::KeyframeNodes { time, nodes: count })?;

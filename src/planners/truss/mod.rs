@@ -13,6 +13,7 @@ pub mod surroundings;
 pub mod tolerances;
 
 pub(super) mod forces;
+mod positions;
 mod rigidity;
 
 pub mod margins;

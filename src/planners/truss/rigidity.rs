@@ -5,6 +5,7 @@
 //! at the other: R times the velocities of the nodes is the rates of length. It is the Jacobian of the
 //! lengths.
 
+use super::positions::halfway;
 use super::structure::Structure;
 use super::tolerances::Tolerances;
 use crate::geometry::Vec3;
@@ -121,7 +122,7 @@ impl Bound {
     /// of the truss, or within rounding of it; if there are none, others on the way at which it is far below.
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
         let limit = truss.limits.rigidity;
-        let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
+        let middle = halfway(x, y);
         if self.holds(truss, y, limit) && self.holds(truss, &middle, limit) {
             return Vec::new();
         }
@@ -160,7 +161,7 @@ impl Bound {
 /// Returns positions on the way from `x` to `y` (m) at which a singular value is below [`DIP`] of the limit of the truss: none if
 /// bounds on what it changes by tell that there are none, or after so many halvings of the way.
 fn dips(truss: &Structure, x: &[Vec3], y: &[Vec3], halvings: usize) -> Vec<Vec<Vec3>> {
-    let middle: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (p + q) / 2.0).collect();
+    let middle = halfway(x, y);
     let floor = DIP * truss.limits.rigidity;
     let reach = change(truss, &middle, x).max(change(truss, &middle, y));
     if is_above(truss, &middle, floor + reach) {

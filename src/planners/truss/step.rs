@@ -12,6 +12,7 @@ use super::broad_phase::NeighbourList;
 use super::constraint::Constraint;
 use super::environment;
 use super::forces;
+use super::positions::{halfway, towards};
 use super::rigidity::{self, Bound, Mode};
 use super::structure::Structure;
 use super::support_polygon;
@@ -492,12 +493,10 @@ fn global_violations(
         if feet != support_polygon::contacts(truss, x) {
             check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, x, &feet)));
         }
-        let middle: Vec<Vec3> = x.iter().zip(&end).map(|(p, q)| (p + q) / 2.0).collect();
-        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &middle, &feet)));
+        check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &halfway(x, &end), &feet)));
         // Right above an edge of the support only its two nodes bear the truss, on which nothing holds it upright.
         let part = 1.0 - truss.tolerances.edge_part;
-        let shy = || x.iter().zip(&end).map(|(p, q)| p + (q - p) * part).collect::<Vec<Vec3>>();
-        let near = if end == y { y.to_vec() } else { shy() };
+        let near = if end == y { y.to_vec() } else { towards(x, &end, part) };
         check(Constraint::Force, forces::spare(truss, &search.forces.at(truss, &near, &feet)));
     }
     violated

@@ -1,6 +1,7 @@
 //! Static stability: the support polygon, the convex hull of the contacts with the ground, and the signed
 //! distance of the centre of mass from its boundary (the static stability margin of McGhee and Frank 1968).
 
+use super::positions::towards;
 use super::structure::Structure;
 use crate::geometry::Vec3;
 
@@ -37,7 +38,6 @@ pub(in crate::planners) fn staying(truss: &Structure, x: &[Vec3], y: &[Vec3]) ->
 /// Returns the positions of the nodes, m, as far on the way from `x` to `y` as the truss is statically stable on the
 /// nodes that stay on the ground till then (by bisection).
 pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec3> {
-    let towards = |fraction: f64| x.iter().zip(y).map(|(p, q)| p + (q - p) * fraction).collect::<Vec<_>>();
     let stable = |z: &[Vec3]| {
         let margin = stability_margin(truss, z, &staying(truss, x, z));
         margin.is_some_and(|(inside, _)| inside >= 0.0)
@@ -48,9 +48,9 @@ pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BISECTIONS {
         let middle = (low + high) / 2.0;
-        if stable(&towards(middle)) { low = middle } else { high = middle }
+        if stable(&towards(x, y, middle)) { low = middle } else { high = middle }
     }
-    towards(low)
+    towards(x, y, low)
 }
 
 /// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above, counter-clockwise,

@@ -3,6 +3,7 @@
 
 use super::forces::bearable_part;
 use super::motion::{Move, TimeLaw};
+use super::positions::towards;
 use super::structure::Structure;
 use super::support_polygon::staying;
 use crate::geometry::Vec3;
@@ -31,8 +32,7 @@ impl TimeLaw {
 
     /// Returns the timing of a move, at least `step_duration_min`. A truss that carries its weight accelerates no faster
     /// than its struts can bear at both ends of a step and in its middle, with the inertia of its nodes, if they bear the
-    /// weight alone.
-    /// A truss that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
+    /// weight alone; one that rolls next may tip while it brakes. `next`: the move after; `weights`: those of the move before.
     pub(super) fn borne(
         &self,
         truss: &Structure,
@@ -49,9 +49,8 @@ impl TimeLaw {
         let feet = staying(truss, x, y);
         let tips = matches!(next, Some(Move::Roll(_)));
         let mut part_at = |at: f64, rate: f64| {
-            let z: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| p + (q - p) * at).collect();
             let accelerated: Vec<Vec3> = x.iter().zip(y).map(|(p, q)| (q - p) * rate).collect();
-            bearable_part(truss, &z, &feet, &accelerated, weights)
+            bearable_part(truss, &towards(x, y, at), &feet, &accelerated, weights)
         };
         // Under a part of the limit a step accelerates by no more than that part.
         let mut part = 1.0;

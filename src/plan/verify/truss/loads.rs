@@ -86,9 +86,8 @@ impl<'a> LoadMonitor<'a> {
         let feet: Vec<usize> = (0..step.from.len()).filter(|&n| standing.stays_down(step, n)).collect();
         let model = self.model(world);
         for (part, rate) in moments(step, tips) {
-            let moving = (step.from.iter().zip(&step.to)).map(|(p, q)| (q - p) * rate).collect::<Vec<_>>();
-            let model = if rate == 0.0 { &model } else { &self.accelerating(&model, &moving) };
-            let x: Vec<Vec3> = step.from.iter().zip(&step.to).map(|(p, q)| p + (q - p) * part).collect();
+            let model = if rate == 0.0 { &model } else { &self.accelerating(&model, step, rate) };
+            let x = step.at(part);
             let normal = |node: usize| paths.surroundings.normal(x[node]);
             let contacts: Vec<Contact> =
                 feet.iter().map(|&node| Contact { node, normal: normal(node) }).collect();
@@ -200,12 +199,13 @@ impl<'a> LoadMonitor<'a> {
         ForceModel { loads, friction, force_max: strut.force, buckling: strut.euler() }
     }
 
-    /// Returns the model with the inertia of the nodes in the loads, where they accelerate (m/s²), by node (d'Alembert).
-    fn accelerating(&self, model: &ForceModel, accelerations: &[Vec3]) -> ForceModel {
+    /// Returns the model with the inertia of the nodes in the loads (d'Alembert), while the progress of a step accelerates, 1/s².
+    fn accelerating(&self, model: &ForceModel, step: &Step, rate: f64) -> ForceModel {
         let Judgement { paths, strut, .. } = self.judgement;
         let masses = strut.node_masses(paths.node_names.len(), &paths.struts);
-        let felt = model.loads.iter().zip(accelerations).zip(masses);
-        ForceModel { loads: felt.map(|((load, a), mass)| load - a * mass).collect(), ..model.clone() }
+        let moved = step.from.iter().zip(&step.to).zip(masses);
+        let felt = model.loads.iter().zip(moved).map(|(load, ((p, q), mass))| load - (q - p) * rate * mass);
+        ForceModel { loads: felt.collect(), ..model.clone() }
     }
 
     /// Records the check of forces: as failed where struts would bear more than they can and the plan is not excused,
@@ -247,19 +247,19 @@ impl<'a> LoadMonitor<'a> {
 /// rest at both ends and in the middle, and where the truss accelerates at the start, brakes at the end unless it tips, and
 /// does either in the middle.
 fn moments(step: &Step, tips: bool) -> Vec<(f64, f64)> {
-    let mut moments: Vec<(f64, f64)> = vec![(0.0, 0.0), (0.5, 0.0), (1.0, 0.0)];
     let progress = step.progress();
     let [up, down] = progress.accelerations();
-    let middle = !progress.coasts();
-    moments.extend(
-        [(0.0, up), (0.5, if middle { up } else { 0.0 })].into_iter().filter(|(_, rate)| *rate > 0.0),
-    );
-    if !tips {
-        let brakes = [(0.5, if middle { -down } else { 0.0 }), (1.0, -down)];
-        moments.extend(brakes.into_iter().filter(|(_, rate)| *rate < 0.0));
-    }
-    moments.sort_by(|a, b| a.0.total_cmp(&b.0));
-    moments
+    let (rises, brakes, middle) = (up > 0.0, down > 0.0 && !tips, !progress.coasts());
+    let all = [
+        (0.0, 0.0, true),
+        (0.0, up, rises),
+        (0.5, 0.0, true),
+        (0.5, up, rises && middle),
+        (0.5, -down, brakes && middle),
+        (1.0, 0.0, true),
+        (1.0, -down, brakes),
+    ];
+    all.into_iter().filter(|(.., looked_at)| *looked_at).map(|(part, rate, _)| (part, rate)).collect()
 }
 
 /// Returns true if an exemption excuses struts that bear too much at a time, s.
