@@ -54,7 +54,7 @@ pub(super) fn aligned(lines: Vec<Line>) -> String {
                 out.extend(std::iter::repeat_n(' ', column - line.width()));
                 out.push_str(comment);
             }
-            while out.ends_with([' ', '\t']) {
+            while out.ends_with([' ', '\t', '\r']) {
                 out.pop();
             }
             out.push('\n');

@@ -24,7 +24,8 @@ impl Session {
         let mut pieces: Vec<String> = Vec::new();
         for (entry, file) in self.entries.iter().zip(&checked.entries) {
             let text = saved.entry(entry, *file, &mut imports);
-            pieces.push(text.trim().to_owned());
+            // A mark of the byte order may begin an entry, as it may begin a file, but not what stands within one.
+            pieces.push(text.strip_prefix('\u{feff}').unwrap_or(&text).trim().to_owned());
         }
         pieces.retain(|piece| !piece.is_empty());
         self.leave_out_wrong(&imports, &mut pieces);
