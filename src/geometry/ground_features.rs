@@ -80,27 +80,41 @@ impl Feature {
         }
     }
 
-    /// Calls `found` with the number and the position ([`point`](Self::point), m) of each of the feature's points whose
-    /// height along the unit vector `up` (in the feature's frame) is less than `limit`, m from the origin of that frame.
-    pub fn points_below(&self, up: &Vec3, limit: f64, mut found: impl FnMut(u8, Vec3)) {
-        let Form::Circle(axis, radius) = self.form else {
-            if self.lowest(up) < limit {
-                found(0, self.point(0, up));
+    /// Adds to `out` the number and the position ([`point`](Self::point), m) of each of the feature's points whose height
+    /// along the unit vector `up` (in the feature's frame) is less than `limit`, m from the origin of that frame. Returns
+    /// true if that of the lowest is. `plane`: that of the circle met last in this frame, for the same `up`; it becomes that
+    /// of this one.
+    #[inline(always)]
+    pub fn points_below(
+        &self,
+        up: &Vec3,
+        limit: f64,
+        plane: &mut Option<CirclePlane>,
+        out: &mut Vec<(u8, Vec3)>,
+    ) -> bool {
+        let height = up.dot(&self.centre);
+        match self.form {
+            Form::Vertex if height < limit => out.push((0, self.centre)),
+            Form::Sphere(radius) if height - radius < limit => out.push((0, self.centre - up * radius)),
+            Form::Circle(axis, radius) => {
+                let plane = CirclePlane::known(plane, &axis, up);
+                if height - radius * plane.fall >= limit {
+                    return false;
+                }
+                out.push((0, self.centre + plane.down * radius));
+                // Nearly always the others, the second lowest of which are an eighth of a turn away, are not below.
+                if height - radius * HALF_ROOT * plane.fall >= limit {
+                    return true;
+                }
+                for (k, (s, c)) in (0..CIRCLE_POINTS).zip(EIGHTHS).skip(1) {
+                    if height - radius * c * plane.fall < limit {
+                        out.push((k, self.centre + (plane.down * c + plane.across * s) * radius));
+                    }
+                }
             }
-            return;
-        };
-        let (along, height) = (up.dot(&axis), up.dot(&self.centre));
-        let fall = libm::sqrt((1.0 - along * along).max(0.0));
-        if height - radius * fall >= limit {
-            return;
+            Form::Vertex | Form::Sphere(_) => return false,
         }
-        let e = downhill(&axis, up);
-        let across = axis.cross(&e);
-        for (k, (s, c)) in (0..CIRCLE_POINTS).zip(EIGHTHS) {
-            if height - radius * c * fall < limit {
-                found(k, self.centre + (e * c + across * s) * radius);
-            }
-        }
+        true
     }
 
     /// Returns the box along the axes of the feature's frame that just holds it, m.
@@ -164,14 +178,46 @@ fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     (across - axis * across.dot(axis)).normalize()
 }
 
+/// The directions in the planes of all circles with one axis, against one vertical.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CirclePlane {
+    axis: Vec3,
+    /// The sine of the angle between the axis and the vertical.
+    fall: f64,
+    /// The unit vector that goes down steepest, and the one across it.
+    down: Vec3,
+    across: Vec3,
+}
+
+impl CirclePlane {
+    fn new(axis: &Vec3, up: &Vec3) -> CirclePlane {
+        let (along, down) = (up.dot(axis), downhill(axis, up));
+        let fall = libm::sqrt((1.0 - along * along).max(0.0));
+        CirclePlane { axis: *axis, fall, down, across: axis.cross(&down) }
+    }
+
+    /// Returns the plane of circles with an axis: the known one if it is that.
+    #[inline(always)]
+    fn known(known: &mut Option<CirclePlane>, axis: &Vec3, up: &Vec3) -> CirclePlane {
+        match known {
+            Some(plane) if plane.axis == *axis => *plane,
+            _ => *known.insert(CirclePlane::new(axis, up)),
+        }
+    }
+}
+
 /// Returns the point in the middle of the line on which a cylinder with these two rims lies, in their frame (m), with
 /// `up` the unit vector upwards in that frame; `None` if they are not the rims of one. A wheel that turns on the spot
-/// sticks there, and not at a rim, as it would if only its rims bore it.
-pub fn tread(first: &Feature, second: &Feature, up: &Vec3) -> Option<Vec3> {
+/// sticks there, and not at a rim, as it would if only its rims bore it. `plane`: as [`Feature::points_below`] has it.
+#[inline(always)]
+pub fn tread(first: &Feature, second: &Feature, up: &Vec3, plane: &mut Option<CirclePlane>) -> Option<Vec3> {
     let (Form::Circle(axis, radius), Form::Circle(other, same)) = (first.form, second.form) else {
         return None;
     };
-    (axis == other && radius == same).then(|| (first.point(0, up) + second.point(0, up)) / 2.0)
+    (axis == other && radius == same).then(|| {
+        let lowest = CirclePlane::known(plane, &axis, up).down * radius;
+        ((first.centre + lowest) + (second.centre + lowest)) / 2.0
+    })
 }
 
 /// Returns the features of all shapes of a link, in the frame of the link, in the order in which the shapes are

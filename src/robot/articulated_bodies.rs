@@ -29,6 +29,8 @@ struct Body {
     attachment: Attachment,
     /// True if the body carries others; if not, its articulated inertia is its own.
     carries: bool,
+    /// True if the body is the last of those that its parent carries: the first to add to the parent's articulated inertia.
+    begins: bool,
     /// The twist of the body for a unit velocity of its joint; zero without one.
     axis: SpatialVector,
     velocity: SpatialVector,
@@ -60,6 +62,22 @@ impl Body {
     fn articulated(&self) -> &SpatialInertia {
         if self.carries { &self.inertia } else { &self.own_inertia }
     }
+
+    /// Adds the articulated inertia and bias force of a body that this one carries to its own; `begins`: true for the first
+    /// that adds.
+    #[inline(always)]
+    fn carry(&mut self, inertia: &SpatialInertia, bias: &SpatialVector, begins: bool) {
+        match begins {
+            true => {
+                self.inertia = self.own_inertia.plus(inertia);
+                self.bias = self.own_bias.plus(bias, 1.0);
+            }
+            false => {
+                self.inertia.add(inertia);
+                self.bias = self.bias.plus(bias, 1.0);
+            }
+        }
+    }
 }
 
 /// Trees of rigid bodies with the memory that their forward dynamics needs. Bodies go by their indices; those that
@@ -82,6 +100,7 @@ impl ArticulatedBodies {
             Body {
                 attachment: *attachment,
                 carries: false,
+                begins: false,
                 axis: SpatialVector::default(),
                 velocity: SpatialVector::default(),
                 mid_velocity: SpatialVector::default(),
@@ -100,8 +119,9 @@ impl ArticulatedBodies {
             }
         };
         let mut bodies: Vec<Body> = attachments.iter().enumerate().map(body).collect();
-        for attachment in attachments {
+        for (index, attachment) in attachments.iter().enumerate().rev() {
             if let Attachment::Joint(parent) | Attachment::Fixed(parent) = attachment {
+                bodies[index].begins = !bodies[*parent].carries;
                 bodies[*parent].carries = true;
             }
         }
@@ -128,7 +148,7 @@ impl ArticulatedBodies {
 
     /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
     /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `mid_rate` the one of which velocity products are taken.
-    #[inline]
+    #[inline(always)]
     pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, mid_rate: f64) {
         let (before, after) = self.bodies.split_at_mut(body);
         let body = &mut after[0];
@@ -155,7 +175,7 @@ impl ArticulatedBodies {
     /// Sets inertia and weight of a rigid body, whose motion must have been set; what was added to it before is gone. `R`: the
     /// rotation from its frame to the world; `com`: its centre of mass, from O in the world (m); `gravity`: the acceleration
     /// of free fall in the world, m/s².
-    #[inline]
+    #[inline(always)]
     pub fn set_rigid(
         &mut self,
         body: usize,
@@ -177,28 +197,16 @@ impl ArticulatedBodies {
     }
 
     /// Adds an inertia, such as that of an implicit contact, to a body, and a wrench that acts on it (N·m, N).
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, body: usize, inertia: &SpatialInertia, wrench: &SpatialVector) {
         let body = &mut self.bodies[body];
         body.own_inertia.add(inertia);
         body.own_bias = body.own_bias.plus(wrench, -1.0);
     }
 
-    /// Returns the inertia and the bias force of a body itself, with what was added to it, for
-    /// [`restore`](Self::restore).
-    pub fn own(&self, body: usize) -> (SpatialInertia, SpatialVector) {
-        (self.bodies[body].own_inertia, self.bodies[body].own_bias)
-    }
-
-    /// Sets inertia and bias force of a body back to what they were: takes back what was added since.
-    pub fn restore(&mut self, body: usize, (inertia, bias): &(SpatialInertia, SpatialVector)) {
-        self.bodies[body].own_inertia = *inertia;
-        self.bodies[body].own_bias = *bias;
-    }
-
     /// Sets the effort of a body's joint (N·m or N), and its armature: the inertia (kg·m² or kg) that it has besides that
     /// of the bodies, of its rotor or of an implicit servo.
-    #[inline]
+    #[inline(always)]
     pub fn set_effort(&mut self, body: usize, effort: f64, armature: f64) {
         self.bodies[body].effort = effort;
         self.bodies[body].armature = armature;
@@ -233,40 +241,34 @@ impl ArticulatedBodies {
     /// Finds the accelerations of all bodies, in time linear in their number (Featherstone 2008, table 7.1). `None` where
     /// a joint or a floating base has no inertia.
     #[must_use]
+    #[inline(always)]
     pub fn accelerate(&mut self) -> Option<()> {
-        for body in &mut self.bodies {
-            body.bias = body.own_bias;
-            if body.carries {
-                body.inertia = body.own_inertia;
-            }
-        }
         for index in (0..self.bodies.len()).rev() {
             let (before, after) = self.bodies.split_at_mut(index);
             let body = &mut after[0];
+            if !body.carries {
+                body.bias = body.own_bias;
+            }
             match body.attachment {
                 Attachment::Joint(parent) => {
-                    let (inertia, bias) = (body.articulated(), body.bias);
+                    let (inertia, bias) = (body.articulated(), &body.bias);
                     let force = inertia.times(&body.axis);
                     let joint_inertia = body.axis.dot(&force) + body.armature;
                     if joint_inertia.is_nan() || joint_inertia <= 0.0 {
                         return None;
                     }
-                    let joint_effort = body.effort - body.axis.dot(&bias);
+                    let joint_effort = body.effort - body.axis.dot(bias);
                     let mobility = 1.0 / joint_inertia;
                     let left = inertia.less(&force, mobility);
                     let pushed =
                         bias.plus(&left.times(&body.product), 1.0).plus(&force, joint_effort * mobility);
-                    let parent = &mut before[parent];
-                    parent.inertia.add(&left);
-                    parent.bias = parent.bias.plus(&pushed, 1.0);
+                    before[parent].carry(&left, &pushed, body.begins);
                     body.force = force;
                     body.joint_mobility = mobility;
                     body.joint_effort = joint_effort;
                 }
                 Attachment::Fixed(parent) => {
-                    let parent = &mut before[parent];
-                    parent.inertia.add(body.articulated());
-                    parent.bias = parent.bias.plus(&body.bias, 1.0);
+                    before[parent].carry(body.articulated(), &body.bias, body.begins);
                 }
                 Attachment::Floating | Attachment::Held => {}
             }

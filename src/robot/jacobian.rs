@@ -85,7 +85,7 @@ impl Step {
     }
 
     /// Returns the axis as [`axis_between`](Self::axis_between) does; `R_WB`: the rotation of the child's pose as a matrix.
-    #[inline]
+    #[inline(always)]
     pub fn axis_turned(&self, X_WA: &Pose, X_WB: &Pose, R_WB: &Matrix3<f64>) -> Option<JointAxis> {
         let axis = match self.motion {
             Motion::Along(direction) => {

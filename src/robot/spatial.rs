@@ -105,6 +105,12 @@ impl Symmetric {
         )
     }
 
+    /// Returns the sum with another matrix.
+    #[inline]
+    pub fn plus(&self, other: &Symmetric) -> Symmetric {
+        Symmetric { entries: std::array::from_fn(|entry| self.entries[entry] + other.entries[entry]) }
+    }
+
     /// Adds another matrix.
     #[inline]
     pub fn add(&mut self, other: &Symmetric) {
@@ -201,6 +207,16 @@ impl SpatialInertia {
         SpatialVector {
             angular: self.angular.times(&v.angular) + self.mixed * v.linear,
             linear: self.mixed.tr_mul(&v.angular) + self.linear.times(&v.linear),
+        }
+    }
+
+    /// Returns the sum with another inertia.
+    #[inline]
+    pub fn plus(&self, other: &SpatialInertia) -> SpatialInertia {
+        SpatialInertia {
+            angular: self.angular.plus(&other.angular),
+            mixed: self.mixed + other.mixed,
+            linear: self.linear.plus(&other.linear),
         }
     }
 

@@ -169,7 +169,7 @@ impl Step {
 
     /// Returns the world pose `X_WB` of the child from that of the parent, `X_WA`, with the step at a position (rad or
     /// m) of its own, whatever its joints are at.
-    #[inline]
+    #[inline(always)]
     pub fn child_pose_at(&self, X_WA: &Pose, position: f64) -> Pose {
         let mut shift = self.shift;
         let mut rotation = if self.turned { X_WA.rotation * self.turn } else { X_WA.rotation };
@@ -189,7 +189,7 @@ impl Step {
     }
 
     /// Returns `R · Rot(axis, angle)`; an axis of the frame costs half the products.
-    #[inline]
+    #[inline(always)]
     fn rotated(&self, R: UnitQuaternion<f64>, angle: f64) -> UnitQuaternion<f64> {
         let (s, c) = sin_cos(0.5 * angle);
         let (w, x, y, z) = (R.w, R.i, R.j, R.k);

@@ -50,6 +50,7 @@ pub(super) struct Contact {
 impl Contact {
     /// Returns a contact at the start of step `now` with what is known of its spring. `normal`: a unit vector; `depth`: m;
     /// `step`: the time step, s.
+    #[inline(always)]
     pub(super) fn new(
         normal: Vec3,
         depth: f64,
@@ -76,7 +77,8 @@ impl Contact {
     }
 
     /// Finds the force for the velocity (m/s) that a round found, and how the contact goes on: whether it pushes, and which
-    /// part of its spring's force friction bears. Returns how much the force would change, N.
+    /// part of its spring's force friction bears. Returns the square of how much the force would change, N².
+    #[inline(always)]
     pub(super) fn update(&mut self, velocity: &Vec3) -> f64 {
         let along = self.normal.dot(velocity);
         let slip = velocity - self.normal * along;
@@ -92,7 +94,7 @@ impl Contact {
         let ([slides, sticks], size) = (self.friction.map(|friction| friction * pressing), tried.norm());
         self.share = if size <= sticks { 1.0 } else { slides / size };
         self.changed = before != (self.pushes, self.share);
-        (self.normal * pressing + tried * self.share - self.force).norm()
+        (self.normal * pressing + tried * self.share - self.force).norm_squared()
     }
 
     /// Returns the speed at which it slides, m/s, for the velocity (m/s) at the end of the step; 0 while it sticks or does not
@@ -103,6 +105,7 @@ impl Contact {
 
     /// Returns the spring as the step after that of number `now` finds it, for the velocity (m/s) at the end of this one;
     /// `step`: the time step, s.
+    #[inline(always)]
     pub(super) fn kept(&self, velocity: &Vec3, step: f64, now: u64) -> Spring {
         // A spring that slips is as long as its force says.
         let shift = match self.share < 1.0 {

@@ -168,6 +168,7 @@ impl Couplings {
 
     /// Finds the rows at an instant. `commands`: the commanded position and velocity of each joint by its id.
     /// `bodies`: the bodies with their velocities; `now`: the number of the step.
+    #[inline(always)]
     pub(super) fn find(
         &mut self,
         model: &Model,

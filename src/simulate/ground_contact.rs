@@ -5,7 +5,7 @@
 
 use super::contact::{Contact, Spring};
 use super::model::{Model, Surface};
-use crate::geometry::ground_features::{CIRCLE_POINTS, Feature, tread};
+use crate::geometry::ground_features::{CIRCLE_POINTS, CirclePlane, Feature, tread};
 use crate::geometry::{HeightField, Pose, Vec3};
 use crate::robot::articulated_bodies::ArticulatedBodies;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
@@ -32,12 +32,11 @@ pub(super) struct GroundContact {
 /// The greatest number of points of a feature: those of a circle, and one between two rims.
 const FEATURE_POINTS: usize = CIRCLE_POINTS as usize + 1;
 
-/// A point of a body below the ground: its spring, its position in the world (m), the centre of its feature there (m), and
-/// the ground's normal there and the depth along it, m.
+/// A point of a body below the ground: its number among those of the body, its position in the world (m), the centre of its
+/// feature there (m), and the ground's normal there and the depth along it, m.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
-    body: usize,
-    spring: usize,
+    point: usize,
     at: Vec3,
     centre: Vec3,
     normal: Vec3,
@@ -53,6 +52,9 @@ pub(super) struct GroundContacts {
     pub contacts: Vec<GroundContact>,
     /// The number of the last step in which each body touched the ground; 0: none.
     touched: Vec<u64>,
+    /// The memory in which the points of one feature, and of one body, are found.
+    points: Vec<(u8, Vec3)>,
+    touches: Vec<Touch>,
     /// The height field with its greatest height, m; `None`: the ground is level.
     terrain: Option<(Arc<HeightField>, f64)>,
     /// The way that each body has slid over the ground since the start, m: of its points that slide, the fastest counts.
@@ -69,6 +71,8 @@ impl GroundContacts {
         GroundContacts {
             springs: vec![Spring::default(); springs],
             contacts: Vec::new(),
+            points: Vec::new(),
+            touches: Vec::new(),
             touched: vec![0; model.bodies.len()],
             slid: vec![0.0; model.bodies.len()],
             terrain: terrain.map(|field| (field.clone(), field.highest())),
@@ -78,6 +82,7 @@ impl GroundContacts {
 
     /// Finds the points below the ground. `bodies`: the bodies with their velocities; `poses`: their world poses;
     /// `origin`: the point that spatial vectors are about; `now`: the number of the step, from 1.
+    #[inline(always)]
     pub(super) fn find(
         &mut self,
         model: &Model,
@@ -88,6 +93,7 @@ impl GroundContacts {
     ) {
         self.contacts.clear();
         let terrain = self.terrain.take();
+        let (mut points, mut touches) = (std::mem::take(&mut self.points), std::mem::take(&mut self.touches));
         let mut first = 0;
         for (index, body) in model.bodies.iter().enumerate() {
             let own = first;
@@ -99,47 +105,49 @@ impl GroundContacts {
             if body.features.is_empty() || height + body.bounds.lowest(&own_up) >= highest {
                 continue;
             }
-            let found = |(number, k), at, centre, normal, depth| {
-                let spring = own + number * FEATURE_POINTS + usize::from(k);
-                let touch = Touch { body: index, spring, at, centre, normal, depth };
-                self.contacts.push(self.contact(touch, bodies, &body.surface, origin, now));
-            };
+            touches.clear();
             match &terrain {
-                None => level(&body.features, pose, &own_up, found),
-                Some((field, _)) => uneven(&body.features, pose, field, found),
+                None => level(&body.features, pose, &own_up, &mut points, &mut touches),
+                Some((field, _)) => uneven(&body.features, pose, field, &mut touches),
+            }
+            for touch in &touches {
+                let spring = own + touch.point;
+                self.contacts.push(self.contact((index, spring), touch, bodies, &body.surface, origin, now));
             }
             if self.contacts.last().is_some_and(|contact| contact.body == index) {
                 self.touched[index] = now;
             }
         }
-        self.terrain = terrain;
+        (self.terrain, self.points, self.touches) = (terrain, points, touches);
     }
 
-    /// Returns the contact of a point.
+    /// Returns the contact of a point of a body with a spring, both by their indices.
+    #[inline(always)]
     fn contact(
         &self,
-        touch: Touch,
+        (body, spring): (usize, usize),
+        touch: &Touch,
         bodies: &ArticulatedBodies,
         surface: &Surface,
         origin: &Vec3,
         now: u64,
     ) -> GroundContact {
-        let twist = bodies.velocity(touch.body);
+        let twist = bodies.velocity(body);
         // The touching point of a round feature goes with its centre, not with the material.
         let turning = twist.angular.cross(&twist.at(&(touch.centre - origin))) * self.step;
         let point = touch.at - origin;
         GroundContact {
-            body: touch.body,
-            spring: touch.spring,
+            body,
+            spring,
             point,
             coasting: twist.at(&point) + turning,
             velocity: Vec3::zeros(),
-            is_new: self.touched[touch.body] == 0 || self.touched[touch.body] + 1 < now,
+            is_new: self.touched[body] == 0 || self.touched[body] + 1 < now,
             contact: Contact::new(
                 touch.normal,
                 touch.depth,
                 surface,
-                (&self.springs[touch.spring], now),
+                (&self.springs[spring], now),
                 self.step,
             ),
         }
@@ -157,27 +165,30 @@ impl GroundContacts {
     }
 
     /// Adds the contacts to their bodies: each counts as an inertia `h C` besides its force. In rounds after the first one
-    /// (`again`) only the bodies are set anew of which a contact changed. `owns`: the bodies that touch, in the order of
-    /// their contacts, each with its own inertia and bias force.
+    /// (`again`) only the bodies are set anew of which a contact changed: `restore` takes back what was added to a body.
+    #[inline(always)]
     pub(super) fn add_to(
         &self,
         bodies: &mut ArticulatedBodies,
-        owns: &[(usize, (SpatialInertia, SpatialVector))],
         again: bool,
+        restore: impl Fn(&mut ArticulatedBodies, usize),
     ) {
-        for (of_body, (body, own)) in self.contacts.chunk_by(|a, b| a.body == b.body).zip(owns) {
+        for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
             if again {
                 if !of_body.iter().any(|contact| contact.contact.changed) {
                     continue;
                 }
-                bodies.restore(*body, own);
+                restore(bodies, of_body[0].body);
             }
-            of_body.iter().for_each(|contact| contact.add_to(bodies, self.step));
+            for contact in of_body {
+                contact.add_to(bodies, self.step);
+            }
         }
     }
 
     /// Finds the forces of the contacts for the accelerations of a round, and how they go on. Returns the greatest change
     /// of a force that comes of it, N.
+    #[inline(always)]
     pub(super) fn update(&mut self, bodies: &ArticulatedBodies) -> f64 {
         let mut greatest: f64 = 0.0;
         for contact in &mut self.contacts {
@@ -185,10 +196,11 @@ impl GroundContacts {
                 contact.coasting + bodies.acceleration(contact.body).at(&contact.point) * self.step;
             greatest = greatest.max(contact.contact.update(&contact.velocity));
         }
-        greatest
+        greatest.sqrt()
     }
 
     /// Keeps the springs for the next step, when the rounds have ended; `now`: the number of this one.
+    #[inline(always)]
     pub(super) fn keep(&mut self, now: u64) {
         // The contacts of a body follow each other.
         for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
@@ -202,65 +214,67 @@ impl GroundContacts {
     }
 }
 
-/// Finds the points of a body's features below level ground. Calls `found` with the number of the feature and that of the
-/// point in it, the point and the centre of its feature in the world (m), the ground's normal, and the depth, m. `up`: the
-/// vertical in the frame of the link.
-fn level(
-    features: &[Feature],
-    pose: &Pose,
-    up: &Vec3,
-    mut found: impl FnMut((usize, u8), Vec3, Vec3, Vec3, f64),
-) {
+/// Adds the points of a body's features below level ground to `out`. `up`: the vertical in the frame of the link; `points`:
+/// memory.
+#[inline(always)]
+fn level(features: &[Feature], pose: &Pose, up: &Vec3, points: &mut Vec<(u8, Vec3)>, out: &mut Vec<Touch>) {
     let height = pose.translation.vector.z;
+    let mut plane = None;
     for (number, feature) in features.iter().enumerate() {
-        if height + feature.lowest(up) >= 0.0 {
+        points.clear();
+        if feature.points_below(up, -height, &mut plane, points)
+            && let Some(between) = between_rims(features, number, up, &mut plane)
+        {
+            points.push(between);
+        }
+        if points.is_empty() {
             continue;
         }
         let centre = pose.transform_point(&feature.centre.into()).coords;
-        let mut touches = |k, p: Vec3| {
-            let at = pose.transform_point(&p.into()).coords;
+        for (k, p) in points.iter() {
+            let at = pose.transform_point(&(*p).into()).coords;
             if at.z < 0.0 {
-                found((number, k), at, centre, Vec3::z(), -at.z);
+                let point = number * FEATURE_POINTS + usize::from(*k);
+                out.push(Touch { point, at, centre, normal: Vec3::z(), depth: -at.z });
             }
-        };
-        feature.points_below(up, -height, &mut touches);
-        if let Some((k, p)) = between_rims(features, number, up) {
-            touches(k, p);
         }
     }
 }
 
-/// Finds the points of a body's features below uneven ground, as [`level`] does on level one. Round features touch it
-/// where they are lowest along the ground's normal under their centre.
-fn uneven(
-    features: &[Feature],
-    pose: &Pose,
-    field: &HeightField,
-    mut found: impl FnMut((usize, u8), Vec3, Vec3, Vec3, f64),
-) {
+/// Adds the points of a body's features below uneven ground to `out`. Round features touch it where they are lowest along
+/// the ground's normal under their centre.
+fn uneven(features: &[Feature], pose: &Pose, field: &HeightField, out: &mut Vec<Touch>) {
     for (number, feature) in features.iter().enumerate() {
         let centre = pose.transform_point(&feature.centre.into()).coords;
         let up = pose.rotation.inverse_transform_vector(&field.normal(centre.x, centre.y));
         let points = (0..feature.points()).map(|k| (k, feature.point(k, &up)));
-        for (k, p) in points.chain(between_rims(features, number, &up)) {
+        for (k, p) in points.chain(between_rims(features, number, &up, &mut None)) {
             let at = pose.transform_point(&p.into()).coords;
             let above = field.above(at);
             if above < 0.0 {
                 let normal = field.normal(at.x, at.y);
-                found((number, k), at, centre, normal, -above * normal.z);
+                let point = number * FEATURE_POINTS + usize::from(k);
+                out.push(Touch { point, at, centre, normal, depth: -above * normal.z });
             }
         }
     }
 }
 
 /// Returns the point between a rim and the one before it, with its number in the feature, if both are of one cylinder.
-fn between_rims(features: &[Feature], number: usize, up: &Vec3) -> Option<(u8, Vec3)> {
+#[inline(always)]
+fn between_rims(
+    features: &[Feature],
+    number: usize,
+    up: &Vec3,
+    plane: &mut Option<CirclePlane>,
+) -> Option<(u8, Vec3)> {
     let before = number.checked_sub(1)?;
-    tread(&features[before], &features[number], up).map(|p| (CIRCLE_POINTS, p))
+    tread(&features[before], &features[number], up, plane).map(|p| (CIRCLE_POINTS, p))
 }
 
 impl GroundContact {
     /// Adds the contact to its body.
+    #[inline(always)]
     fn add_to(&self, bodies: &mut ArticulatedBodies, step: f64) {
         let Contact { normal, depth, stiffness, resistance, shift, pushes, share, .. } = self.contact;
         if !pushes {

@@ -41,7 +41,7 @@ struct Pair {
 /// A contact of two links.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkContact {
-    /// The index of its pair.
+    /// The place of its pair in `pairs`.
     pair: usize,
     /// The first body, by its index.
     pub first: usize,
@@ -65,19 +65,21 @@ pub(super) struct LinkContacts {
     excluded: BTreeSet<(usize, usize)>,
     /// The pairs of bodies that bonds in no tree hold together now, likewise.
     bonded: BTreeSet<(usize, usize)>,
+    /// The pairs that are near each other, ascending by their shapes.
     pairs: Vec<Pair>,
-    /// The places in `pairs` that are not used now.
-    unused: Vec<usize>,
-    /// The pairs that are near each other, ascending: their shapes, and their places in `pairs`.
-    listed: Vec<(usize, usize, usize)>,
     /// The bodies of each pair in that order, and the length of both their paths together up to which its shapes can't meet,
     /// m.
     asleep: Vec<(u32, u32, f64)>,
     /// Both as they were before the last listing; only their memory is used.
-    listed_before: Vec<(usize, usize, usize)>,
+    pairs_before: Vec<Pair>,
     asleep_before: Vec<(u32, u32, f64)>,
-    /// The places in `listed` of the pairs that do not sleep in this step, and then others.
+    /// The places in `pairs` of those that may wake before `gone_most` is `alert_until`, ascending.
+    alert: Vec<u32>,
+    alert_until: f64,
+    /// The places in `pairs` of those that do not sleep in this step, and then others.
     awake: Vec<u32>,
+    /// The sum of the longest paths of any body in each step since the start, m.
+    gone_most: f64,
     /// The length of the path of each body since the start, m, with [`TURNING`]: no point of its shapes has gone farther.
     gone: Vec<f64>,
     /// The lengths of the paths when the pairs were listed, m; -∞ where they must be listed anew.
@@ -88,6 +90,12 @@ pub(super) struct LinkContacts {
 
 /// The factor on the length of paths for what turns in a step, so that speeds change on the way.
 const TURNING: f64 = 1.1;
+
+/// The steps, as long as the last one, after which it is found anew which pairs may wake soon.
+const ALERT_STEPS: f64 = 8.0;
+
+/// The part of that way that is gone until then: the sum of lengths is rounded.
+const ALERT_PART: f64 = 0.999;
 
 /// The distance within which pairs are listed, m.
 const NEAR: f64 = 0.04;
@@ -214,31 +222,38 @@ impl LinkContacts {
     }
 
     /// Finds the links that meet in step `now`. `bodies`: the bodies with their velocities.
+    #[inline(always)]
     pub(super) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
         self.contacts.clear();
-        let mut farthest: f64 = 0.0;
+        let (mut farthest, mut most): (f64, f64) = (0.0, 0.0);
         for (body, reach) in self.reaches.iter().enumerate().filter(|(_, reach)| **reach > 0.0) {
             let (twist, centre) = (bodies.velocity(body), at.poses[body].translation.vector - at.origin);
             let speed = twist.at(&centre).norm() + twist.angular.norm() * reach;
-            self.gone[body] += TURNING * speed * at.step;
+            let path = TURNING * speed * at.step;
+            self.gone[body] += path;
+            most = most.max(path);
             farthest = farthest.max(self.gone[body] - self.gone_listed[body]);
         }
+        self.gone_most += most;
         if 2.0 * farthest >= NEAR {
             self.list(at);
         }
+        if self.gone_most >= self.alert_until {
+            self.find_alert(ALERT_STEPS * most);
+        }
         // Without a jump for each pair, which would often be guessed wrong.
-        self.awake.resize(self.asleep.len(), 0);
+        self.awake.resize(self.alert.len(), 0);
         let mut count = 0;
-        for (number, (first, second, until)) in self.asleep.iter().enumerate() {
-            self.awake[count] = number as u32;
+        for number in &self.alert {
+            let (first, second, until) = &self.asleep[*number as usize];
+            self.awake[count] = *number;
             count += usize::from(self.gone[*first as usize] + self.gone[*second as usize] >= *until);
         }
         for awake in 0..count {
             let number = self.awake[awake] as usize;
             let (first, second) = (self.asleep[number].0 as usize, self.asleep[number].1 as usize);
             let gone = self.gone[first] + self.gone[second];
-            let index = self.listed[number].2;
-            let pair = &self.pairs[index];
+            let pair = &self.pairs[number];
             let X_AB = at.poses[first].inv_mul(&at.poses[second]);
             if pair.gap > 0.0 {
                 let left = pair.gap - displacement(&pair.around, &pair.X_AB, &X_AB);
@@ -255,53 +270,61 @@ impl LinkContacts {
                 let on_a = contact_point(&a.part, &b.part, &X_AB);
                 let surface = model.bodies[a.body].surface.against(&model.bodies[b.body].surface);
                 self.contacts.push(LinkContact {
-                    pair: index,
+                    pair: number,
                     first: a.body,
                     second: b.body,
                     point: at.poses[a.body].transform_point(&on_a.into()).coords - at.origin,
                     contact: Contact::new(normal, depth, &surface, (&pair.spring, now), at.step),
                 });
             }
-            let pair = &mut self.pairs[index];
+            let pair = &mut self.pairs[number];
             (pair.gap, pair.X_AB, pair.normal) = (-depth, X_AB, Some(found.normal));
             self.asleep[number].2 = if depth < 0.0 { gone - depth } else { 0.0 };
         }
+    }
+
+    /// Finds the pairs that may wake before any body has gone farther by a length, m.
+    fn find_alert(&mut self, length: f64) {
+        // Neither of two bodies goes farther than the one that goes farthest.
+        let soon = |(first, second, until): &(u32, u32, f64)| {
+            *until - (self.gone[*first as usize] + self.gone[*second as usize]) <= 2.0 * length
+        };
+        self.alert.resize(self.asleep.len(), 0);
+        let mut count = 0;
+        for (pair, number) in self.asleep.iter().zip(0..) {
+            self.alert[count] = number;
+            count += usize::from(soon(pair));
+        }
+        self.alert.truncate(count);
+        self.alert_until = self.gone_most + ALERT_PART * length;
     }
 
     /// Lists the pairs that are near each other now; of those that were listed all that is known stays, and they sleep on.
     fn list(&mut self, at: &Instant) {
         let mut near = self.near(at.poses);
         near.sort_unstable();
-        std::mem::swap(&mut self.listed, &mut self.listed_before);
+        std::mem::swap(&mut self.pairs, &mut self.pairs_before);
         std::mem::swap(&mut self.asleep, &mut self.asleep_before);
-        self.listed.clear();
+        self.pairs.clear();
         self.asleep.clear();
-        let mut before = self.listed_before.iter().zip(&self.asleep_before).peekable();
+        let mut before = self.pairs_before.iter().zip(&self.asleep_before).peekable();
         for (first, second) in near {
-            while let Some((known, _)) = before.next_if(|(known, _)| (known.0, known.1) < (first, second)) {
-                self.unused.push(known.2);
-            }
-            if let Some((known, asleep)) = before.next_if(|(known, _)| (known.0, known.1) == (first, second))
-            {
-                self.listed.push(*known);
+            let shapes = |(known, _): &(&Pair, _)| (known.first, known.second);
+            while before.next_if(|known| shapes(known) < (first, second)).is_some() {}
+            if let Some((known, asleep)) = before.next_if(|known| shapes(known) == (first, second)) {
+                self.pairs.push(known.clone());
                 self.asleep.push(*asleep);
                 continue;
             }
             let part = &self.shapes[second].part;
             let around = (part.centre, part.radius);
             let (X_AB, spring) = (Pose::identity(), Spring::default());
-            let pair = Pair { first, second, gap: -1.0, X_AB, around, normal: None, spring };
-            let slot = self.unused.pop().unwrap_or(self.pairs.len());
-            match self.pairs.get_mut(slot) {
-                Some(unused) => *unused = pair,
-                None => self.pairs.push(pair),
-            }
-            self.listed.push((first, second, slot));
+            self.pairs.push(Pair { first, second, gap: -1.0, X_AB, around, normal: None, spring });
             let body = |shape: usize| self.shapes[shape].body as u32;
             self.asleep.push((body(first), body(second), 0.0));
         }
-        self.unused.extend(before.map(|(known, _)| known.2));
         self.gone_listed.clone_from(&self.gone);
+        self.alert_until = f64::NEG_INFINITY;
     }
 
     /// Adds a row for the normal of each contact that pushes, and two across it where friction bears something.
@@ -338,7 +361,7 @@ impl LinkContacts {
             let velocity = contact.velocity(bodies, step);
             greatest = greatest.max(contact.contact.update(&velocity));
         }
-        greatest
+        greatest.sqrt()
     }
 
     /// Keeps the springs for the next step, when the rounds of step `now` have ended.
@@ -360,7 +383,7 @@ impl LinkContact {
 
 /// Returns an upper bound on the distance (m) by which a point within a sphere, given by its centre and radius (m), moves from
 /// one pose of its frame to another.
-#[inline]
+#[inline(always)]
 fn displacement((centre, radius): &(Vec3, f64), before: &Pose, after: &Pose) -> f64 {
     let shift = after.transform_point(&(*centre).into()) - before.transform_point(&(*centre).into());
     // A turn by θ moves a point at the distance r by 2 r sin(θ / 2), which is at most 4 r sin(θ / 4); quaternions that

@@ -16,7 +16,7 @@ use crate::geometry::pose::turned;
 use crate::geometry::{Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
-use crate::robot::spatial::{SpatialInertia, SpatialVector};
+use crate::robot::spatial::SpatialVector;
 use crate::robot::{Assembly, PortRef};
 
 /// The state of a servo in a step.
@@ -60,8 +60,6 @@ pub(super) struct Stepper<'a> {
     /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
     pub efforts: Vec<f64>,
     servos: Vec<ServoState>,
-    /// The bodies that touch the ground, each once, with their own inertia and bias.
-    touched: Vec<(usize, (SpatialInertia, SpatialVector))>,
     /// The point that spatial vectors were about in the step taken last, m.
     pub origin: Vec3,
     /// The height of the centre of mass at the start of the step taken last, m.
@@ -103,7 +101,6 @@ impl<'a> Stepper<'a> {
             mid_rates: vec![0.0; count],
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
-            touched: Vec::new(),
             origin: Vec3::zeros(),
             centre_height: 0.0,
             number: 0,
@@ -116,33 +113,55 @@ impl<'a> Stepper<'a> {
     /// # Errors
     /// [`NoInertia`] where a joint or base has no inertia, or values are not finite any more.
     pub(super) fn take(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has the instructions that the function was compiled for.
+            return unsafe { self.take_with_avx2(commands, time) };
+        }
+        self.take_any(commands, time)
+    }
+
+    /// Takes a step as [`take`](Self::take) does, with the wider instructions of newer processors. They do the same
+    /// arithmetic: a product and a sum are never rounded as one.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn take_with_avx2(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
+        self.take_any(commands, time)
+    }
+
+    /// Takes a step as [`take`](Self::take) does, with the instructions that its caller is compiled for.
+    #[inline(always)]
+    fn take_any(&mut self, commands: &[(f64, f64)], time: f64) -> Result<(), NoInertia> {
         self.number += 1;
         let origin = self.bases[0].translation.vector;
         self.origin = origin;
         self.place(&origin);
         if let Some(ground) = &mut self.ground {
             ground.find(self.model, &self.bodies, &self.poses, &origin, self.number);
-            self.touched.clear();
-            for contact in &ground.contacts {
-                if self.touched.last().is_none_or(|(body, _)| *body != contact.body) {
-                    self.touched.push((contact.body, self.bodies.own(contact.body)));
-                }
-            }
         }
         let at =
             Instant { time, step: self.step, poses: &self.poses, origin, coordinates: &self.coordinates };
         self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
         self.servos.iter_mut().for_each(|servo| servo.stop = None);
         let weight = self.model.mass * self.gravity.norm().max(1.0);
-        (0..self.servos.len()).for_each(|at| self.set_servo(at, commands));
+        for at in 0..self.servos.len() {
+            self.set_servo(at, commands);
+        }
         for round in 0..PARAMETERS.rounds_max {
             if let Some(ground) = &self.ground {
-                ground.add_to(&mut self.bodies, &self.touched, round > 0);
+                let (model, poses, gravity) = (self.model, &self.poses, &self.gravity);
+                ground.add_to(&mut self.bodies, round > 0, |bodies, body| {
+                    let turn = *poses[body].rotation.to_rotation_matrix().matrix();
+                    set_rigid(bodies, body, model, (&poses[body], &turn), &origin, gravity);
+                });
             }
             self.bodies.accelerate().ok_or(NoInertia)?;
             let solved = self.couplings.solve(self.model, &mut self.bodies, self.step, &self.rates);
             solved.ok_or(NoInertia)?;
-            let of_ground = self.ground.as_mut().map_or(0.0, |ground| ground.update(&self.bodies));
+            let of_ground = match &mut self.ground {
+                Some(ground) => ground.update(&self.bodies),
+                None => 0.0,
+            };
             let change = self.couplings.update(&self.bodies, self.step).max(of_ground);
             let settled = self.update_servos(commands);
             if settled && change <= PARAMETERS.force_change * weight {
@@ -157,6 +176,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Finds the poses, twists and rigid inertias of all bodies; spatial vectors are about `origin`.
+    #[inline(always)]
     fn place(&mut self, origin: &Vec3) {
         let mut first = 0.0;
         for (at, body) in self.model.bodies.iter().enumerate() {
@@ -182,15 +202,15 @@ impl<'a> Stepper<'a> {
                     self.bodies.set_base(at, about(self.twists[at]), about(self.mid_twists[at]), held);
                 }
             }
-            let com = self.poses[at].translation.vector + turn * body.rigid.com - origin;
+            let pose = (&self.poses[at], &turn);
+            let com = set_rigid(&mut self.bodies, at, self.model, pose, origin, &self.gravity);
             first += com.z * body.rigid.mass;
-            self.bodies.set_rigid(at, &body.rigid, &turn, &com, &self.gravity);
         }
         self.centre_height = if self.model.mass > 0.0 { origin.z + first / self.model.mass } else { 0.0 };
     }
 
     /// Sets the effort of a body's joint, if it has one, as its servo is now.
-    #[inline]
+    #[inline(always)]
     fn set_servo(&mut self, at: usize, commands: &[(f64, f64)]) {
         let h = self.step;
         let Some(joint) = &self.model.bodies[at].joint else { return };
@@ -230,6 +250,7 @@ impl<'a> Stepper<'a> {
 
     /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
     /// true if that was known.
+    #[inline(always)]
     fn update_servos(&mut self, commands: &[(f64, f64)]) -> bool {
         let h = self.step;
         let mut settled = true;
@@ -271,6 +292,7 @@ impl<'a> Stepper<'a> {
     }
 
     /// Moves on by the accelerations found.
+    #[inline(always)]
     fn move_on(&mut self, origin: &Vec3) -> Result<(), NoInertia> {
         let h = self.step;
         let mut sum = 0.0;
@@ -390,6 +412,23 @@ impl<'a> Stepper<'a> {
     pub(super) fn base(&self, body: usize) -> &Pose {
         &self.bases[body]
     }
+}
+
+/// Sets inertia and weight of a body, whose motion must have been set. Returns its centre of mass, from `origin`, m. `pose`: its
+/// pose in the world, with the rotation as a matrix.
+#[inline(always)]
+fn set_rigid(
+    bodies: &mut ArticulatedBodies,
+    body: usize,
+    model: &Model,
+    (pose, turn): (&Pose, &Mat3),
+    origin: &Vec3,
+    gravity: &Vec3,
+) -> Vec3 {
+    let rigid = &model.bodies[body].rigid;
+    let com = pose.translation.vector + turn * rigid.com - origin;
+    bodies.set_rigid(body, rigid, turn, &com, gravity);
+    com
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -40,7 +40,7 @@ fn ground_features_are_as_low_as_the_solid() {
                 let (at, height) = (feature.point(0, &up), feature.lowest(&up));
                 assert!((at.dot(&up) - height).abs() < 1e-12);
                 let mut below = Vec::new();
-                feature.points_below(&up, height + 0.004, |k, p| below.push((k, p)));
+                feature.points_below(&up, height + 0.004, &mut None, &mut below);
                 let points = (0..feature.points()).map(|k| (k, feature.point(k, &up)));
                 let expected: Vec<_> = points.filter(|(_, p)| p.dot(&up) < height + 0.004).collect();
                 assert_eq!(below.len(), expected.len());

@@ -125,7 +125,7 @@ impl<'a> Posed<'a> {
                     }
                 }
                 let rims = before.filter(|(other, _)| other + 1 == index);
-                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature, &up)) {
+                if let Some(p) = rims.and_then(|(_, other)| tread(&other, &feature, &up, &mut None)) {
                     near.push((p.z - lowest, link, index - 1, feature.points(), p));
                 }
                 before = Some((index, feature));
