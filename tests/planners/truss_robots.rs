@@ -112,6 +112,15 @@ fn steps_that_end_on_an_edge_stay_rigid() {
     assert_eq!(out, "arrived true\n");
 }
 
+/// A step that ends at the limit of rigidity may pass through a shape that is not rigid.
+#[test]
+fn steps_that_end_at_the_limit_of_rigidity_are_rigid_on_the_way() {
+    let out = run("truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)\n\
+         let m = morph(Pyramid, cube(edge: 2m), angle: 10deg)\n\
+         print(verify(m).ok)\n");
+    assert_eq!(out, "true\n");
+}
+
 #[test]
 fn other_trusses_and_targets_morph_and_their_plans_pass() {
     let mut program = icosahedron() + &variable();

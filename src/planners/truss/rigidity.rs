@@ -119,7 +119,7 @@ impl Default for Bound {
 
 impl Bound {
     /// Returns those of the positions `y` and half-way to them from `x` (m) at which a singular value is below the limit
-    /// of the truss, or within rounding of it; if there are none, others on the way at which it is far below.
+    /// of the truss, or within rounding of it; if it is clearly below at none, others on the way at which it is far below.
     pub(super) fn violated(&mut self, truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec<Vec3>> {
         let limit = truss.limits.rigidity;
         let middle = halfway(x, y);
@@ -145,12 +145,14 @@ impl Bound {
         }
         self.modest = self.modest.saturating_sub(1);
         self.x.clear();
-        let low = |z: &&[Vec3]| !is_above(truss, z, limit);
-        let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(low).map(<[Vec3]>::to_vec).collect();
-        if !low.is_empty() {
+        let is_low = |z: &&[Vec3]| !is_above(truss, z, limit);
+        let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(is_low).map(<[Vec3]>::to_vec).collect();
+        // Where a step ends within rounding of the limit nothing is asked of it, and it may be below on the way.
+        let clearly = limit - 2.0 * truss.tolerances.rounding;
+        if low.iter().any(|z| !is_above(truss, z, clearly)) {
             return low;
         }
-        [dips(truss, x, &middle, HALVINGS), dips(truss, &middle, y, HALVINGS)].concat()
+        [low, dips(truss, x, &middle, HALVINGS), dips(truss, &middle, y, HALVINGS)].concat()
     }
 
     fn holds(&self, truss: &Structure, y: &[Vec3], limit: f64) -> bool {

@@ -11,8 +11,13 @@ const METAL_COLOUR = [0.42, 0.45, 0.48];
 const BOX = 0;
 const MESHES = 3;
 /** Numbers of an instance: its three sides and its place in the world by rows [side, coordinate of the
-    place], colour and glow, number of the body. */
-const INSTANCE = 17;
+    place], colour and glow, number of the body, three that fill up its last texel. */
+const INSTANCE = 20;
+/** Indices of a mesh that are drawn at once, in as many copies as it takes: what draws in software begins anew for every
+    instance, which takes longer than a small mesh does. */
+const DRAWN_AT_ONCE = 6000;
+/** A place that no picture shows, m: that of copies without an instance. */
+const NOWHERE = 1e9;
 /** Numbers of a solid in its body: three sides, place. */
 const SOLID = 12;
 
@@ -147,13 +152,17 @@ function sidesOf(m) {
   });
 }
 
-/** Instances of one mesh, filled anew for every picture. `closed`: its inside is never seen. */
+/** Instances of one mesh, filled anew for every picture. They lie in a texture, from which every vertex reads its own: the
+    mesh is there in several copies. `closed`: its inside is never seen. */
 function batchOf(gl, mesh, capacity, closed, edged) {
-  const data = new Float32Array(INSTANCE * capacity);
-  const buffer = gl.createBuffer();
-  const each = [4, 4, 4, 4, 1].map((size, k) => [2 + k, buffer, size, 4 * INSTANCE, 16 * k, 1]);
-  const faces = arrayOf(gl, [[0, mesh.faces, 3, 36, 0, 0], [1, mesh.faces, 3, 36, 12, 0], [7, mesh.faces, 3, 36, 24, 0], ...each], mesh.index);
-  const lines = edged && mesh.ends ? arrayOf(gl, [[0, mesh.lines, 3, 24, 0, 0], [7, mesh.lines, 3, 24, 12, 0], ...each]) : null;
+  const { copies } = mesh;
+  const rows = Math.ceil((capacity + copies) / PER_ROW);
+  const data = new Float32Array(INSTANCE * PER_ROW * rows);
+  const texture = gl.createTexture();
+  gl.activeTexture(gl.TEXTURE2);
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, (PER_ROW * INSTANCE) / 4, rows);
+  for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
   return {
     count: 0,
     /** A solid as its body stands. Parts of one module are told apart by brightness, not by hue. */
@@ -175,18 +184,27 @@ function batchOf(gl, mesh, capacity, closed, edged) {
     },
     upload() {
       if (!this.count) return;
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      // Anew: a part of a buffer that is still read would be written into a copy of all of it.
-      gl.bufferData(gl.ARRAY_BUFFER, data.subarray(0, INSTANCE * this.count), gl.STREAM_DRAW);
+      for (let i = this.count; i % copies; i++) {
+        data.fill(0, INSTANCE * i, INSTANCE * (i + 1));
+        for (let r = 0; r < 3; r++) data[INSTANCE * i + 4 * r + 3] = NOWHERE;
+      }
+      gl.activeTexture(gl.TEXTURE2);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, (PER_ROW * INSTANCE) / 4, Math.ceil(this.count / PER_ROW), gl.RGBA, gl.FLOAT, data);
     },
     /** Draws them as `faces` or as `lines`; says how many calls it took. */
     draw(what) {
-      if (!this.count || (what === "lines" && !lines)) return 0;
-      gl.bindVertexArray(what === "lines" ? lines : faces);
-      if (what === "lines") gl.drawArraysInstanced(gl.LINES, 0, mesh.ends, this.count);
+      const part = mesh[what];
+      if (!this.count || !part.length || (what === "lines" && !edged)) return 0;
+      gl.activeTexture(gl.TEXTURE2);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.bindVertexArray(part.array);
+      const length = part.length * Math.min(copies, this.count);
+      const times = Math.ceil(this.count / copies);
+      if (what === "lines") gl.drawArraysInstanced(gl.LINES, 0, length, times);
       else {
         (closed ? gl.enable : gl.disable).call(gl, gl.CULL_FACE);
-        gl.drawElementsInstanced(gl.TRIANGLES, mesh.corners, gl.UNSIGNED_INT, 0, this.count);
+        gl.drawElementsInstanced(gl.TRIANGLES, length, gl.UNSIGNED_INT, 0, times);
       }
       return 1;
     },

@@ -195,7 +195,7 @@ function robotMotion(plan, body) {
 const eachItsOwn = modules => ({ collides: null, moduleOf: modules.map((_, i) => i), modules, joints: [], driven: [] });
 
 /** How far between its ends a stage is, with ramps at its start and its end. */
-function progress([first, last], u) {
+function stageProgress([first, last], u) {
   u = clamp(u, 0, 1);
   const speed = 2 / (2 - first - last);
   if (u < first) return (speed * u * u) / (2 * first);
@@ -283,7 +283,7 @@ function latticeMotion(plan, body) {
       const stage = body.stages[at];
       const a = endAt(at);
       const b = stage ? endAt(at + 1) : a;
-      const u = stage ? progress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
+      const u = stage ? stageProgress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
       for (let i = 0; i < n; i++) {
         const box = k => mix(a[6 * i + k], b[6 * i + k], u) * body.size;
         X.set([box(0), box(1), box(2) - low * body.size, 0, 0, 0, 0, 1, box(3), box(4), box(5)], POSE * i);
@@ -306,7 +306,7 @@ function latticeMotion(plan, body) {
 const KEYFRAMES_MARKED = 12;
 
 /** The progress of a step, 0..1: even, or with a trapezoid of rates of which `before` and `after` are cut off. */
-function progress(ramps, duration, t) {
+function stepProgress(ramps, duration, t) {
   if (!ramps) return t / duration;
   const [up, down, before, after] = ramps;
   const risen = clamp(up - before, 0, duration);
@@ -349,7 +349,7 @@ function trussMotion(plan, body) {
     const a = body.keyframes[Math.max(after - 1, 0)];
     const b = body.keyframes[after];
     if (!b) return i => a.at.slice(3 * i, 3 * i + 3);
-    const u = progress(b.ramps, b.time - a.time, t - a.time);
+    const u = stepProgress(b.ramps, b.time - a.time, t - a.time);
     if (!b.roll) return i => [0, 1, 2].map(k => mix(a.at[3 * i + k], b.at[3 * i + k], u));
     const [from, to, angle] = b.roll;
     const origin = a.at.slice(3 * from, 3 * from + 3);

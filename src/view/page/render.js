@@ -4,6 +4,8 @@ const SUN = unit([0.42, -0.55, 1.05]);
 const SHADOW_SIZE = 2048;
 /** The shapes that every plan has, before the meshes of its own. */
 const OWN_SHAPES = 3;
+/** Copies of a mesh that are drawn at once, at most. */
+const COPIES_MAX = 128;
 /** Pixels of the map of one direction of the sky. */
 const SKY_SIZE = 256;
 const SKY_DETAIL = 0.15;
@@ -35,7 +37,7 @@ const jitterOf = round => [((round * 5 + 2) % REFINED) / REFINED - 0.5, ((round 
 
 /** Throws where WebGL 2 is missing. */
 function rendererOf(canvas, plan, motion) {
-  const gl = canvas.getContext("webgl2", { antialias: false, alpha: true, powerPreference: "high-performance", preserveDrawingBuffer: false });
+  const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, powerPreference: "high-performance", preserveDrawingBuffer: false });
   if (!gl) throw new Error("WebGL 2 is missing");
   // All are begun before the first is asked for: a browser makes them while the page goes on.
   const begun = Object.fromEntries(Object.entries(PROGRAMS).map(([name, texts]) => [name, beginProgram(gl, texts)]));
@@ -82,7 +84,7 @@ function rendererOf(canvas, plan, motion) {
       gl.activeTexture(gl.TEXTURE0 + i);
       gl.bindTexture(gl.TEXTURE_2D, name === "depth" ? null : map.texture);
     });
-    for (const [key, value] of Object.entries({ shadows: 0, skies: 1, ...uniforms })) program.set(key, value);
+    for (const [key, value] of Object.entries({ shadows: 0, skies: 1, instances: 2, ...uniforms })) program.set(key, value);
   }
 
   /** The view of light from a direction: a box around what is drawn, or of something long around what is near. */
@@ -353,8 +355,28 @@ function arrayOf(gl, attributes, index = null) {
 /** The first link of a module keeps its colour; the others are lighter and darker by turns. */
 const SHADES = [0, 0.22, -0.42, -0.3, -0.3, 0.34, -0.2, 0.12];
 
+/** A mesh on the graphics processor, in copies that follow each other; every corner knows which it is of, and of how many. */
 function meshOf(gl, { faces, index, lines }) {
-  return { faces: bufferOf(gl, faces), index: bufferOf(gl, index, gl.ELEMENT_ARRAY_BUFFER), corners: index.length, lines: bufferOf(gl, lines), ends: lines.length / 6 };
+  const copies = clamp(Math.floor(DRAWN_AT_ONCE / Math.max(index.length, 1)), 1, COPIES_MAX);
+  const own = (corners, size) => {
+    const count = corners.length / size;
+    const all = new Float32Array(copies * count * (size + 2));
+    for (let i = 0; i < copies * count; i++) {
+      const from = size * (i % count);
+      all.set(corners.subarray(from, from + size), (size + 2) * i);
+      all.set([Math.floor(i / count), copies], (size + 2) * i + size);
+    }
+    return bufferOf(gl, all);
+  };
+  const count = faces.length / 9;
+  const indices = new Uint32Array(copies * index.length);
+  for (let i = 0; i < indices.length; i++) indices[i] = index[i % index.length] + count * Math.floor(i / index.length);
+  const [corners, ends] = [own(faces, 9), own(lines, 6)];
+  return {
+    copies,
+    faces: { length: index.length, array: arrayOf(gl, [[0, corners, 3, 44, 0, 0], [1, corners, 3, 44, 12, 0], [2, corners, 3, 44, 24, 0], [3, corners, 2, 44, 36, 0]], bufferOf(gl, indices, gl.ELEMENT_ARRAY_BUFFER)) },
+    lines: { length: lines.length / 6, array: arrayOf(gl, [[0, ends, 3, 32, 0, 0], [2, ends, 3, 32, 12, 0], [3, ends, 2, 32, 24, 0]]) },
+  };
 }
 
 /** A depth map that is read with comparison. */

@@ -6,21 +6,36 @@ const HEAD = "#version 300 es\nprecision highp float;\nprecision highp int;\npre
 const SKIES = 16;
 const SKY_TILES = 4;
 
+/** Instances in a row of the texture that they lie in. */
+const PER_ROW = 200;
+
 /** Each instance carries the three sides of what it draws, in the world, and its place. Edges of boxes and cylinders are
     rounded: `inset` says how many radii a corner is drawn in from the sides. */
 const BODY = `
 layout(location=0) in vec3 corner;
 layout(location=1) in vec3 normal;
-layout(location=2) in vec4 along;   // w: x of the place, of the others y and z
-layout(location=3) in vec4 across;
-layout(location=4) in vec4 up;
-layout(location=5) in vec4 tint;    // w: glow
-layout(location=6) in float body;
-layout(location=7) in vec3 inset;
+layout(location=2) in vec3 inset;
+layout(location=3) in vec2 copy;    // which of how many
+uniform sampler2D instances;
+vec4 along, across, up;             // w: x of the place, of the others y and z
+vec4 tint;                          // w: glow
+float body;
+vec4 part(int i) {
+  int instance = int(copy.x) + gl_InstanceID * int(copy.y);
+  return texelFetch(instances, ivec2(instance % ${PER_ROW} * 5 + i, instance / ${PER_ROW}), 0);
+}
+/** Everything about the instance: comes first. */
+void read() {
+  along = part(0);
+  across = part(1);
+  up = part(2);
+  tint = part(3);
+  body = part(4).x;
+}
 vec3 place() { return vec3(along.w, across.w, up.w); }
 vec3 sides() { return vec3(length(along.xyz), length(across.xyz), length(up.xyz)); }
 vec3 grown(vec3 by) {
-  vec3 s = sides(), round = 0.085 * min(s.x, min(s.y, s.z)) / s;
+  vec3 s = sides(), round = 0.085 * min(s.x, min(s.y, s.z)) / max(s, vec3(1e-12));
   vec3 c = (corner - inset * round) * by;
   return place() + along.xyz * c.x + across.xyz * c.y + up.xyz * c.z;
 }
@@ -38,6 +53,7 @@ out vec3 at, facing, colour;
 out vec4 lit;
 out float glow, metal;
 void main() {
+  read();
   // A line thinner than a pixel would appear as dots, or not at all.
   float away = (view * vec4(place(), 1.0)).w;
   at = grown(max(vec3(1.0), 1.1 * away / (pixels * sides())));
@@ -123,6 +139,7 @@ uniform float pixels;               // of a metre at a distance of one
 out vec3 colour;
 out float strength;
 void main() {
+  read();
   colour = tint.rgb;
   gl_Position = view * vec4(world(), 1.0);
   // Edges of what is small on the screen would cover it.
@@ -139,13 +156,13 @@ void main() { shown = vec4(colour * mix(0.55, 0.4, dark) * (1.0 - 0.75 * paper),
 
 const DEPTH_VERTEX = HEAD + BODY + `
 uniform mat4 view;
-void main() { gl_Position = view * vec4(world(), 1.0); }`;
+void main() { read(); gl_Position = view * vec4(world(), 1.0); }`;
 const DEPTH_FRAGMENT = HEAD + `void main() {}`;
 
 const PICK_VERTEX = HEAD + BODY + `
 uniform mat4 view;
 flat out int found;
-void main() { found = int(body) + 1; gl_Position = view * vec4(world(), 1.0); }`;
+void main() { read(); found = int(body) + 1; gl_Position = view * vec4(world(), 1.0); }`;
 const PICK_FRAGMENT = HEAD + `
 uniform float depth;                // whether the depth is asked for, and not the body
 flat in int found;
