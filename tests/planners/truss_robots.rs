@@ -71,7 +71,6 @@ fn other_trusses_walk_and_their_plans_pass() {
     assert_eq!(run(&program), "arrived true true\n".repeat(5));
 }
 
-/// Half as far from the target as at the start is what the coarsest of them gets to.
 /// The S of the paper, with the library's struts: the judge finds forces within their limit all along, by linear
 /// programming, and nothing slides farther than a metre. Without the limit the struts would bear twice as much.
 #[test]
@@ -121,6 +120,7 @@ fn steps_that_end_at_the_limit_of_rigidity_are_rigid_on_the_way() {
     assert_eq!(out, "true\n");
 }
 
+/// Half as far from the target as at the start is what the coarsest of them gets to.
 #[test]
 fn other_trusses_and_targets_morph_and_their_plans_pass() {
     let mut program = icosahedron() + &variable();

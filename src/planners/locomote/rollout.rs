@@ -534,7 +534,11 @@ impl Rollout<'_> {
 
     /// Moves the nodes to y, or as far towards it as the truss is statically stable (by bisection).
     pub(super) fn move_to(&mut self, y: Vec<Vec3>) {
-        let next = support_polygon::standing(self.truss, &self.x, &y);
+        let mut next = support_polygon::standing(self.truss, &self.x, &y);
+        // Above the edge itself it could not brake; if it rolls there, it need not.
+        if next != y && self.truss.limits.forces.is_some() && roll::is_stable(self.truss, &next) {
+            next = support_polygon::touching_down(self.truss, &self.x, &next);
+        }
         self.travel.slip += self.slip(&next);
         if next != self.x {
             self.push(Move::Linear(next.clone()));

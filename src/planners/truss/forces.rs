@@ -230,7 +230,7 @@ pub(super) fn bearable_part(
 }
 
 /// The least part of accelerations that is looked at.
-const PART_LEAST: f64 = 0.01;
+const PART_LEAST: f64 = 0.001;
 
 /// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most `enough`;
 /// `None` if nothing holds the truss.

@@ -83,6 +83,11 @@ pub(in crate::planners) fn equilibrium(truss: &Structure, x: &[Vec3]) -> Option<
     }
 }
 
+/// Returns true if the truss does not topple with its nodes at `x`, m.
+pub(in crate::planners) fn is_stable(truss: &Structure, x: &[Vec3]) -> bool {
+    matches!(equilibrium(truss, x), Some(Equilibrium::Stable))
+}
+
 /// Returns the positions of the nodes, m, once the truss has come to rest from `x`, m: it is put down with its lowest
 /// nodes on the ground, then rolls over edges of its support polygon until it is statically stable (McGhee and Frank
 /// 1968). Quasi-static, without inertia; obstacles do not count. `None` if it does not rest after `ROLLS_MAX` rolls,

@@ -24,8 +24,7 @@ pub(in crate::planners) fn stays_in_contact(truss: &Structure, from: Vec3, to: V
     })
 }
 
-/// The number of bisections of a step in which the centre of mass leaves the support polygon: more than a double has
-/// bits.
+/// The number of bisections of a step: more than a double has bits.
 const BISECTIONS: usize = 60;
 
 /// Returns the indices of the nodes that stay on the ground while they move linearly from `x` to `y`, m.
@@ -51,6 +50,21 @@ pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -
         if stable(&towards(x, y, middle)) { low = middle } else { high = middle }
     }
     towards(x, y, low)
+}
+
+/// Returns the positions of the nodes, m, at which the first node touches the ground on the way from `x` to `y` that is not on
+/// it at `x` (by bisection); `y` if none does.
+pub(in crate::planners) fn touching_down(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec3> {
+    let touches = |z: &[Vec3]| contacts(truss, z).len() > staying(truss, x, z).len();
+    if !touches(y) {
+        return y.to_vec();
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..BISECTIONS {
+        let middle = (low + high) / 2.0;
+        if touches(&towards(x, y, middle)) { high = middle } else { low = middle }
+    }
+    towards(x, y, high)
 }
 
 /// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above, counter-clockwise,
