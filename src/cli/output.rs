@@ -8,7 +8,7 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempDir};
 
 /// The prefix of temporary files.
 const PREFIX: &str = ".modl-tmp-";
@@ -140,19 +140,13 @@ pub(super) fn write_folder<'f>(
         }
     };
     sweep(&root);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let made = builder.tempdir_in(&root).map_err(failed)?;
-    let _lock = locked(made.path());
+    let (made, _lock) = begun_folder(&root).map_err(failed)?;
     for (path, bytes) in files {
         write(made.path(), path, bytes)?;
     }
     if there {
         // Nobody sees a mixture: the former folder, none for an instant, or the new one.
-        let old = builder.tempdir_in(&root).map_err(failed)?;
-        let _lock = locked(old.path());
+        let (old, _lock) = begun_folder(&root).map_err(failed)?;
         let aside = old.path().join(name);
         fs::rename(&target, &aside).map_err(failed)?;
         if let Err(e) = fs::rename(made.path(), &target) {
@@ -224,10 +218,43 @@ pub(super) fn begun(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     sweep(folder);
-    let file = builder.tempfile_in(folder)?;
-    // Another process may sweep the file away while it is written where there are no locks; it can then not be renamed.
-    drop(file.as_file().try_lock());
+    let mut file = builder.tempfile_in(folder)?;
+    for _ in 0..BEGINNINGS_MAX {
+        if is_kept(file.as_file(), file.path()) {
+            break;
+        }
+        file = builder.tempfile_in(folder)?;
+    }
     Ok(file)
+}
+
+/// Begins a folder under a temporary name in another one. Returns it with the lock on it; `None` where the system has none.
+///
+/// # Errors
+/// The failure of the system.
+fn begun_folder(root: &Path) -> io::Result<(TempDir, Option<File>)> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    let mut folder = builder.tempdir_in(root)?;
+    for _ in 0..BEGINNINGS_MAX {
+        let file = File::open(folder.path());
+        if file.as_ref().map_or(folder.path().exists(), |file| is_kept(file, folder.path())) {
+            return Ok((folder, file.ok()));
+        }
+        folder = builder.tempdir_in(root)?;
+    }
+    Ok((folder, None))
+}
+
+/// The times that a file or folder is made anew because another process took it for one that was left behind.
+const BEGINNINGS_MAX: usize = 8;
+
+/// Locks what was just made under a temporary name. Returns false if another process, which found it before it was locked,
+/// removes it. That can happen later, too, where there are no locks: it can then not be renamed.
+fn is_kept(made: &File, path: &Path) -> bool {
+    !matches!(made.try_lock(), Err(fs::TryLockError::WouldBlock)) && path.exists()
 }
 
 /// Returns a lock on a folder, which is freed when it is dropped; `None` where the system has none.

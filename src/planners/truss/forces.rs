@@ -195,7 +195,7 @@ pub(in crate::planners) fn holds(truss: &Structure, x: &[Vec3]) -> bool {
 /// Returns the part, at most 1, of some accelerations of the nodes (m/s²) under which forces within the limits hold the truss
 /// with the nodes at `x` (m) on `feet` (their indices), with the inertia of the nodes (d'Alembert). Forces at rest and forces
 /// under all of the accelerations, mixed, are in equilibrium with the same mixture of loads, and within the same cones: what
-/// they bear is no more than the mixture. [`PART_LEAST`] where forces at rest leave nothing.
+/// they bear is no more than the mixture. The tolerance `acceleration_part_min` where forces at rest leave nothing.
 pub(super) fn bearable_part(
     truss: &Structure,
     x: &[Vec3],
@@ -208,8 +208,9 @@ pub(super) fn bearable_part(
     let model =
         &ForceModel { friction: model.friction * libm::cos(std::f64::consts::FRAC_PI_8), ..model.clone() };
     let contacts = contacts(truss, x, feet);
+    let part_min = truss.tolerances.acceleration_part_min;
     let mut part = 1.0;
-    while part > PART_LEAST {
+    while part > part_min {
         let inertia = |(node, load): (usize, &Vec3)| {
             load - accelerations[node] * (part * truss.mass * truss.mass_fractions[node])
         };
@@ -220,17 +221,14 @@ pub(super) fn bearable_part(
             Some(moving) => {
                 let rest = least_ratio(truss, x, &contacts, (model, RATIO_ENOUGH), weights).unwrap_or(1.0);
                 let borne = if rest < 1.0 { (1.0 - rest) / (moving - rest) } else { 0.0 };
-                return (part * borne).max(PART_LEAST);
+                return (part * borne).max(part_min);
             }
             // A contact slides or lifts.
             None => part /= 2.0,
         }
     }
-    PART_LEAST
+    part_min
 }
-
-/// The least part of accelerations that is looked at.
-const PART_LEAST: f64 = 0.001;
 
 /// Returns the least greatest force that levelling finds, as a part of the limit, at once where it is at most `enough`;
 /// `None` if nothing holds the truss.

@@ -147,7 +147,7 @@ impl Bound {
         self.x.clear();
         let is_low = |z: &&[Vec3]| !is_above(truss, z, limit);
         let low: Vec<Vec<Vec3>> = [y, &middle].into_iter().filter(is_low).map(<[Vec3]>::to_vec).collect();
-        // Where a step ends within rounding of the limit nothing is asked of it, and it may be below on the way.
+        // Nothing is asked of a step that ends within rounding of the limit, and it may be below on the way.
         let clearly = limit - 2.0 * truss.tolerances.rounding;
         if low.iter().any(|z| !is_above(truss, z, clearly)) {
             return low;

@@ -63,6 +63,9 @@ pub struct Tolerances {
     /// The part of a step before the edge of the support at which forces are found where it ends on that edge. Default
     /// 1e-3: they are the same to about as much.
     pub edge_part: f64,
+    /// The least part of the accelerations of a step at which forces that hold the truss are looked for. Default 1e-3:
+    /// just behind an edge of the support little more holds it.
+    pub acceleration_part_min: f64,
     /// The step to which the least coefficient of friction that holds a truss is found, without unit. Default 1e-3: as
     /// much as a message tells.
     pub friction_step: f64,
@@ -100,6 +103,7 @@ impl Tolerances {
         coplanar: 1e-6,
         not_rigid: 1e-7,
         edge_part: 1e-3,
+        acceleration_part_min: 1e-3,
         friction_step: 1e-3,
         force_near: 0.6,
         force_descent: 0.65,
