@@ -51,8 +51,8 @@ const SIMULATION_LINE: &str = "//: ";
 const STILL: StillOptions = StillOptions {
     time: 0.0,
     side: super::picture::Side::Corner,
-    width: 400,
-    height: 250,
+    width: 352,
+    height: 220,
     look: PictureStyle::Room,
 };
 

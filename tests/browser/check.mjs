@@ -3,7 +3,7 @@
 //   node check.mjs PLAYWRIGHT CHROMIUM FOLDER
 
 import { createRequire } from "node:module";
-import { readFileSync } from "node:fs";
+import { readFileSync, readdirSync } from "node:fs";
 import { PATIENCE, lost, opened, picture, time } from "./opening.mjs";
 import { plays } from "./player.mjs";
 import * as views from "./views.mjs";
@@ -49,7 +49,8 @@ const measure = page => page.evaluate(() => {
   return times.map(list => Number(list.sort((a, b) => a - b)[2].toFixed(1)));
 });
 
-/** Frames a second while it plays at 1200 x 720, one pixel for one, once the page has found its pace. */
+/** Frames a second while it plays at 1200 x 720, one pixel for one, once the page has found its pace. It begins again at its
+    end without a stop: at rest a picture is drawn in full. */
 async function pace(browser, name) {
   const { context, page } = await opened(browser, folder, name, { viewport: { width: 1200, height: 720 }, deviceScaleFactor: 1 });
   const rate = await page.evaluate(async () => {
@@ -63,6 +64,7 @@ async function pace(browser, name) {
       }
       return (1e3 * frames) / (performance.now() - start);
     };
+    document.getElementById("loop").click();
     await played(4000);
     return played(5000);
   });
@@ -169,8 +171,23 @@ async function still(name, how, options, args) {
   return { name: name + " without " + how, faults };
 }
 
+/** The scripts of a page are one: of two functions of the same name the first would never be called. */
+function twice(scripts) {
+  const folder = new URL("../../src/view/page/", import.meta.url);
+  const seen = new Map();
+  const faults = [];
+  for (const file of readdirSync(folder).filter(scripts))
+    for (const [, name] of readFileSync(new URL(file, folder), "utf8").matchAll(/^(?:async )?(?:function|const|let|class) (\w+)/gm)) {
+      if (seen.has(name)) faults.push(`${name} stands in ${seen.get(name)} and in ${file}`);
+      seen.set(name, file);
+    }
+  return { name: "names of scripts", faults };
+}
+
 const browser = await chromium.launch({ executablePath, args: [...quiet, ...drawing] });
-const pages = [];
+const live = name => name.startsWith("live");
+const script = name => name.endsWith(".js");
+const pages = [twice(name => script(name) && !live(name)), twice(name => script(name) && name !== "main.js")];
 for (const one of wanted) pages.push(await checked(browser, one));
 for (const one of wanted.filter(one => one.phone)) pages.push(await phone(browser, one.name));
 pages.push(await shades(browser, wanted[0].name));

@@ -2,6 +2,14 @@
 
 import { PATIENCE, picture, time } from "./opening.mjs";
 
+/** Looks at the first body from nearer; says from where it was looked before. */
+const nearer = page => page.evaluate(() => {
+  const { camera, places, state } = window.modl;
+  const { target, distance } = camera.goal;
+  Object.assign(camera.goal, { target: places(state.t).slice(0, 3), distance: distance / 8 });
+  return { target, distance };
+});
+
 /** Every switch changes the picture, and back. */
 export async function toggles(page, wanted, fault) {
   const { end } = await page.evaluate(() => window.modl.plan);
@@ -10,14 +18,17 @@ export async function toggles(page, wanted, fault) {
   for (const name of wanted) if (!names.includes(name)) fault(`there is no switch for ${name}: ${names}`);
   // What lies under the robot or has not moved yet can't be seen to change.
   const seen = names.filter(name => !["follow", "trail", "start", "goal"].includes(name) || wanted.includes(name));
-  // Each switch ends where it began, or is complained of.
-  const before = await picture(page);
   for (const name of seen) {
+    // Edges of what is small on the screen fade.
+    const look = name === "edges" && await nearer(page);
+    // Each switch ends where it began, or is complained of.
+    const before = await picture(page);
     const flip = () => page.locator(`[data-toggle="${name}"]`).evaluate(box => box.click());
     await flip();
     if ((await picture(page)).sum === before.sum) fault(`the switch for ${name} changes nothing`);
     await flip();
     if ((await picture(page)).sum !== before.sum) fault(`the switch for ${name} does not go back`);
+    if (look) await page.evaluate(look => Object.assign(window.modl.camera.goal, look), look);
   }
   const key = { grid: "i", target: "a", mass: "m", contacts: "k", goal: "g", start: "s", collides: "j", nominal: "n", forces: "k", paths: "r" };
   for (const name of wanted.filter(name => key[name])) {

@@ -208,5 +208,6 @@ function batchOf(gl, mesh, capacity, closed, edged) {
       }
       return 1;
     },
+    free: () => gl.deleteTexture(texture),
   };
 }

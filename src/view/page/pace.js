@@ -1,6 +1,6 @@
 // Adaptive resolution while things move: where frames come too slowly for the eye, as with a renderer in
-// software, the shadows of the sky and soft edges of the picture go first, then those of the sun, drawn edges, pixels and the cube of
-// sides, then the detail of what is small. What stands still is drawn in full.
+// software, the shadows of the sky, highlights and soft edges go first, those of shadows, too, then the shadows of the
+// sun, drawn edges, pixels and the cube of sides, then the detail of what is small. What stands still is drawn in full.
 
 /** Slower than this a motion is seen as single pictures, ms. */
 const FRAME_MAX = 40;

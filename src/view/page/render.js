@@ -159,8 +159,7 @@ function rendererOf(canvas, plan, motion) {
       view, ...light, eye: camera.eye, dark: theme.dark ? 1 : 0, paper: theme.figure ? 1 : 0, pixels,
       shadowed: scene.shadow ? 1 : 0, open: scene.sky ? 0 : 1, reach: 0.006 * Math.min(scene.radius, camera.distance),
     };
-    const kind = scene.sky ? "" : "Plain";
-    use("solid" + kind, { ...common, opacity: 1 });
+    use("solid" + (scene.sky ? "" : scene.shadow ? "Plain" : "Bare"), { ...common, opacity: 1 });
     draw("faces");
     gl.enable(gl.BLEND);
     // The canvas stays opaque.
@@ -188,23 +187,26 @@ function rendererOf(canvas, plan, motion) {
   function show(scene, X, round) {
     const { calls: found, averaged, single } = render(scene, X, round);
     if (averaged) {
-      sum.add(canvas.width, canvas.height, single ? null : smooth.frame, round, (target, texture, part, added) => {
-        gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-        gl.viewport(0, 0, canvas.width, canvas.height);
-        gl.disable(gl.DEPTH_TEST);
-        if (added) gl.enable(gl.BLEND), gl.blendFunc(gl.ONE, gl.ONE);
-        use("mean", { pictures: 0, part });
-        gl.activeTexture(gl.TEXTURE0);
-        gl.bindTexture(gl.TEXTURE_2D, texture);
-        gl.bindVertexArray(square);
-        gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-        gl.disable(gl.BLEND);
-        gl.bindVertexArray(null);
-      });
+      sum.add(canvas.width, canvas.height, single ? null : smooth.frame, round, mean);
       return { calls: found, more: round + 1 < REFINED };
     }
-    if (scene.smooth) smooth.show();
+    if (scene.smooth) sum.show(canvas.width, canvas.height, smooth.frame, mean);
     return { calls: found, more: false };
+  }
+
+  /** Draws a part of a picture into a target, in place of what is there, or `added` to it. */
+  function mean(target, texture, part, added) {
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.disable(gl.DEPTH_TEST);
+    if (added) gl.enable(gl.BLEND), gl.blendFunc(gl.ONE, gl.ONE);
+    use("mean", { pictures: 0, part });
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.bindVertexArray(square);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.disable(gl.BLEND);
+    gl.bindVertexArray(null);
   }
 
   function drawGround(scene, common) {
@@ -288,6 +290,7 @@ function rendererOf(canvas, plan, motion) {
   function replace(...next) {
     [plan, motion] = next;
     meshes = [...meshes.slice(0, OWN_SHAPES), ...(plan.meshes || []).map(mesh => [meshOf(gl, meshShape(mesh))])];
+    for (const { batches } of lists.values()) for (const batch of batches) batch.free();
     lists.clear();
   }
 
@@ -420,19 +423,27 @@ function sumTarget(gl) {
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
     return frames[0];
   }
+  /** Makes one sample a pixel of what was drawn into `frame`. */
+  function resolve(frame) {
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, frames[0]);
+    gl.blitFramebuffer(0, 0, wide, high, 0, 0, wide, high, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+  }
   return {
     there,
     sized,
     /** Adds what was drawn, into `frame` or here, to the sum, which it begins anew at the first round, and shows the mean. */
     add(width, height, frame, round, drawn) {
       sized(width, height);
-      if (frame) {
-        gl.bindFramebuffer(gl.READ_FRAMEBUFFER, frame);
-        gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, frames[0]);
-        gl.blitFramebuffer(0, 0, wide, high, 0, 0, wide, high, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-      }
+      if (frame) resolve(frame);
       drawn(frames[1], textures[0], 1, round > 0);
       drawn(null, textures[1], 1 / (round + 1), false);
+    },
+    /** Shows what was drawn into `frame`; the canvas, which has no opacity, can't take it in directly. */
+    show(width, height, frame, drawn) {
+      sized(width, height);
+      resolve(frame);
+      drawn(null, textures[0], 1, false);
     },
   };
 }
@@ -456,12 +467,6 @@ function smoothTarget(gl) {
         gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
       }
       return frame;
-    },
-    show() {
-      gl.bindFramebuffer(gl.READ_FRAMEBUFFER, frame);
-      gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
-      gl.blitFramebuffer(0, 0, wide, high, 0, 0, wide, high, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-      gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     },
   };
 }

@@ -40,6 +40,11 @@ vec3 grown(vec3 by) {
   return place() + along.xyz * c.x + across.xyz * c.y + up.xyz * c.z;
 }
 vec3 world() { return grown(vec3(1.0)); }
+/** A line thinner than a pixel would appear as dots, or not at all. */
+vec3 thick(mat4 view, float pixels) {
+  float away = dot(vec4(view[0].w, view[1].w, view[2].w, view[3].w), vec4(place(), 1.0));
+  return grown(max(vec3(1.0), 1.1 * away / (pixels * sides())));
+}
 /** By the cofactors of the sides, which hold for any of them. */
 vec3 worldNormal() {
   return normalize(cross(across.xyz, up.xyz) * normal.x + cross(up.xyz, along.xyz) * normal.y + cross(along.xyz, across.xyz) * normal.z);
@@ -54,9 +59,7 @@ out vec4 lit;
 out float glow, metal;
 void main() {
   read();
-  // A line thinner than a pixel would appear as dots, or not at all.
-  float away = (view * vec4(place(), 1.0)).w;
-  at = grown(max(vec3(1.0), 1.1 * away / (pixels * sides())));
+  at = thick(view, pixels);
   facing = worldNormal();
   // Light adds up in squares of what is shown, which is near enough to what screens do.
   colour = tint.rgb * tint.rgb;
@@ -75,10 +78,14 @@ uniform vec3 skyDirections[${SKIES}];
 float sunlight(vec4 lit) {
   vec3 p = lit.xyz / lit.w * 0.5 + 0.5;
   if (shadowed < 0.5 || any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
+#ifdef PLAIN
+  return texture(shadows, vec3(p.xy, p.z - 0.0015));
+#else
   float sum = 0.0, texel = 1.0 / float(textureSize(shadows, 0).x);
   for (float x = -0.9; x < 1.0; x += 1.8)
     for (float y = -0.9; y < 1.0; y += 1.8) sum += texture(shadows, vec3(p.xy + vec2(x, y) * texel, p.z - 0.0015));
   return sum / 4.0;
+#endif
 }
 /** What of the sky is seen from a point: of what shines on its side, and of all. */
 vec2 skylight(vec3 at, vec3 n) {
@@ -102,9 +109,24 @@ vec2 skylight(vec3 at, vec3 n) {
 }
 `;
 
-const SOLID_FRAGMENT = HEAD + LIGHT + `
-uniform vec3 eye, sunDirection;
-uniform float opacity, dark, paper, reach;
+/** What shines on a surface beside the sun: from above, from below, and from the other side. `sky`: what of it is seen. */
+const SHINE = `
+uniform vec3 sunDirection;
+uniform float dark, paper;
+vec3 ambientOf(vec3 n, vec2 sky) {
+  float up = n.z * 0.5 + 0.5, side = max(dot(n, normalize(vec3(-sunDirection.xy, 0.3))), 0.0);
+  vec3 ambient = mix(vec3(0.50, 0.54, 0.60), vec3(0.74), paper) * mix(1.0, 0.62, dark) * (0.35 + 0.65 * up) * mix(0.12, 1.0, sky.x);
+  ambient += mix(vec3(0.26, 0.245, 0.225), vec3(0.26), paper) * mix(1.0, 0.55, dark) * (1.0 - up) * mix(0.3, 1.0, sky.y);
+  return ambient + side * vec3(0.17, 0.175, 0.19) * mix(0.4, 1.0, sky.y);
+}
+vec3 sunColour() { return mix(vec3(0.74, 0.705, 0.65), vec3(0.52), paper); }
+/** Bright light is compressed, and not cut off. */
+vec3 seen(vec3 c) { return sqrt(c / (1.0 + max(c - 0.6, 0.0) * 0.7)); }
+`;
+
+const SOLID_FRAGMENT = HEAD + LIGHT + SHINE + `
+uniform vec3 eye;
+uniform float opacity, reach;
 in vec3 at, facing, colour;
 in vec4 lit;
 in float glow, metal;
@@ -113,25 +135,46 @@ void main() {
   vec3 n = normalize(facing), v = normalize(eye - at), h = normalize(sunDirection + v);
   float direct = max(dot(n, sunDirection), 0.0) * sunlight(lit);
   vec2 sky = skylight(at + n * reach, n);
-  float up = n.z * 0.5 + 0.5, side = max(dot(n, normalize(vec3(-sunDirection.xy, 0.3))), 0.0);
-  vec3 ambient = mix(vec3(0.50, 0.54, 0.60), vec3(0.74), paper) * mix(1.0, 0.62, dark) * (0.35 + 0.65 * up) * mix(0.12, 1.0, sky.x);
-  ambient += mix(vec3(0.26, 0.245, 0.225), vec3(0.26), paper) * mix(1.0, 0.55, dark) * (1.0 - up) * mix(0.3, 1.0, sky.y);
-  ambient += side * vec3(0.17, 0.175, 0.19) * mix(0.4, 1.0, sky.y);
-  vec3 c = colour * (ambient + direct * mix(vec3(0.74, 0.705, 0.65), vec3(0.52), paper));
-#ifndef PLAIN
+  vec3 c = colour * (ambientOf(n, sky) + direct * sunColour());
   // A rough surface: a broad highlight, and what the sky leaves at grazing angles.
   float rough = mix(0.42, 0.30, metal), a = rough * rough, d = dot(n, h) * dot(n, h) * (a * a - 1.0) + 1.0;
   float gloss = min(a * a / (4.0 * d * d), 6.0) * mix(0.06, 0.24, metal);
   float rim = 1.0 - max(dot(n, v), 0.0);
   rim *= rim;
   rim *= rim;
-  c += (gloss * direct + rim * 0.10 * sky.x * (0.4 + 0.6 * up)) * mix(vec3(1.0), colour * 2.2, metal * 0.5) * mix(1.0, 0.4, paper);
-#endif
-  c = mix(c, colour * 1.3 + 0.10, glow);
-  // Bright light is compressed, and not cut off.
-  c = c / (1.0 + max(c - 0.6, 0.0) * 0.7);
-  shown = vec4(sqrt(c), opacity);
+  c += (gloss * direct + rim * 0.10 * sky.x * (0.7 + 0.3 * n.z)) * mix(vec3(1.0), colour * 2.2, metal * 0.5) * mix(1.0, 0.4, paper);
+  shown = vec4(seen(mix(c, colour * 1.3 + 0.10, glow)), opacity);
 }`;
+
+/** The same without the light of the sky and without highlights, worked out at corners, for what has to be fast. */
+const PLAIN_VERTEX = HEAD + BODY + SHINE + `
+uniform mat4 view, sun;
+uniform float pixels;               // of a metre at a distance of one
+out vec3 shade, sunny;
+out vec4 lit;
+void main() {
+  read();
+  vec3 at = thick(view, pixels), n = worldNormal(), colour = tint.rgb * tint.rgb;
+  float glow = max(tint.a, 0.0);
+  shade = mix(colour * ambientOf(n, vec2(1.0)), colour * 1.3 + 0.10, glow);
+  sunny = colour * max(dot(n, sunDirection), 0.0) * sunColour() * (1.0 - glow);
+  lit = sun * vec4(at + n * 0.002, 1.0);
+  gl_Position = view * vec4(at, 1.0);
+}`;
+const PLAIN_FRAGMENT = HEAD + "#define PLAIN\n" + LIGHT + SHINE + `
+uniform float opacity;
+in vec3 shade, sunny;
+in vec4 lit;
+out vec4 shown;
+void main() { shown = vec4(seen(shade + sunny * sunlight(lit)), opacity); }`;
+
+/** And without shadows. */
+const BARE_VERTEX = PLAIN_VERTEX.replace("out vec3 shade, sunny;\nout vec4 lit;", "vec3 shade, sunny;\nvec4 lit;\nout vec3 colour_;").replace(/}$/, "  colour_ = seen(shade + sunny);\n}");
+const BARE_FRAGMENT = HEAD + `
+uniform float opacity;
+in vec3 colour_;
+out vec4 shown;
+void main() { shown = vec4(colour_, opacity); }`;
 
 const EDGE_VERTEX = HEAD + BODY + `
 uniform mat4 view;
@@ -193,8 +236,8 @@ uniform float step_, strength, reach, there, lines_;
 in vec2 at;
 in vec4 lit;
 out vec4 shown;
-float grid(float width) {
-  vec2 g = abs(fract(at / width - 0.5) - 0.5) * width, w = fwidth(at);
+float grid(float width, vec2 w) {
+  vec2 g = abs(fract(at / width - 0.5) - 0.5) * width;
   vec2 line = 1.0 - smoothstep(w * 0.3, w * 1.0, g);
   // Lines closer than two pixels would only be noise.
   return max(line.x, line.y) * clamp(width / max(w.x, w.y) / 8.0 - 0.25, 0.0, 1.0);
@@ -202,8 +245,9 @@ float grid(float width) {
 void main() {
   float away = length(at - patch_.xy) / patch_.w;
   float fade = 1.0 - smoothstep(0.10, 0.85, away);
-  float lines = max(grid(step_) * 0.075, grid(step_ * 10.0) * 0.17) * lines_;
-  vec2 w = fwidth(at), axis = (1.0 - smoothstep(w * 0.4, w * 1.2, abs(at))).yx * 0.38 * lines_;
+  vec2 w = fwidth(at);
+  float lines = max(grid(step_, w) * 0.075, grid(step_ * 10.0, w) * 0.17) * lines_;
+  vec2 axis = (1.0 - smoothstep(w * 0.4, w * 1.2, abs(at))).yx * 0.38 * lines_;
   float shade = 0.0;
   if (there > 0.5) {
     vec3 n = normalize(vec3(-slope, 1.0));
@@ -274,13 +318,13 @@ uniform vec4 tint;
 out vec4 shown;
 void main() { shown = tint; }`;
 
-/** The same program without the light of the sky and without highlights, for what has to be fast. */
+/** The same program without the light of the sky, and with harder shadows, for what has to be fast. */
 const plain = text => text.replace(HEAD, HEAD + "#define PLAIN\n");
 
 /** Vertex and fragment program of each. */
 const PROGRAMS = {
   solid: [SOLID_VERTEX, SOLID_FRAGMENT], edge: [EDGE_VERTEX, EDGE_FRAGMENT], depth: [DEPTH_VERTEX, DEPTH_FRAGMENT],
   pick: [PICK_VERTEX, PICK_FRAGMENT], ground: [GROUND_VERTEX, GROUND_FRAGMENT], sky: [SKY_VERTEX, SKY_FRAGMENT],
-  solidPlain: [SOLID_VERTEX, plain(SOLID_FRAGMENT)], groundPlain: [GROUND_VERTEX, plain(GROUND_FRAGMENT)],
+  solidPlain: [PLAIN_VERTEX, PLAIN_FRAGMENT], solidBare: [BARE_VERTEX, BARE_FRAGMENT], groundPlain: [GROUND_VERTEX, plain(GROUND_FRAGMENT)],
   line: [LINE_VERTEX, LINE_FRAGMENT], flat: [FLAT_VERTEX, FLAT_FRAGMENT], mean: [MEAN_VERTEX, MEAN_FRAGMENT],
 };
