@@ -218,17 +218,11 @@ pub(super) fn begun(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     sweep(folder);
-    let mut file = builder.tempfile_in(folder)?;
-    for _ in 0..BEGINNINGS_MAX {
-        if is_kept(file.as_file(), file.path()) {
-            break;
-        }
-        file = builder.tempfile_in(folder)?;
-    }
-    Ok(file)
+    made(|| builder.tempfile_in(folder), |file| is_kept(file.as_file(), file.path()))
 }
 
-/// Begins a folder under a temporary name in another one. Returns it with the lock on it; `None` where the system has none.
+/// Begins a folder under a temporary name in another one. Returns it with what holds the lock on it; `None` where the system
+/// does not open folders.
 ///
 /// # Errors
 /// The failure of the system.
@@ -237,15 +231,29 @@ fn begun_folder(root: &Path) -> io::Result<(TempDir, Option<File>)> {
     builder.prefix(PREFIX);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let mut folder = builder.tempdir_in(root)?;
+    let make = || {
+        let folder = builder.tempdir_in(root)?;
+        let lock = File::open(folder.path()).ok();
+        Ok((folder, lock))
+    };
+    made(make, |(folder, lock)| {
+        lock.as_ref().map_or(folder.path().exists(), |lock| is_kept(lock, folder.path()))
+    })
+}
+
+/// Makes something under a temporary name, anew until it is kept.
+///
+/// # Errors
+/// The failure of the system.
+fn made<T>(make: impl Fn() -> io::Result<T>, is_kept: impl Fn(&T) -> bool) -> io::Result<T> {
+    let mut made = make()?;
     for _ in 0..BEGINNINGS_MAX {
-        let file = File::open(folder.path());
-        if file.as_ref().map_or(folder.path().exists(), |file| is_kept(file, folder.path())) {
-            return Ok((folder, file.ok()));
+        if is_kept(&made) {
+            break;
         }
-        folder = builder.tempdir_in(root)?;
+        made = make()?;
     }
-    Ok((folder, None))
+    Ok(made)
 }
 
 /// The times that a file or folder is made anew because another process took it for one that was left behind.

@@ -78,7 +78,7 @@ fn walks_carry_their_weight() {
     let headings: &[i32] =
         if whole() { &[0, 10, 25, 45, 77, 90, 130, 157, 200, 222, 260, 300, 330, 345] } else { &[90] };
     let objectives: &[&str] = if whole() { &["springs", "lengths", "restoring"] } else { &["springs"] };
-    let (mut good, mut walks) = (0, 0);
+    let mut bad = Vec::new();
     for (turned, objective) in headings.iter().flat_map(|t| objectives.iter().map(move |o| (t, o))) {
         let program = format!(
             "truss Pyramid of PneumaticReel = octet(edge: 4m, divisions: 4, interior: false)\n\
@@ -93,14 +93,15 @@ fn walks_carry_their_weight() {
              for c in v.checks {{ print(c) }}\n"
         );
         let out = run(&program);
-        // Two of all get stuck on the way, and one is refused: it is 11 um outside of its support.
-        good += usize::from(out.starts_with("arrived true true"));
-        walks += 1;
+        // All are travelled, so that each has its row.
+        if !out.starts_with("arrived true true") {
+            bad.push(format!("{turned}, {objective}: {out}"));
+        }
         assert!(out.contains("strut load: sampled("), "{out}");
         assert!(out.contains("acceleration: proved"), "{out}");
         eprintln!("{turned}, {objective}: {}", out.lines().nth(1).unwrap_or_default());
     }
-    assert!(14 * good >= 13 * walks, "{good} of {walks}");
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
 }
 
 /// A step over the edge of the support ends on it, where it has to be as rigid as at its own end.

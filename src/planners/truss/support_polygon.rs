@@ -41,30 +41,25 @@ pub(in crate::planners) fn standing(truss: &Structure, x: &[Vec3], y: &[Vec3]) -
         let margin = stability_margin(truss, z, &staying(truss, x, z));
         margin.is_some_and(|(inside, _)| inside >= 0.0)
     };
-    if stable(y) {
-        return y.to_vec();
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..BISECTIONS {
-        let middle = (low + high) / 2.0;
-        if stable(&towards(x, y, middle)) { low = middle } else { high = middle }
-    }
-    towards(x, y, low)
+    if stable(y) { y.to_vec() } else { towards(x, y, bisected(x, y, stable).0) }
 }
 
 /// Returns the positions of the nodes, m, at which the first node touches the ground on the way from `x` to `y` that is not on
 /// it at `x` (by bisection); `y` if none does.
 pub(in crate::planners) fn touching_down(truss: &Structure, x: &[Vec3], y: &[Vec3]) -> Vec<Vec3> {
     let touches = |z: &[Vec3]| contacts(truss, z).len() > staying(truss, x, z).len();
-    if !touches(y) {
-        return y.to_vec();
-    }
+    if touches(y) { towards(x, y, bisected(x, y, |z| !touches(z)).1) } else { y.to_vec() }
+}
+
+/// Returns the parts of the way from `x` to `y`, next to each other, at which something still holds, and no longer (by
+/// bisection). It must hold at `x`, and not at `y`.
+fn bisected(x: &[Vec3], y: &[Vec3], holds: impl Fn(&[Vec3]) -> bool) -> (f64, f64) {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..BISECTIONS {
         let middle = (low + high) / 2.0;
-        if touches(&towards(x, y, middle)) { high = middle } else { low = middle }
+        if holds(&towards(x, y, middle)) { low = middle } else { high = middle }
     }
-    towards(x, y, high)
+    (low, high)
 }
 
 /// Returns the support polygon as indices of nodes: the convex hull of the contacts seen from above, counter-clockwise,
