@@ -6,7 +6,7 @@
 //!
 //! - `--count` mutants are drawn by `--seed` and compiled; of them the `--first` so many are tried (default: all);
 //! - tests that take longer than `--longest` are left out; `--workers` tests run at a time;
-//! - `--survivors` tries again those that survived the run before, for tests that were written since;
+//! - `--survivors` tries again those that survived the run before and have no reason, for tests that were written since;
 //! - `--built` takes the program of the run before as it is, to go on with a run that ended early;
 //! - `--list` prints the first `--count` of the draw, compiled or not, and does no more.
 
@@ -210,7 +210,11 @@ fn run(options: &Options) -> Result<(), String> {
     let first = options.first.min(drawn.len());
     // The same program ends for no mutant otherwise than before.
     let again = options.survivors || !options.built;
-    let wanted = |id: &usize| before.get(&drawn[id - 1].key()).is_none_or(|fate| again && !fate.noticed());
+    let reasoned = |mutant: &Mutant| options.survivors && reasons.iter().any(|reason| reason.fits(mutant));
+    let wanted = |id: &usize| {
+        let mutant = &drawn[id - 1];
+        before.get(&mutant.key()).is_none_or(|fate| again && !fate.noticed() && !reasoned(mutant))
+    };
     let chosen: Vec<usize> = (1..=first).filter(wanted).collect();
     let save_all = |fates: &BTreeMap<String, Fate>| {
         let all: BTreeMap<_, _> = before.iter().chain(fates).collect();

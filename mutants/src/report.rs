@@ -22,7 +22,8 @@ pub struct Reason {
 }
 
 impl Reason {
-    fn fits(&self, mutant: &Mutant) -> bool {
+    /// Returns true if this is the reason of a mutant.
+    pub fn fits(&self, mutant: &Mutant) -> bool {
         let same = |own: &Option<String>, other: &str| own.as_ref().is_none_or(|own| spaced(own) == other);
         self.file == mutant.file
             && self.function == mutant.function

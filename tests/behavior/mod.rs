@@ -4,4 +4,5 @@ pub mod behaviors_of_designs;
 pub mod conflicts;
 pub mod faithful;
 pub mod gaits;
+mod runs;
 pub mod schedule;

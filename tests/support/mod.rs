@@ -1,6 +1,7 @@
 //! What the tests share: hosts, sandboxes, terminals, robots and programs made by plain Rust.
 
 pub mod arms;
+pub mod dense_model;
 pub mod desk;
 pub mod fences;
 pub mod generated;

@@ -17,6 +17,7 @@ pub fn joint(robot: &Assembly, module: &str, joint: usize) -> usize {
 }
 
 /// A plan to be: a robot at rest, to be given motions.
+#[derive(Clone)]
 pub struct Motion {
     pub tracks: Tracks,
 }

@@ -116,13 +116,19 @@ impl Geometry {
         }
     }
 
-    /// Returns the amount by which the distance from the path may be greater on a chord of this length (m) than at its ends.
-    fn bulge(&self, chord: f64) -> f64 {
-        match &self.arc {
-            // The distance from a circle is not convex: a chord leaves it by its sagitta.
-            Some((_, _, radius)) => chord * chord / (4.0 * radius),
-            None => 0.0,
-        }
+    /// Returns the amount by which the distance from the path may be greater on a chord between two points than at them, m.
+    fn bulge(&self, p0: &Vec3, p1: &Vec3) -> f64 {
+        let Some((centre, normal, _)) = &self.arc else { return 0.0 };
+        let from_axis = |p: &Vec3| {
+            let off = p - centre;
+            (off - normal * off.dot(normal)).norm()
+        };
+        let chord = (p1 - p0).norm();
+        // Inside a circle the distance from it is not convex; that from its axis has a second derivative along the chord of at
+        // most the inverse of the least one there, and changes by at most half of the chord.
+        let least = from_axis(p0).min(from_axis(p1)) - chord / 2.0;
+        let most = chord / 2.0;
+        if least > 0.0 { most.min(chord * chord / (8.0 * least)) } else { most }
     }
 
     /// Returns the angle of an orientation from the nearest one on the turn, rad.
@@ -132,8 +138,9 @@ impl Geometry {
         // The part of the rotation about the axis (swing and twist).
         let along = from_start.imag().dot(axis);
         let twist = 2.0 * libm::atan2(along, from_start.w);
-        let twist =
-            if twist < -whole / 2.0 - std::f64::consts::PI { twist + std::f64::consts::TAU } else { twist };
+        // Of the angles that are whole turns apart the one nearest to the middle of the turn: a rotation has two quaternions.
+        let turns = ((twist - whole / 2.0) / std::f64::consts::TAU).round();
+        let twist = twist - turns * std::f64::consts::TAU;
         let twist = twist.clamp(0.0, *whole);
         let wanted = match *whole > 0.0 {
             true => crate::geometry::pose::turned(*axis, twist).rotation * self.start.rotation,
@@ -267,7 +274,7 @@ impl<'a> Judged<'a> {
         let mut stack = vec![(first, last)];
         while let Some(((t0, (p0, d0)), (t1, (p1, d1)))) = stack.pop() {
             let h = t1 - t0;
-            let off = h * h / 8.0 * self.acceleration(t0, t1) + self.geometry.bulge((p1 - p0).norm());
+            let off = h * h / 8.0 * self.acceleration(t0, t1) + self.geometry.bulge(&p0, &p1);
             let worst = d0.max(d1);
             if worst > self.path.within || worst + off <= self.path.within || off <= part * self.path.within {
                 continue;

@@ -28,7 +28,7 @@ pub(in super::super) struct Traction {
     judged: TravelPoses,
     /// The travel of the samples at which one holds.
     allowed: TravelPoses,
-    /// The time of the last sample at which one holds, s; `None` before the first.
+    /// The time of the first sample at which one holds, s; `None` before it.
     allowed_at: Option<f64>,
     /// True for a part that came off another in motion: it slides on whether its joints move or not.
     came_off: bool,
@@ -112,7 +112,7 @@ pub struct GroundTravel {
 pub struct TravelSummary {
     /// The travel during the samples at which no such exemption holds, which is judged.
     pub judged: GroundTravel,
-    /// The travel during the samples at which one holds, with the time of the last of them (s); `None` if there are
+    /// The travel during the samples at which one holds, with the time of the first of them (s); `None` if there are
     /// none.
     pub allowed: Option<(f64, GroundTravel)>,
 }
@@ -195,7 +195,7 @@ impl Traction {
         let poses = if allowed { &mut self.allowed } else { &mut self.judged };
         poses.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
         if allowed {
-            self.allowed_at = Some(step.time);
+            self.allowed_at.get_or_insert(step.time);
         }
         (pose.moved(&shift(last.rate)), slips)
     }
