@@ -109,7 +109,7 @@ fn a_cycle_begins_at_once_where_its_joint_is() {
     assert!(done(phase(wave(), 0.5)).tracks.duration > 2.1);
 }
 
-/// What is wrong with a body is noted, once, where the body is a cycle's, too.
+/// Faults of a body are noted once, also if the body is a cycle's.
 #[test]
 fn durations_that_are_too_short_are_noted_in_cycles() {
     let quick = series(vec![go_in(T, 0.5, 0.01, 3), go_in(T, 0.0, 1.0, 1)]);

@@ -134,7 +134,7 @@ impl Case {
     /// The plan of a program that leaves it in `p`, and the model that `save` writes.
     fn of(program: &str) -> Case {
         let written = run_clean(&format!("{program}\nemit(p, \"p.json\")\nsave(p, \"p.mjcf.xml\")\n"));
-        let plan = file::read(written.text("p.json")).expect("a plan that was written is read");
+        let plan = written.plan("p.json");
         Case { name: program.to_owned(), plan, model: written.text("p.mjcf.xml").to_owned() }
     }
 

@@ -103,7 +103,7 @@ fn case(seed: u64) -> Option<Case> {
     );
     let (_, written, _) = desk::run(&MapFiles::of(&program), Mode::Run);
     written.written.get("p.json")?;
-    let mut plan = file::read(written.text("p.json")).expect("a plan that was written is read");
+    let mut plan = written.plan("p.json");
     plan.verdict = None;
     let friction = gait.friction;
     plan.worlds[0].world = World { friction, dynamics: DynamicsModel::Full, ..World::default() };

@@ -6,7 +6,6 @@ use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use libm::hypot;
 use modl::interpret::Mode;
-use modl::plan::file;
 use std::io::Write as _;
 
 /// A plan and what is known of it.
@@ -191,7 +190,7 @@ pub fn of_structures(few: usize) -> (&'static [Structure], Vec<Case>) {
         let (observed, desk, _) = run(&MapFiles::of(&program), Mode::Run);
         let errors: Vec<_> = observed.diagnostics.iter().filter(|d| d.is_error()).collect();
         assert!(errors.is_empty(), "{errors:?} in\n{program}");
-        Case::new(structure.name, file::read(desk.text("p.json")).expect("a plan that was written is read"))
+        Case::new(structure.name, desk.plan("p.json"))
     };
     (some, some.iter().map(case).collect())
 }

@@ -11,14 +11,14 @@ mod smores_motions;
 mod traps;
 
 use modl::exchange::{Export, ExportFile, PlanFormat};
-use modl::plan::{Plan, file};
+use modl::plan::Plan;
 
 use crate::support::desk::run_clean;
 
 /// The plan of a program that leaves it in `p`.
 pub fn planned(program: &str) -> Plan {
     let written = run_clean(&format!("{program}\nemit(p, \"p.json\")\n"));
-    file::read(written.text("p.json")).expect("a plan that was written is read")
+    written.plan("p.json")
 }
 
 /// The files of a plan in a format.

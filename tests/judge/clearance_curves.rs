@@ -159,7 +159,7 @@ fn the_clearance_of_several_robots_is_the_least_of_all_or_that_of_one() {
     }
 }
 
-/// Where links pass each other closely between samples, nothing is proved; where they are far apart, everything is.
+/// Links that pass each other closely between samples are not said to be proved apart; links that are far apart are.
 #[test]
 fn what_is_said_to_be_proved_between_samples_is_so() {
     // The third ball passes a thin plate, in steps of 20 mm.

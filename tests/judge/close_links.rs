@@ -3,6 +3,7 @@
 
 use crate::support::arms::robot_of;
 use crate::support::desk::run_clean;
+use crate::support::hollow_meshes::hollow_cube;
 use crate::support::motions::{Motion, STATICS};
 use crate::support::robots::{self, boxed, joint, link};
 use modl::geometry::pose::shifted;
@@ -11,22 +12,6 @@ use modl::plan::verify::articulated::collision_point;
 use modl::plan::verify::verify;
 use modl::plan::{CheckKind, Obstacle, World};
 use modl::robot::{JointKind, Limits};
-
-/// Returns a cube of these half edges, m, around a hollow of those, as a mesh of two surfaces.
-fn hollow_cube(half: f64, hollow: f64) -> Placed {
-    let corner = |i: u8, half: f64| Vec3::from_fn(|axis, _| if i >> axis & 1 == 0 { -half } else { half });
-    let vertices = (0..8).map(|i| corner(i, half)).chain((0..8).map(|i| corner(i, hollow))).collect();
-    // For each axis the two faces across it, each of two triangles, seen from outside.
-    let faces = (0..3).flat_map(|axis| {
-        let (u, v) = (1u32 << ((axis + 1) % 3), 1u32 << ((axis + 2) % 3));
-        let far = 1u32 << axis;
-        [[0, v, u + v], [0, u + v, u], [far, far + u, far + u + v], [far, far + u + v, far + v]]
-    });
-    let outside: Vec<[u32; 3]> = faces.collect();
-    let inside = outside.iter().map(|[a, b, c]| [8 + a, 8 + c, 8 + b]);
-    let triangles = outside.iter().copied().chain(inside).collect();
-    Placed { pose: Pose::identity(), shape: Shape::Mesh { name: "hollow.stl".into(), vertices, triangles } }
-}
 
 /// The places of a ball of 2 mm along x that are in the wall of a hollow cube of 60 and 30 mm, in its hollow, and outside.
 const PLACES: [(f64, bool); 6] =

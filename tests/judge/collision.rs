@@ -1,11 +1,12 @@
 //! Self-collision at every instant, against closed forms and against dense sampling.
 
+use crate::support::hollow_meshes::hollow_cube;
 use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
 use crate::support::properties::seeds;
 use crate::support::robots::{self, boxed};
 use modl::geometry::pose::{shifted, turned};
-use modl::geometry::{Placed, Pose, Shape, Vec3};
+use modl::geometry::{Placed, Pose, Vec3};
 use modl::plan::verify::articulated::collision::judge;
 use modl::plan::verify::articulated::{Bodies, Findings, Precision, collision_point};
 use modl::plan::{
@@ -87,27 +88,10 @@ fn rail_between(end: Vec<Placed>, borne: Vec<Placed>) -> Assembly {
     design.0
 }
 
-/// A cube of these half edges, m, around a hollow of those, as a mesh of two surfaces.
-fn hollow_cube(half: f64, hollow: f64) -> Vec<Placed> {
-    let corner = |i: u8, half: f64| Vec3::from_fn(|axis, _| if i >> axis & 1 == 0 { -half } else { half });
-    let vertices = (0..8).map(|i| corner(i, half)).chain((0..8).map(|i| corner(i, hollow))).collect();
-    // For each axis the two faces across it, each of two triangles, seen from outside.
-    let faces = (0..3).flat_map(|axis| {
-        let (u, v) = (1u32 << ((axis + 1) % 3), 1u32 << ((axis + 2) % 3));
-        let far = 1u32 << axis;
-        [[0, v, u + v], [0, u + v, u], [far, far + u, far + u + v], [far, far + u + v, far + v]]
-    });
-    let outside: Vec<[u32; 3]> = faces.collect();
-    let inside = outside.iter().map(|[a, b, c]| [8 + a, 8 + c, 8 + b]);
-    let triangles = outside.iter().copied().chain(inside).collect();
-    let shape = Shape::Mesh { name: "hollow.stl".into(), vertices, triangles };
-    vec![Placed { pose: Pose::identity(), shape }]
-}
-
 #[test]
 fn a_link_wholly_inside_another_has_a_point_of_collision_within_it() {
     let small = 0.002;
-    let robot = || rail_between(hollow_cube(0.06, 0.03), cube(small));
+    let robot = || rail_between(vec![hollow_cube(0.06, 0.03)], cube(small));
     let point = |q: f64| {
         let mut motion = Motion::new(robot());
         motion.tracks.start.joints[0] = q;

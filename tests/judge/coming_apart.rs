@@ -7,13 +7,13 @@ use crate::support::robots::{self, TILT};
 use modl::geometry::Vec3;
 use modl::plan::verify::articulated::history;
 use modl::plan::verify::verify;
-use modl::plan::{Body, CheckKind, Failure, Obstacle, Plan, Status, Verdict, World, file};
+use modl::plan::{Body, CheckKind, Failure, Obstacle, Plan, Status, Verdict, World};
 
 /// Returns the plan of a behaviour in a world; it is written in one without weight, in which nothing falls.
 fn plan(declarations: &str, behavior: &str, world: World) -> Plan {
     let free = "world: world(gravity: 0m/s^2, ground: off, dynamics: statics)";
     let program = format!("{declarations}\nemit(plan({behavior}, {free}), \"p.json\")\n");
-    let mut plan = file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read");
+    let mut plan = run_clean(&program).plan("p.json");
     plan.worlds[0].world = world;
     plan
 }

@@ -41,8 +41,7 @@ config Both {
 /// in the frame of a perfect mate, and draws it back. `rest`: the time between coming to rest and docking, s.
 fn fetch(at: Pose, rest: f64) -> Plan {
     let call = "plan(Both().fetch(50mm, 1s), world: world(gravity: 0m/s^2, ground: off, dynamics: statics))";
-    let text = run_clean(&format!("{PUSHER}\nemit({call}, \"p.json\")\n")).text("p.json").to_owned();
-    let mut plan = file::read(&text).expect("a plan that was written is read");
+    let mut plan = run_clean(&format!("{PUSHER}\nemit({call}, \"p.json\")\n")).plan("p.json");
     let Body::Tracks(tracks) = &mut plan.body else { unreachable!("a plan of modules") };
     // Written with both docked; here the block stands by itself until the slide has come to it.
     tracks.start.bonds[0] = false;

@@ -182,7 +182,7 @@ fn each_drive_keeps_to_its_range_and_its_speed() {
             assert_eq!(found.is_empty(), keeps, "{round} {fast} {found:?}");
             if let [failure] = found.as_slice() {
                 assert!((failure.value / fast - 1.0).abs() < 1e-3 && failure.at == [name]);
-                // What turns has an angle, and what slides a length.
+                // A joint that turns has an angle, and one that slides a length.
                 let turns = own != 2;
                 let words = |unit: &str| failure.message.contains(unit);
                 assert_eq!((words("rad/s"), words("m/s")), (turns, !turns), "{}", failure.message);
@@ -226,7 +226,7 @@ fn a_joint_jumps_from_rest_after_a_pause() {
         assert_eq!(times(1.0, (0.5, 1.5)), [2.0]);
         assert!(times(1.0, (0.5, 2.5)).is_empty());
     }
-    // Where no limit is stated the change is told beside one of nothing.
+    // The change is told beside a limit of nothing if none is stated.
     let found = jumps(two(1.0), None, (0.5, 1.5), full);
     assert!((found[0].value - 0.6).abs() < 1e-12 && found[0].limit == 0.0, "{found:?}");
 }

@@ -6,7 +6,6 @@ use crate::support::robots::{self, DISC, LEFT, LEFT_WHEEL, RIGHT, RIGHT_WHEEL, T
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::{Rollout, RolloutEnd, TipOver, Tolerances, roll_out};
-use modl::plan::{Settings, WorldFrom};
 use modl::robot::{Library, ModuleType};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -39,22 +38,10 @@ struct Seen {
 }
 
 fn seen(motion: &Motion, step: f64) -> Seen {
-    let settings = Settings { sample: step, ..Settings::default() };
     let tolerances = Tolerances::default();
-    let worlds = [WorldFrom { from: 0.0, world: STATICS }];
-    let course = Rollout {
-        tracks: &motion.tracks,
-        worlds: &worlds,
-        exemptions: &[],
-        settings: &settings,
-        tolerances: &tolerances,
-        held: None,
-        begin: None,
-        end: motion.tracks.duration,
-        subject: "the robot",
-        as_placed: false,
-        floats: false,
-    };
+    let mut plan = motion.clone().plan(STATICS);
+    plan.settings.sample = step;
+    let course = Rollout::of(&plan, &motion.tracks, &tolerances);
     let mut seen = Seen::default();
     let mut first: Option<(modl::geometry::Pose, Vec3)> = None;
     let mut yaw = 0.0;

@@ -2,11 +2,11 @@
 
 use crate::support::desk::run_clean;
 use modl::geometry::Vec3;
+use modl::plan::Plan;
 use modl::plan::verify::articulated::{Detail, base_at, instants};
-use modl::plan::{Plan, file};
 
 fn plan(program: &str) -> Plan {
-    file::read(run_clean(program).text("p.json")).expect("a plan that was written is read")
+    run_clean(program).plan("p.json")
 }
 
 /// Returns the forces of the ground at a time, as (place, force) in the world.

@@ -1,11 +1,13 @@
 //! The judge of lattice plans: what it must reject, each for its reason, and what it must accept.
 
 use crate::planners::squeeze::{to_halves, truth};
-use crate::support::lattices::{BALANCED, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_of};
+use crate::support::lattices::{
+    BALANCED, Flat, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_by_hand, stages_of,
+};
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, CauseId, CellLimits, CheckKind, Counter, Ground, Law, Model, Plan, Ratio, Run, Snapshot, Stage,
-    Stages, Verdict, World, WorldFrom, sliced,
+    Body, CellLimits, CheckKind, Counter, Ground, Law, Model, Plan, Ratio, Run, Snapshot, Stages, Verdict,
+    World, WorldFrom, sliced,
 };
 use modl::planners::squeeze::{accordion, fold, shear, to_row};
 use modl::robot::{Cell, Library};
@@ -13,42 +15,15 @@ use proptest::prelude::*;
 use serde_json::Value;
 use std::sync::Arc;
 
-/// A cell in the plane: centre and size along x and y.
-type Flat = [Ratio; 4];
-
 const HALF: Ratio = Ratio(1, 2);
 
 fn ratio(above: i64, below: i64) -> Ratio {
     Ratio::new(above.into(), below.into()).expect("small")
 }
 
-fn runs(cells: &[Flat]) -> Vec<Run> {
-    let run = |(i, [x, y, w, h]): (usize, &Flat)| Run {
-        first: i as u64,
-        counters: vec![],
-        center: [*x, *y, Ratio::ZERO],
-        size: [*w, *h, Ratio::ONE],
-    };
-    cells.iter().enumerate().map(run).collect()
-}
-
 fn stages(start: &[Flat], ends: &[(Ratio, Vec<Flat>)], model: Model) -> Stages {
-    let stage = |(time_squared, end): &(Ratio, Vec<Flat>)| Stage {
-        name: "by hand".into(),
-        time_squared: *time_squared,
-        law: Law::BangBang,
-        end: runs(end),
-        cause: CauseId(0),
-    };
-    Stages {
-        cell: 0,
-        count: start.len() as u64,
-        time_unit: 1.0,
-        limits: UNIT,
-        model,
-        start: runs(start),
-        stages: ends.iter().map(stage).collect(),
-    }
+    let ends: Vec<_> = ends.iter().map(|(time, end)| (Law::BangBang, *time, end.clone())).collect();
+    stages_by_hand(start, &ends, model)
 }
 
 /// Of a row of `n` about its middle: cell `i` at `pitch` times its place.

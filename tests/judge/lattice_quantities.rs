@@ -1,9 +1,9 @@
 //! Quantities that verdicts on lattices state, in SI units, by closed forms and by differences of the cells' places.
 
-use crate::support::lattices::{BALANCED, PAPER, TERMS, UNIT, plan_of, stages_of};
+use crate::support::lattices::{BALANCED, Flat, PAPER, TERMS, plan_of, stages_by_hand, stages_of};
 use modl::plan::lattice::{peak_forces, time_lower_bound};
 use modl::plan::verify::verify;
-use modl::plan::{Body, CauseId, CheckKind, Failure, Law, Model, Plan, Ratio, Run, Stage, Stages, Verdict};
+use modl::plan::{Body, CheckKind, Failure, Law, Model, Plan, Ratio, Stage, Stages, Verdict};
 use modl::planners::squeeze::{accordion, fold, shear};
 use modl::robot::{Cell, Library};
 use std::sync::Arc;
@@ -56,33 +56,11 @@ fn turned(mut stages: Stages, by: usize) -> Stages {
 /// A cell by hand: centre and size along x and y, in eighths; 1 along z.
 type Eighths = [i64; 4];
 
-fn runs(cells: &[Eighths]) -> Vec<Run> {
-    let run = |(i, [x, y, w, h]): (usize, &Eighths)| Run {
-        first: i as u64,
-        counters: vec![],
-        center: [Ratio(*x, 8), Ratio(*y, 8), Ratio::ZERO],
-        size: [Ratio(*w, 8), Ratio(*h, 8), Ratio::ONE],
-    };
-    cells.iter().enumerate().map(run).collect()
-}
-
 fn stages(start: &[Eighths], ends: &[(Law, Ratio, &[Eighths])], model: Model) -> Stages {
-    let stage = |(law, time_squared, end): &(Law, Ratio, &[Eighths])| Stage {
-        name: "by hand".into(),
-        time_squared: *time_squared,
-        law: *law,
-        end: runs(end),
-        cause: CauseId(0),
-    };
-    Stages {
-        cell: 0,
-        count: start.len() as u64,
-        time_unit: 1.0,
-        limits: UNIT,
-        model,
-        start: runs(start),
-        stages: ends.iter().map(stage).collect(),
-    }
+    let flat = |cells: &[Eighths]| cells.iter().map(|cell| cell.map(|eighths| Ratio(eighths, 8))).collect();
+    let ends: Vec<_> = ends.iter().map(|(law, time, end)| (*law, *time, flat(end))).collect();
+    let start: Vec<Flat> = flat(start);
+    stages_by_hand(&start, &ends, model)
 }
 
 /// Returns the row of so many cells that squeezes to half its length in a time, the square of which is given.
@@ -276,7 +254,7 @@ fn sizes_out_of_their_range_are_stated() {
     }
 }
 
-/// What has no amount states none: cells that meet, and a centre of mass that moves.
+/// Failures without an amount state none: cells that meet, and a centre of mass that moves.
 #[test]
 fn failures_without_an_amount_state_none() {
     for (by, axis) in TURNS.into_iter().zip(["x", "y", "z"]) {

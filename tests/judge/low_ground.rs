@@ -1,4 +1,4 @@
-//! What the judge says of robots on the ground: how they settle, what a slope needs, how far stability is proved, and at how many
+//! The judge's words on robots on the ground: how they settle, what a slope needs, how far stability is proved, and at how many
 //! samples.
 #![allow(non_snake_case)]
 

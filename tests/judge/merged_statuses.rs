@@ -2,7 +2,7 @@
 
 use crate::support::desk::run_clean;
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Status, World, file};
+use modl::plan::{CheckKind, Status, World};
 
 /// A cart on a sled closes a gap of 1 mm to the rail, docked to a block or alone; links may be 0.1 mm deep in each other.
 const SLIDE: &str = "
@@ -40,8 +40,7 @@ fn the_status_of_a_robot_that_parts_is_the_weakest_of_its_parts() {
             "{SLIDE}\nemit(plan(Pair().close({docked}, {alone}), world: world(gravity: 0m/s^2, ground: off)), \
              \"p.json\")\n"
         );
-        let mut plan =
-            file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read");
+        let mut plan = run_clean(&program).plan("p.json");
         plan.worlds[0].world = World::FREE;
         let verdict = verify(&plan);
         let check = verdict.checks.into_iter().find(|check| check.kind == CheckKind::Collision);

@@ -6,7 +6,7 @@ use crate::support::desk::run_clean;
 use modl::geometry::{Mat3, Pose, Vec3};
 use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Plan, Status, Verdict, file};
+use modl::plan::{CheckKind, Plan, Status, Verdict};
 use modl::robot::Kinematics;
 use nalgebra::Vector6;
 
@@ -58,7 +58,7 @@ config Swung { part a: Arm  part b: Block  connect a.end -- b.face  base a
 fn plan(robot: &str, world: &str) -> Plan {
     let program =
         format!("{PARTING}\nemit(plan({robot}().part_ways(), world: world({world})), \"p.json\")\n");
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 const FREE: &str = "gravity: off, ground: off";

@@ -7,8 +7,8 @@ use crate::support::properties::whole;
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 use modl::optimize::random::SplitMix64;
+use modl::plan::Plan;
 use modl::plan::verify::articulated::{Detail, base_at, instants};
-use modl::plan::{Plan, file};
 use std::fmt::Write as _;
 
 /// The kinds of supports of a random robot.
@@ -159,7 +159,7 @@ fn plan(program: &str) -> Option<Plan> {
     let said: Vec<_> = observed.diagnostics.iter().map(|d| (d.code.to_string(), &d.message)).collect();
     let refused = said.iter().all(|(code, _)| code == "E0602" || code == "E0601" || code == "E0603");
     assert!(refused, "{said:?} in\n{program}");
-    said.is_empty().then(|| file::read(desk.text("p.json")).expect("a plan that was written is read"))
+    said.is_empty().then(|| desk.plan("p.json"))
 }
 
 /// Returns how many random robots are tried: ten times as many with `MODL_WHOLE`.

@@ -6,7 +6,7 @@ use crate::robots::urdf;
 use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
 use crate::support::properties::whole;
-use crate::support::robots::{self, Design};
+use crate::support::robots::{self, Design, face};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Pose, Shape, Solid, Vec3};
 use modl::plan::verify::verify;
@@ -130,11 +130,9 @@ fn connectors() -> Vec<Connector> {
         name: name.into(),
         mates: vec![mates],
         turns: 4,
-        holds_force: None,
-        holds_moment: None,
         capture,
-        snaps: false,
         hinge,
+        ..face()
     };
     let hinge = Hinge { axis: Vec3::y(), limits: Limits::default() };
     let capture = Capture::at_rest(4e-3, 0.05);

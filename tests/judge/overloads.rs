@@ -1,7 +1,7 @@
 //! The words about overloads under full dynamics, in closed form: a ball of 1 kg at the end of a weightless lever of 0.5 m, on a
 //! base that is held.
 
-use crate::support::desk::run;
+use crate::support::desk::{run, stated};
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 
@@ -32,15 +32,6 @@ fn messages(facts: &str, side: i32, ends: [&str; 2], options: &str) -> Vec<Strin
 
 /// A move that is as good as none.
 const LEVEL_STILL: [&str; 2] = ["0deg", "0.01deg"];
-
-/// Returns the number before a unit in the part of a message after some words.
-fn stated(message: &str, after: &str, unit: &str) -> f64 {
-    let rest =
-        &message[message.find(after).unwrap_or_else(|| panic!("{after} in {message}")) + after.len()..];
-    let end = rest.find(unit).unwrap_or_else(|| panic!("{unit} in {rest}"));
-    let begin = rest[..end].rfind(' ').map_or(0, |at| at + 1);
-    rest[begin..end].parse().unwrap_or_else(|_| panic!("a number in {rest}"))
-}
 
 #[test]
 fn a_joint_sags_by_what_its_servo_keeps_of_its_stiffness_beyond_its_limit() {

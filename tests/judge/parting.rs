@@ -6,7 +6,7 @@ use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
 use modl::plan::{
     Body, CauseId, CheckKind, DockingEvent, DockingKind, Exemption, ExemptionKind, Ground, Plan, Status,
-    Verdict, World, file,
+    Verdict, World,
 };
 
 const CARS: &str = "use std.smores.TwoCars
@@ -65,7 +65,7 @@ config Pair {
 
 fn plan(declarations: &str, behavior: &str) -> Plan {
     let program = format!("{declarations}\nemit(plan({behavior}), \"p.json\")\n");
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 /// Returns the plan of a tower that lets go of what is above a block, in the world of the default. Without weight, in

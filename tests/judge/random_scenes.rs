@@ -6,7 +6,7 @@ use crate::support::desk::run_clean;
 use crate::support::numbers::Numbers;
 use modl::geometry::{Placed, Pose, Shape, Vec3, pose::turned};
 use modl::plan::verify::verify;
-use modl::plan::{Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status, file};
+use modl::plan::{Body, CheckKind, DockingEvent, DockingKind, Obstacle, Plan, Status};
 use modl::robot::ClusterPose;
 
 /// Four rods that move along x in a world without weight: a carrier of 50 mm and a rod of 80 x 20 x 20 mm each. They are written
@@ -163,7 +163,7 @@ fn scene(bare: &Plan, seed: u32) -> (Plan, Vec<Block>) {
 
 #[test]
 fn a_thousand_random_scenes_are_judged_as_dense_sampling_judges_them() {
-    let bare = file::read(run_clean(RODS).text("p.json")).expect("a plan that was written is read");
+    let bare = run_clean(RODS).plan("p.json");
     let (mut hits, mut close, mut proved) = (0, 0, 0);
     for seed in 0..1000 {
         let (plan, blocks) = scene(&bare, seed);
@@ -191,7 +191,7 @@ fn a_thousand_random_scenes_are_judged_as_dense_sampling_judges_them() {
 /// Rods that dock where they meet, at random errors about what is captured, and part again.
 #[test]
 fn random_dockings_hold_within_capture_and_fail_beyond() {
-    let bare = file::read(run_clean(RODS).text("p.json")).expect("a plan that was written is read");
+    let bare = run_clean(RODS).plan("p.json");
     let (mut docked, mut missed) = (0, 0);
     for seed in 0..240 {
         let mut n = Numbers(seed as u64);
@@ -245,7 +245,7 @@ const OVER: f64 = 0.150;
 /// Blocks whose rods slide out fall over, each when its own centre of mass leaves its edge, and no other.
 #[test]
 fn random_blocks_fall_over_when_their_centre_of_mass_leaves_their_edge() {
-    let bare = file::read(run_clean(BLOCKS).text("p.json")).expect("a plan that was written is read");
+    let bare = run_clean(BLOCKS).plan("p.json");
     let (mut tipping, mut standing, mut near) = (0, 0, 0);
     for seed in 0..240 {
         let mut n = Numbers(seed as u64);

@@ -1,8 +1,8 @@
 //! Rolling without slip, whatever the direction of the axles: a robot on wheels goes as far as they turn, across their axles.
 
 use crate::support::desk::run_clean;
+use modl::plan::Plan;
 use modl::plan::verify::articulated::base_at;
-use modl::plan::{Plan, file};
 
 /// A body on two pairs of wheels of 50 mm radius, whose axles point along (cos, sin) of an angle.
 fn cart(degrees: f64) -> Plan {
@@ -26,7 +26,7 @@ fn cart(degrees: f64) -> Plan {
          let k = Cart()
          emit(plan(Pc({turns}), world: world(dynamics: statics)), \"p.json\")\n"
     );
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 #[test]

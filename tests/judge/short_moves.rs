@@ -6,7 +6,7 @@ use crate::support::dense_model::recorded;
 use crate::support::desk::run_clean;
 use modl::plan::verify::articulated::{Detail, instants};
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Plan, Status, Track, Tracks, file};
+use modl::plan::{CheckKind, Plan, Status, Track, Tracks};
 
 /// Two balls of 1 kg and 20 mm radius, 300 mm from their axes.
 fn plan(behavior: &str) -> Plan {
@@ -22,7 +22,7 @@ fn plan(behavior: &str) -> Plan {
          emit(plan({behavior}, world: world(ground: held, dynamics: full)), \"p.json\")
 "
     );
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 /// The moment of inertia of an arm about its axis, kg·m²: that of a ball and what its distance adds.

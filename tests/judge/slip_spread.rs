@@ -1,6 +1,6 @@
 //! The spread of a docking if wheels slip: beside drives whose wheels run faster and slower by that part.
 
-use crate::support::desk::run_clean;
+use crate::support::desk::{run_clean, stated};
 
 /// A car on two wheels, 160 mm apart, and a skid with little friction, with a port ahead; and a block with a port.
 const CAR: &str = "
@@ -62,14 +62,6 @@ print(join(r.notes, with: \"\\n\"))
 
 fn numbers(line: &str) -> Vec<f64> {
     line.split_whitespace().map(|word| word.parse().expect("a number")).collect()
-}
-
-/// Returns the number before a unit in the part of a note after `from`.
-fn stated(note: &str, from: &str, unit: &str) -> f64 {
-    let after = &note[note.find(from).expect("the note says so") + from.len()..];
-    let end = after.find(unit).expect("with a unit");
-    let begin = after[..end].rfind([' ', ';']).map_or(0, |at| at + 1);
-    after[begin..end].parse().expect("a number")
 }
 
 #[test]

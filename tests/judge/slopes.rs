@@ -29,7 +29,7 @@ emit(plan(Lifter().reach(), world: world(terrain: slope(DEGREES, along: [3, -1, 
 
 fn plan(degrees: &str, dynamics: &str) -> Plan {
     let program = ARM.replace("DEGREES", degrees).replace("DYNAMICS", dynamics);
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 /// Returns the effort of each joint at some times.

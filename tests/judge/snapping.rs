@@ -6,7 +6,7 @@ use modl::geometry::{Placed, Pose, Shape, Vec3, pose::turned};
 use modl::interpret::Mode;
 use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
-use modl::plan::{Body, CheckKind, Obstacle, Plan, file};
+use modl::plan::{Body, CheckKind, Obstacle, Plan};
 use modl::robot::Kinematics;
 use std::f64::consts::PI;
 
@@ -47,7 +47,7 @@ const AFLOAT: &str = "gravity: 0m/s^2, ground: off, dynamics: statics";
 /// Returns the plan of such a scene.
 fn plan(capture: &str, second: &str, error: &str) -> Plan {
     let program = scene(capture, "Alone", second, error, AFLOAT);
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 /// Returns the world pose of a module's body at a time, s.

@@ -9,7 +9,7 @@ use crate::support::robots::{self, DISC, LEFT, RIGHT, TILT, boxed, joint, link};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::verify::articulated::{Detail, Rollout, RolloutEnd, Tolerances, area, instants, roll_out};
-use modl::plan::{Settings, Stability, World, WorldFrom};
+use modl::plan::{Settings, Stability, World};
 use modl::robot::{Assembly, JointKind, Limits};
 
 /// What is seen of a robot at a sample.
@@ -31,19 +31,9 @@ struct Seen {
 /// Returns what is seen of a motion in a world under statics, sample by sample.
 fn seen(motion: &Motion, world: World, settings: &Settings) -> Vec<Seen> {
     let tolerances = Tolerances::default();
-    let rollout = Rollout {
-        tracks: &motion.tracks,
-        worlds: &[WorldFrom { from: 0.0, world }],
-        exemptions: &[],
-        settings,
-        tolerances: &tolerances,
-        held: None,
-        begin: None,
-        end: motion.tracks.duration,
-        subject: "the robot",
-        as_placed: false,
-        floats: false,
-    };
+    let mut plan = motion.clone().plan(world);
+    plan.settings = *settings;
+    let rollout = Rollout::of(&plan, &motion.tracks, &tolerances);
     let mut seen = vec![];
     let ended = roll_out(rollout, None, motion.tracks.duration, &mut |sample, _| {
         let stance = sample.stance;
@@ -245,7 +235,7 @@ fn blocks(places: &[[i32; 3]]) -> Assembly {
         places.len()
     );
     let desk = run_clean(&program);
-    let plan = modl::plan::file::read(desk.text("p.json")).expect("a plan that was written is read");
+    let plan = desk.plan("p.json");
     plan.body.tracks().expect("modules").robot.clone()
 }
 

@@ -6,12 +6,12 @@ use crate::support::arms::robot_of;
 use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
 use crate::support::replay::Replay;
-use crate::support::robots::{self, T, boxed, joint, link};
+use crate::support::robots::{self, T, boxed, face, joint, link};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
 use modl::plan::verify::verify;
 use modl::plan::{CauseId, CheckKind, DockingEvent, DockingKind, Failure, Plan, StatedPath, Status, World};
-use modl::robot::{Assembly, Connector, JointKind, Limits, Port, PortRef};
+use modl::robot::{Assembly, JointKind, Limits, Port, PortRef};
 use nalgebra::UnitQuaternion;
 use std::sync::Arc;
 
@@ -43,16 +43,7 @@ fn carrier(reach: f64) -> Assembly {
     ];
     let mut robot = robot_of(links.collect(), joints);
     let library = Arc::make_mut(&mut robot.library);
-    library.connectors.push(Connector {
-        name: "Face".into(),
-        mates: vec![0],
-        turns: 1,
-        holds_force: None,
-        holds_moment: None,
-        capture: None,
-        snaps: false,
-        hinge: None,
-    });
+    library.connectors.push(face());
     let pose = shifted(Vec3::x() * ARM);
     library.modules[0].ports.push(Port { name: "tip".into(), link: 4, pose, connector: 0 });
     robot

@@ -19,6 +19,21 @@ pub const GRAVITY: f64 = 9.80665;
 pub const FREE: World = World::FREE;
 pub const STANDING: World = World { gravity: GRAVITY, ground: Ground::Settle, ..World::FREE };
 
+/// The rounds of a random test that end in the one way or in the other.
+#[derive(Default)]
+pub struct Tally {
+    pub yes: usize,
+    pub no: usize,
+}
+
+impl Tally {
+    /// Counts a round; one whose end is too near to tell is `None`.
+    pub fn count(&mut self, end: Option<bool>) {
+        self.yes += usize::from(end == Some(true));
+        self.no += usize::from(end == Some(false));
+    }
+}
+
 /// Returns the tetrahedron on [`BASE`] whose fourth node is there.
 pub fn tetra(top: Place) -> Vec<Place> {
     [&BASE[..], &[top]].concat()

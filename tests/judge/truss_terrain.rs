@@ -74,7 +74,7 @@ fn compared(plan: &Plan, terrain: &HeightField, at: &dyn Fn(f64) -> [Place; 2], 
 #[test]
 fn what_goes_straight_goes_as_deep_as_many_moments_say() {
     let mut number = dice(67);
-    let (mut dry, mut wet) = (0, 0);
+    let mut sunk_in = Tally::default();
     for round in 0..60 {
         let terrain = square(0.5, 6, |_, _| number(0.0, 0.5));
         // High enough that many go over it, and low enough that many don't.
@@ -84,19 +84,16 @@ fn what_goes_straight_goes_as_deep_as_many_moments_say() {
         let to = if round % 6 == 0 { from } else { to };
         let plan = plan(WEIGHTLESS, &[(0, 1)], vec![straight(0.0, &from), straight(1.0, &to)]);
         let at = |part: f64| [0, 1].map(|k| between(from[k], to[k], part));
-        match compared(&on(plan, &terrain), &terrain, &at, &format!("round {round}")) {
-            Some(true) => wet += 1,
-            Some(false) => dry += 1,
-            None => {}
-        }
+        sunk_in.count(compared(&on(plan, &terrain), &terrain, &at, &format!("round {round}")));
     }
+    let Tally { yes: wet, no: dry } = sunk_in;
     assert!(dry > 10 && wet > 10, "{dry} dry, {wet} wet");
 }
 
 #[test]
 fn what_rolls_goes_as_deep_as_many_moments_say() {
     let mut number = dice(71);
-    let (mut dry, mut wet) = (0, 0);
+    let mut sunk_in = Tally::default();
     for round in 0..60 {
         let terrain = square(0.5, 6, |_, _| number(0.0, 0.4));
         let mut nodes: Vec<Place> =
@@ -115,15 +112,12 @@ fn what_rolls_goes_as_deep_as_many_moments_say() {
         if found.iter().any(|failure| failure.at == ["n2"]) {
             let ends = at(found[0].time);
             assert!((found[0].value - depth(&terrain, &ends[1..])).abs() < 0.02, "{found:?}");
-            wet += 1;
+            sunk_in.count(Some(true));
             continue;
         }
-        match compared(&plan, &terrain, &at, &named("round")) {
-            Some(true) => wet += 1,
-            Some(false) => dry += 1,
-            None => {}
-        }
+        sunk_in.count(compared(&plan, &terrain, &at, &named("round")));
     }
+    let Tally { yes: wet, no: dry } = sunk_in;
     assert!(dry > 5 && wet > 10, "{dry} dry, {wet} wet");
 }
 

@@ -114,7 +114,7 @@ fn walls(number: &mut dyn FnMut(f64, f64) -> f64, count: usize) -> Vec<Wall> {
 #[test]
 fn a_strut_that_goes_straight_keeps_from_walls_what_many_moments_say() {
     let mut number = dice(53);
-    let (mut kept, mut met) = (0, 0);
+    let mut kept_apart = Tally::default();
     for round in 0..160 {
         let count = 1 + round % 2;
         let walls = walls(&mut number, count);
@@ -130,19 +130,16 @@ fn a_strut_that_goes_straight_keeps_from_walls_what_many_moments_say() {
         let plan = plan(FREE, &[(0, 1)], vec![straight(0.0, &from), straight(1.0, &to)]);
         let verdict = judged(&beside(plan, &walls));
         let at = |part: f64| [0, 1].map(|k| between(from[k], to[k], part));
-        match compared(&verdict, &walls, &at, &format!("round {round}")) {
-            Some(true) => kept += 1,
-            Some(false) => met += 1,
-            None => {}
-        }
+        kept_apart.count(compared(&verdict, &walls, &at, &format!("round {round}")));
     }
+    let Tally { yes: kept, no: met } = kept_apart;
     assert!(kept > 20 && met > 20, "{kept} kept apart, {met} met");
 }
 
 #[test]
 fn a_strut_that_rolls_keeps_from_walls_what_many_moments_say() {
     let mut number = dice(59);
-    let (mut kept, mut met) = (0, 0);
+    let mut kept_apart = Tally::default();
     for round in 0..100 {
         let walls = walls(&mut number, 4);
         let mut nodes: Vec<Place> = (0..4).map(|_| std::array::from_fn(|_| number(-1.0, 1.0))).collect();
@@ -156,12 +153,9 @@ fn a_strut_that_rolls_keeps_from_walls_what_many_moments_say() {
         let keyframes = vec![straight(0.0, &nodes), roll(1.0, (1, 3), angle, &after)];
         let verdict = judged(&beside(plan(FREE, &[(0, 2)], keyframes), &walls));
         let at = |part: f64| [0, 2].map(|k| turned(nodes[k], edge, angle * part));
-        match compared(&verdict, &walls, &at, &format!("round {round}")) {
-            Some(true) => kept += 1,
-            Some(false) => met += 1,
-            None => {}
-        }
+        kept_apart.count(compared(&verdict, &walls, &at, &format!("round {round}")));
     }
+    let Tally { yes: kept, no: met } = kept_apart;
     assert!(kept > 20 && met > 20, "{kept} kept apart, {met} met");
 }
 

@@ -5,12 +5,12 @@ use crate::support::arms::robot_of;
 use crate::support::motions::Motion;
 use crate::support::numbers::Numbers;
 use crate::support::replay::Replay;
-use crate::support::robots::{boxed, joint, link};
+use crate::support::robots::{boxed, face, joint, link};
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::verify;
 use modl::plan::{CheckKind, Failure, Plan, World};
-use modl::robot::{Assembly, Bond, Connector, JointKind, Limits, ModuleInstance, Port, PortRef};
+use modl::robot::{Assembly, Bond, JointKind, Limits, ModuleInstance, Port, PortRef};
 use std::sync::Arc;
 
 /// The radii of the ball and of the post, which is a ball, too, m.
@@ -51,16 +51,7 @@ fn robot(post: [f64; 2], docked: bool) -> Assembly {
         library.modules.push(other);
         let port = Port { name: "side".into(), link: 0, pose: Pose::identity(), connector: 0 };
         library.modules.iter_mut().for_each(|kind| kind.ports.push(port.clone()));
-        library.connectors.push(Connector {
-            name: "Face".into(),
-            mates: vec![0],
-            turns: 1,
-            holds_force: None,
-            holds_moment: None,
-            capture: None,
-            snaps: false,
-            hinge: None,
-        });
+        library.connectors.push(face());
         robot.modules.push(ModuleInstance { name: "p".into(), kind: 1 });
         let port = |module| PortRef { module, port: 0 };
         robot.bonds.push(Bond { a: port(0), b: port(1), turn: 0 });

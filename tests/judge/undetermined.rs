@@ -1,6 +1,6 @@
 //! Travel that friction or servos do not determine: wheels that pull against skids with nearly as much friction.
 
-use crate::support::desk::run;
+use crate::support::desk::{run, stated};
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 
@@ -42,10 +42,7 @@ fn messages(four: bool, skid: [f64; 2], stiffness: f64, allows: &str) -> Vec<Str
 
 /// Returns the distances in the message about undetermined travel, mm.
 fn distances(message: &str) -> [f64; 2] {
-    [("not determined: ", "mm"), ("but ", "mm elsewhere")].map(|(from, to)| {
-        let rest = &message[message.find(from).expect("the message tells it") + from.len()..];
-        rest[..rest.find(to).expect("with its unit")].parse().expect("a number")
-    })
+    [stated(message, "not determined:", "mm"), stated(message, "but", "mm elsewhere")]
 }
 
 #[test]

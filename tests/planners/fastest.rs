@@ -48,7 +48,7 @@ fn plans(program: &str, behavior: &str, world: &str, call: &str) -> (Plan, Plan)
     let written = run_clean(&format!(
         "{program}\nlet p = plan({behavior}, world: {world})\nlet f = {call}\nemit(p, \"p.json\")\nemit(f, \"f.json\")\n"
     ));
-    let read = |name: &str| file::read(written.text(name)).expect("a plan that was written is read");
+    let read = |name: &str| written.plan(name);
     let fast = read("f.json");
     // The curves must be those of the plan's own program, which robots execute.
     assert_eq!(modl::behavior::unfaithful(&fast), None);

@@ -1,6 +1,7 @@
 //! Signed distances against closed forms.
 #![allow(non_snake_case)]
 
+use crate::support::hollow_meshes::tub;
 use crate::support::robots::{boxed, millimetres};
 use modl::geometry::distance::{distance_of_solids, signed_distance};
 use modl::geometry::pose::{shifted, turned};
@@ -67,26 +68,9 @@ fn a_union_is_as_near_as_its_nearest_part_and_its_hollow_is_empty() {
     assert!((fork.bounds.1 - millimetres(100.0, 40.0, 10.0)).norm() < 1e-15);
 }
 
-/// A thick-walled box without a lid, open upwards: a mesh that is not convex.
-fn tub() -> Solid {
-    let ring = |half: f64, z: f64| {
-        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x * half, y * half, z))
-    };
-    let rings = [ring(0.1, 0.0), ring(0.1, 0.1), ring(0.08, 0.1), ring(0.08, 0.02)];
-    let vertices = rings.concat();
-    let mut triangles = vec![[0, 2, 1], [0, 3, 2], [12, 13, 14], [12, 14, 15]];
-    for level in 0..3u32 {
-        for side in 0..4u32 {
-            let (a, b) = (4 * level + side, 4 * level + (side + 1) % 4);
-            triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
-        }
-    }
-    solid(Shape::Mesh { name: "tub.stl".into(), vertices, triangles })
-}
-
 #[test]
 fn a_mesh_keeps_its_hollow() {
-    let (tub, small) = (tub(), cube(0.04));
+    let (tub, small) = (solid(tub(0.08, 0.02, 1.0).shape), cube(0.04));
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.0, 0.0, 0.06)), 0.02);
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.05, 0.0, 0.06)), 0.01);
     check(&tub, Pose::identity(), &small, shifted(Vec3::new(0.15, 0.0, 0.06)), 0.03);

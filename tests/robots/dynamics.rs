@@ -8,7 +8,7 @@ use crate::support::numbers::Numbers;
 use crate::support::properties::whole;
 use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
-use modl::plan::{Plan, file};
+use modl::plan::Plan;
 use modl::robot::articulated_bodies::{ForcedState, ForwardDynamics};
 use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist, Wrench};
 use modl::robot::{Assembly, Kinematics};
@@ -232,7 +232,7 @@ emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")";
 #[test]
 fn the_efforts_of_a_motion_give_back_the_motion() {
     let mut numbers = Numbers(15);
-    let followers = file::read(run_clean(FOLLOWERS).text("p.json")).expect("a plan that was written is read");
+    let followers = run_clean(FOLLOWERS).plan("p.json");
     let followers = robot_of(&followers).clone();
     for robot in [robots::chain(3), robots::walk4(), robots::ring12(), followers] {
         let machine = Machine::new(&robot);
@@ -353,7 +353,7 @@ pub fn library_plan(name: &str) -> Plan {
         "use std.smores.{name}\nconfig D {{ part d: {name}\n  behavior rest = wait(1s) }}\n\
          emit(plan(D().rest(), world: world(ground: off, gravity: off)), \"p.json\")"
     );
-    file::read(run_clean(&program).text("p.json")).expect("a plan that was written is read")
+    run_clean(&program).plan("p.json")
 }
 
 /// The robot of a plan.

@@ -1,5 +1,6 @@
 //! Protrusions of drawn shapes, by closed forms.
 
+use crate::support::hollow_meshes::tub;
 use crate::support::numbers::Numbers;
 use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3, protrusion};
@@ -117,19 +118,7 @@ fn a_rod_is_covered_by_two_rods_that_meet() {
 /// A box that is hollow: what is in its wall is covered, and what is in the hollow, open above, is not.
 #[test]
 fn walls_of_a_mesh_cover_and_its_hollow_does_not() {
-    let ring = |half: f64, z: f64| {
-        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x * half, y * half, z))
-    };
-    let vertices = [ring(0.1, 0.0), ring(0.1, 0.1), ring(0.06, 0.1), ring(0.06, 0.04)].concat();
-    let mut triangles = vec![[0, 2, 1], [0, 3, 2], [12, 13, 14], [12, 14, 15]];
-    for level in 0..3u32 {
-        for side in 0..4u32 {
-            let (a, b) = (4 * level + side, 4 * level + (side + 1) % 4);
-            triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
-        }
-    }
-    let tub =
-        Placed { pose: Pose::identity(), shape: Shape::Mesh { name: "tub.stl".into(), vertices, triangles } };
+    let tub = tub(0.06, 0.04, 1.0);
     let cover = std::slice::from_ref(&tub);
     sticks_out(&[block([0.08, 0.0, 0.05], [0.02, 0.02, 0.02])], cover, 0.017, 0.0);
     sticks_out(&[block([0.01, 0.0, 0.02], [0.04, 0.03, 0.02])], cover, 0.026, 0.0);

@@ -1,6 +1,7 @@
 //! Shapes, solids and their parts, by closed forms and by counting every point, direction or pair.
 #![allow(non_snake_case)]
 
+use crate::support::hollow_meshes::tub;
 use crate::support::numbers::Numbers;
 use modl::geometry::broad_phase::{Aabb, near_boxes};
 use modl::geometry::closest_points::{end_segment, point_segment_distance};
@@ -178,33 +179,16 @@ fn meshes_are_closed_face_outwards_and_hold_something() {
     assert_eq!(mesh(1.9e-6, &outwards), Ok(()));
 }
 
-/// A thick-walled box without a lid, open upwards, of 0.2 m.
-fn tub(scale: f64) -> Shape {
-    let ring = |half: f64, z: f64| {
-        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
-            .map(|(x, y)| Vec3::new(x * half, y * half, z) * scale)
-    };
-    let vertices = [ring(0.1, 0.0), ring(0.1, 0.1), ring(0.08, 0.1), ring(0.08, 0.02)].concat();
-    let mut triangles = vec![[0, 2, 1], [0, 3, 2], [12, 13, 14], [12, 14, 15]];
-    for level in 0..3u32 {
-        for side in 0..4u32 {
-            let (a, b) = (4 * level + side, 4 * level + (side + 1) % 4);
-            triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
-        }
-    }
-    Shape::Mesh { name: "tub.stl".into(), vertices, triangles }
-}
-
 /// A tub that is wholly in the wall of another is in it, though no surfaces cross, wherever its frame is; in the hollow it is
 /// not.
 #[test]
 fn a_mesh_within_the_wall_of_another_is_enclosed() {
-    let big = solid(&[at(Pose::identity(), tub(1.0))]);
+    let big = solid(&[tub(0.08, 0.02, 1.0)]);
     let mut n = Numbers(3);
     for _ in 0..50 {
         // Its frame is up to 0.2 m away from what is a hundredth as large.
         let frame = shifted(n.vector() * 0.2) * n.rotation();
-        let small = solid(&[at(frame, tub(0.01))]);
+        let small = solid(&[Placed { pose: frame, ..tub(0.08, 0.02, 0.01) }]);
         let place = |x: f64, y: f64, z: f64| shifted(Vec3::new(x, y, z)) * frame.inverse();
         for (x, y, z, inside) in [
             (0.09, 0.0, 0.05, true),

@@ -1,7 +1,7 @@
 //! Robots for which mechanics has closed forms, as programs, and their plans.
 
 use crate::support::desk::run_clean;
-use modl::plan::{Ground, Plan, World, file};
+use modl::plan::{Ground, Plan, World};
 use modl::simulate::{Moment, Settings, Simulation, simulate};
 
 /// The acceleration of free fall, m/s².
@@ -18,7 +18,7 @@ pub const LEVEL: World = World { gravity: GRAVITY, ground: Ground::Settle, ..Wor
 pub fn plan(program: &str, world: World) -> Plan {
     let weightless = "world: world(ground: off, gravity: off, dynamics: statics)";
     let written = run_clean(&format!("{program}emit(plan(b, {weightless}), \"p.json\")\n"));
-    let mut plan = file::read(written.text("p.json")).expect("a plan that was written is read");
+    let mut plan = written.plan("p.json");
     plan.verdict = None;
     plan.worlds[0].world = world;
     plan

@@ -9,7 +9,11 @@ use modl::plan::verify::articulated::{Instant, Rollout, Tolerances, roll_out};
 use modl::plan::{Plan, Tracks};
 use modl::robot::dynamics::{Dynamics, MotionState, Twist, Wrench};
 use modl::robot::{JointOwner, Kinematics};
-use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::allocator::Allocator;
+use nalgebra::{
+    DMatrix, DVector, DefaultAllocator, Dim, DimMin, Matrix3, Matrix6, OMatrix, OVector, SMatrix, U1,
+    Vector3, Vector6,
+};
 
 /// The window over which velocities and accelerations are means, s.
 pub const WINDOW: f64 = 0.05;
@@ -98,11 +102,7 @@ impl<'a> Machine<'a> {
 
     /// Returns the centre of mass, m, and the mass, kg.
     fn centre(&self, poses: &[Pose]) -> (Vec3, f64) {
-        let bodies = self.dynamics.bodies().iter().zip(poses);
-        let sum = bodies.fold((Vec3::zeros(), 0.0), |(sum, mass), (body, pose)| {
-            (sum + (pose * nalgebra::Point3::from(body.com)).coords * body.mass, mass + body.mass)
-        });
-        (sum.0 / sum.1, sum.1)
+        self.kinematics.centre_of_mass(&self.tracks.robot, poses)
     }
 }
 
@@ -124,6 +124,48 @@ struct Contact {
     gap: f64,
     friction: f64,
     by_joints: Vec3,
+}
+
+impl Contact {
+    /// Returns the friction on the contact, N, under a load (N), if the base moves it at a velocity (m/s) besides its joints.
+    fn resists(&self, load: f64, base: &Vec3) -> Vec3 {
+        let mut slip = base + self.by_joints;
+        slip.z = 0.0;
+        -slip * (self.friction * load / regularized(&slip))
+    }
+}
+
+/// Returns the speed along the ground by which friction on a slip is divided, m/s.
+fn regularized(slip: &Vec3) -> f64 {
+    (slip.x * slip.x + slip.y * slip.y + VISCOUS * VISCOUS).sqrt()
+}
+
+/// The gradient and the Hessian of a function.
+type Derivatives<D> = (OVector<f64, D>, OMatrix<f64, D, D>);
+
+/// Returns the least point of a convex function from a first one on, by Newton steps with a line search.
+fn least<D: Dim + DimMin<D, Output = D>>(
+    first: OVector<f64, D>,
+    value: &dyn Fn(&OVector<f64, D>) -> f64,
+    derivatives: &dyn Fn(&OVector<f64, D>) -> Derivatives<D>,
+) -> OVector<f64, D>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
+{
+    let mut x = first;
+    for _ in 0..300 {
+        let (gradient, hessian) = derivatives(&x);
+        let step = hessian.lu().solve(&-&gradient).expect("the Hessian is regular");
+        let (before, mut part) = (value(&x), 1.0);
+        while part > 1e-9 && value(&(&x + &step * part)) > before + 1e-4 * part * gradient.dot(&step) {
+            part *= 0.5;
+        }
+        x += &step * part;
+        if part == 1.0 && step.amax() < 1e-12 {
+            break;
+        }
+    }
+    x
 }
 
 /// The robot at an instant.
@@ -188,7 +230,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns the normal force of each contact and the effort of each joint at the least energy of all springs, with these
-    /// forces of friction: Newton steps with a line search, from all contacts pressed.
+    /// forces of friction.
     fn loads(&self, needed: &[Wrench], friction: &[Vec3]) -> (Vec<f64>, Vec<f64>) {
         let count = self.shifts.len();
         let robot = &self.machine.tracks.robot;
@@ -245,28 +287,21 @@ impl<'a> Scene<'a> {
                 pushing.iter().map(|(k, gap, row)| 0.5 * k * libm::pow((gap + row.dot(x)).min(0.0), 2.0));
             0.5 * x.dot(&(&stiffness * x)) + force.dot(x) + pressed.sum::<f64>()
         };
-        // Pressed by a little, so that all contacts count at first.
-        let mut x = DVector::zeros(count);
-        x[0] = -2.0 * self.contacts.iter().map(|c| c.gap).fold(1e-6, f64::max);
-        for _ in 0..200 {
-            let (mut gradient, mut hessian) = (&stiffness * &x + &force, stiffness.clone());
+        let derivatives = |x: &DVector<f64>| {
+            let (mut gradient, mut hessian) = (&stiffness * x + &force, stiffness.clone());
             for (k, gap, row) in &pushing {
-                let depth = (gap + row.dot(&x)).min(0.0);
+                let depth = (gap + row.dot(x)).min(0.0);
                 if depth < 0.0 {
                     gradient += row * (k * depth);
                     hessian += row * row.transpose() * *k;
                 }
             }
-            let step = hessian.lu().solve(&-&gradient).expect("the springs hold");
-            let (before, mut part) = (energy(&x), 1.0);
-            while part > 1e-9 && energy(&(&x + &step * part)) > before + 1e-4 * part * gradient.dot(&step) {
-                part *= 0.5;
-            }
-            x += &step * part;
-            if part == 1.0 && step.amax() < 1e-12 {
-                break;
-            }
-        }
+            (gradient, hessian)
+        };
+        // Pressed by a little, so that all contacts count at first.
+        let mut pressed = DVector::zeros(count);
+        pressed[0] = -2.0 * self.contacts.iter().map(|c| c.gap).fold(1e-6, f64::max);
+        let x = least(pressed, &energy, &derivatives);
         let normals =
             pushing[..self.contacts.len()].iter().map(|(k, gap, row)| -k * (gap + row.dot(&x)).min(0.0));
         let normals: Vec<f64> = normals.collect();
@@ -277,7 +312,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns the twist of the base at the centre of mass at the least power of friction, with the force along the
-    /// ground and the moment that friction has to supply. Newton steps with a line search.
+    /// ground and the moment that friction has to supply.
     fn twist(&self, normals: &[f64], needed: &Vector6<f64>) -> Vector6<f64> {
         let loaded: Vec<(&Contact, f64, SMatrix<f64, 3, 6>)> = self
             .contacts
@@ -291,23 +326,21 @@ impl<'a> Scene<'a> {
                 (c, *load, J)
             })
             .collect();
-        let value = |xi: &Vector6<f64>| {
+        let power = |xi: &Vector6<f64>| {
             let mut power: f64 = needed.dot(xi);
             for (c, load, J) in &loaded {
                 let s = J * xi + c.by_joints;
-                power += c.friction * load * (s.x * s.x + s.y * s.y + VISCOUS * VISCOUS).sqrt();
+                power += c.friction * load * regularized(&s);
                 power += 0.5 * NORMAL / VISCOUS * load * s.z * s.z;
             }
             power
         };
-        let mut xi = Vector6::zeros();
-        for _ in 0..300 {
-            let mut gradient = *needed;
-            let mut hessian = Matrix6::identity() * 1e-7;
+        let derivatives = |xi: &Vector6<f64>| {
+            let (mut gradient, mut hessian) = (*needed, Matrix6::identity() * 1e-7);
             for (c, load, J) in &loaded {
                 let s = J * xi + c.by_joints;
                 let planar = Vec3::new(s.x, s.y, 0.0);
-                let speed = (planar.norm_squared() + VISCOUS * VISCOUS).sqrt();
+                let speed = regularized(&s);
                 let w = c.friction * load / speed;
                 let along = Matrix3::from_diagonal(&Vec3::new(1.0, 1.0, 0.0));
                 let bend = along * w - planar * planar.transpose() * (w / (speed * speed));
@@ -315,27 +348,15 @@ impl<'a> Scene<'a> {
                 gradient += J.transpose() * (planar * w + lift * s);
                 hessian += J.transpose() * (bend + lift) * J;
             }
-            let step = hessian.lu().solve(&-gradient).expect("friction resists");
-            let (before, mut part) = (value(&xi), 1.0);
-            while part > 1e-9 && value(&(xi + step * part)) > before + 1e-4 * part * gradient.dot(&step) {
-                part *= 0.5;
-            }
-            xi += step * part;
-            if step.amax() * part < 1e-10 {
-                break;
-            }
-        }
-        xi
+            (gradient, hessian)
+        };
+        least(Vector6::zeros(), &power, &derivatives)
     }
 
     /// Returns the force of friction on each contact under a twist.
     fn friction(&self, normals: &[f64], xi: &Vector6<f64>) -> Vec<Vec3> {
         let (linear, angular): (Vec3, Vec3) = (xi.fixed_rows::<3>(0).into(), xi.fixed_rows::<3>(3).into());
-        let one = |(c, load): (&Contact, &f64)| {
-            let mut s = linear + angular.cross(&c.p) + c.by_joints;
-            s.z = 0.0;
-            -s * (c.friction * load / (s.norm_squared() + VISCOUS * VISCOUS).sqrt())
-        };
+        let one = |(c, load): (&Contact, &f64)| c.resists(*load, &(linear + angular.cross(&c.p)));
         self.contacts.iter().zip(normals).map(one).collect()
     }
 
@@ -448,9 +469,7 @@ pub fn travelled(machine: &Machine, begin: &Pose) -> Pose {
         for _ in 0..(interval / step).round() as usize {
             let mut force = Vector3::zeros();
             for ((c, load), f) in scene.contacts.iter().zip(&normals).zip(&mut friction) {
-                let slip =
-                    Vec3::new(xi.x - xi.z * c.p.y + c.by_joints.x, xi.y + xi.z * c.p.x + c.by_joints.y, 0.0);
-                *f = -slip * (c.friction * load / (slip.norm_squared() + VISCOUS * VISCOUS).sqrt());
+                *f = c.resists(*load, &Vec3::new(xi.x - xi.z * c.p.y, xi.y + xi.z * c.p.x, 0.0));
                 force += Vector3::new(f.x, f.y, c.p.x * f.y - c.p.y * f.x);
             }
             xi += force.component_div(&inertia) * step;

@@ -2,6 +2,7 @@
 
 use crate::support::suite::{MapFiles, Observed};
 use modl::interpret::{Host, Mode, Options, Outcome, WriteError};
+use modl::plan::{Plan, file};
 use std::collections::BTreeMap;
 
 #[derive(Default)]
@@ -34,6 +35,20 @@ impl Desk {
         let bytes = self.written.get(path).unwrap_or_else(|| panic!("{path} was not written"));
         std::str::from_utf8(bytes).expect("plans are text")
     }
+
+    /// Returns the plan of a written plan file.
+    pub fn plan(&self, path: &str) -> Plan {
+        file::read(self.text(path)).expect("a plan that was written is read")
+    }
+}
+
+/// Returns the number before a unit in the part of a message that follows some words.
+pub fn stated(message: &str, after: &str, unit: &str) -> f64 {
+    let found = message.find(after).unwrap_or_else(|| panic!("{after} in {message}"));
+    let rest = &message[found + after.len()..];
+    let end = rest.find(unit).unwrap_or_else(|| panic!("{unit} in {rest}"));
+    let begin = rest[..end].rfind([' ', ';']).map_or(0, |at| at + 1);
+    rest[begin..end].parse().unwrap_or_else(|_| panic!("a number in {rest}"))
 }
 
 /// Checks and runs a program; the diagnostics of both are in the first result.

@@ -3,7 +3,8 @@
 
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, Cause, CellLimits, Model, Plan, Provenance, Ratio, Settings, Stages, Verdict, World, WorldFrom,
+    Body, Cause, CauseId, CellLimits, Law, Model, Plan, Provenance, Ratio, Run, Settings, Stage, Stages,
+    Verdict, World, WorldFrom,
 };
 use modl::planners::squeeze::{Motion, PlanHeader, PlanLimits, Profile};
 use modl::robot::{Cell, Library};
@@ -18,6 +19,39 @@ pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean
 
 pub fn unit_cell() -> Cell {
     Cell { name: "Unit".into(), size: 1.0, shrinks_to: 0.5, mass: 1.0, force: 1.0, speed: 1.0 }
+}
+
+/// A cell in the plane: centre and size along x and y; its size along z is 1.
+pub type Flat = [Ratio; 4];
+
+fn runs(cells: &[Flat]) -> Vec<Run> {
+    let run = |(i, [x, y, w, h]): (usize, &Flat)| Run {
+        first: i as u64,
+        counters: vec![],
+        center: [*x, *y, Ratio::ZERO],
+        size: [*w, *h, Ratio::ONE],
+    };
+    cells.iter().enumerate().map(run).collect()
+}
+
+/// Returns stages made by hand; `ends`: the law, the square of the time and the cells at the end of each.
+pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: Model) -> Stages {
+    let stage = |(law, time_squared, end): &(Law, Ratio, Vec<Flat>)| Stage {
+        name: "by hand".into(),
+        time_squared: *time_squared,
+        law: *law,
+        end: runs(end),
+        cause: CauseId(0),
+    };
+    Stages {
+        cell: 0,
+        count: start.len() as u64,
+        time_unit: 1.0,
+        limits: UNIT,
+        model,
+        start: runs(start),
+        stages: ends.iter().map(stage).collect(),
+    }
 }
 
 pub fn stages_of(motion: Motion, model: Model) -> Stages {

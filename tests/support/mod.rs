@@ -5,6 +5,7 @@ pub mod dense_model;
 pub mod desk;
 pub mod fences;
 pub mod generated;
+pub mod hollow_meshes;
 pub mod lattices;
 pub mod motions;
 pub mod numbers;

@@ -139,6 +139,20 @@ pub fn smores() -> ModuleType {
     }
 }
 
+/// Returns a connector that mates with its own kind in one way, and holds whatever pulls.
+pub fn face() -> Connector {
+    Connector {
+        name: "Face".into(),
+        mates: vec![0],
+        turns: 1,
+        holds_force: None,
+        holds_moment: None,
+        capture: None,
+        snaps: false,
+        hinge: None,
+    }
+}
+
 pub fn smores_library() -> Arc<Library> {
     let face = Connector {
         name: "EPFace".into(),

@@ -103,9 +103,8 @@ impl Geometry {
     fn distance(&self, p: &Vec3) -> f64 {
         match &self.arc {
             Some((centre, normal, radius)) => {
-                let off = p - centre;
-                let height = off.dot(normal);
-                libm::hypot(height, (off - normal * height).norm() - radius)
+                let (height, away) = from_axis(&(p - centre), normal);
+                libm::hypot(height, away - radius)
             }
             None => {
                 let (a, b) = (self.start.translation.vector, self.end.translation.vector);
@@ -119,14 +118,11 @@ impl Geometry {
     /// Returns the amount by which the distance from the path may be greater on a chord between two points than at them, m.
     fn bulge(&self, p0: &Vec3, p1: &Vec3) -> f64 {
         let Some((centre, normal, _)) = &self.arc else { return 0.0 };
-        let from_axis = |p: &Vec3| {
-            let off = p - centre;
-            (off - normal * off.dot(normal)).norm()
-        };
+        let [away0, away1] = [p0, p1].map(|p| from_axis(&(p - centre), normal).1);
         let chord = (p1 - p0).norm();
         // Inside a circle the distance from it is not convex; that from its axis has a second derivative along the chord of at
         // most the inverse of the least one there, and changes by at most half of the chord.
-        let least = from_axis(p0).min(from_axis(p1)) - chord / 2.0;
+        let least = away0.min(away1) - chord / 2.0;
         let most = chord / 2.0;
         if least > 0.0 { most.min(chord * chord / (8.0 * least)) } else { most }
     }
@@ -148,6 +144,12 @@ impl Geometry {
         };
         vector(&(rotation * wanted.inverse())).norm()
     }
+}
+
+/// Returns the part of a vector along a unit vector, and the length of what is across it, m.
+fn from_axis(off: &Vec3, axis: &Vec3) -> (f64, f64) {
+    let along = off.dot(axis);
+    (along, (off - axis * along).norm())
 }
 
 /// Returns the rotation vector of a rotation, rad.
