@@ -20,7 +20,7 @@ pub fn input(dice: &mut Dice) -> Vec<u8> {
 
 /// Returns the files of a plan in the formats of a kind.
 fn written(plan: &Plan, pictures: bool) -> Vec<ExportFile> {
-    let export = Export { plan, title: "a <title> & \"more\"", stem: "plan" };
+    let export = Export { plan, title: "a <title> & \"more\"", stem: "plan", picture_size: DRAWN_SIZE };
     let formats = PLAN_FORMATS.iter().filter(|format| PICTURES.contains(&format.name) == pictures);
     formats.flat_map(|format| format.write(&export).unwrap_or_default()).collect()
 }
@@ -63,6 +63,9 @@ pub fn check(input: &[u8]) {
 
 /// The part of a plan that is drawn, s: a picture takes longer than everything else.
 const DRAWN: f64 = 0.1;
+
+/// The width and height of pictures, pixels: small ones have as many ways to go wrong.
+const DRAWN_SIZE: (u16, u16) = (48, 32);
 
 /// Draws the beginning of a plan as moving pictures.
 pub fn pictures(input: &[u8]) {

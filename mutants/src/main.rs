@@ -2,11 +2,13 @@
 //!
 //! All drawn mutants are compiled into one copy of the project, and an environment variable chooses one, because building
 //! the project once for each of a thousand would take weeks. `modl-mutants [--seed N] [--count N] [--first N]
-//! [--workers N] [--longest SECONDS] [--survivors] [--built] [--list]` draws, builds and runs, and writes `target/mutants/report.md`:
+//! [--workers N] [--longest SECONDS] [--survivors] [--reasoned] [--built] [--list]` draws, builds and runs, and writes
+//! `target/mutants/report.md`:
 //!
 //! - `--count` mutants are drawn by `--seed` and compiled; of them the `--first` so many are tried (default: all);
 //! - tests that take longer than `--longest` are left out; `--workers` tests run at a time;
-//! - `--survivors` tries again those that survived the run before and have no reason, for tests that were written since;
+//! - `--survivors` tries again those that survived the run before, for tests that were written since;
+//! - `--reasoned` tries those with a reason to survive, too, which are left out otherwise;
 //! - `--built` takes the program of the run before as it is, to go on with a run that ended early;
 //! - `--list` prints the first `--count` of the draw, compiled or not, and does no more.
 
@@ -54,6 +56,7 @@ struct Options {
     workers: usize,
     longest: f64,
     survivors: bool,
+    reasoned: bool,
     list: bool,
     built: bool,
 }
@@ -67,6 +70,7 @@ impl Options {
             workers: 2,
             longest: 20.0,
             survivors: false,
+            reasoned: false,
             list: false,
             built: false,
         };
@@ -74,6 +78,7 @@ impl Options {
         while let Some(name) = rest.next() {
             let flag = match name.as_str() {
                 "--survivors" => Some(&mut options.survivors),
+                "--reasoned" => Some(&mut options.reasoned),
                 "--list" => Some(&mut options.list),
                 "--built" => Some(&mut options.built),
                 _ => None,
@@ -92,7 +97,8 @@ impl Options {
                 "--longest" => options.longest = value.parse().map_err(|_| wrong())?,
                 _ => {
                     return Err(format!(
-                        "no option `{name}`; there are: --seed --count --first --workers --longest --survivors"
+                        "no option `{name}`; there are: --seed --count --first --workers --longest --survivors \
+                         --reasoned --built --list"
                     ));
                 }
             }
@@ -210,12 +216,15 @@ fn run(options: &Options) -> Result<(), String> {
     let first = options.first.min(drawn.len());
     // The same program ends for no mutant otherwise than before.
     let again = options.survivors || !options.built;
-    let reasoned = |mutant: &Mutant| options.survivors && reasons.iter().any(|reason| reason.fits(mutant));
+    let reasoned = |mutant: &Mutant| reasons.iter().any(|reason| reason.fits(mutant));
     let wanted = |id: &usize| {
         let mutant = &drawn[id - 1];
-        before.get(&mutant.key()).is_none_or(|fate| again && !fate.noticed() && !reasoned(mutant))
+        (options.reasoned || !reasoned(mutant))
+            && before.get(&mutant.key()).is_none_or(|fate| again && !fate.noticed())
     };
-    let chosen: Vec<usize> = (1..=first).filter(wanted).collect();
+    let mut chosen: Vec<usize> = (1..=first).filter(wanted).collect();
+    // Those that have not been tried come first: most of them end soon.
+    chosen.sort_by_key(|id| before.contains_key(&drawn[id - 1].key()));
     let save_all = |fates: &BTreeMap<String, Fate>| {
         let all: BTreeMap<_, _> = before.iter().chain(fates).collect();
         save(&results, &all).unwrap_or_else(|why| eprintln!("{why}"));

@@ -83,25 +83,29 @@ pub fn write(
     let mut rows: BTreeMap<String, Row> = BTreeMap::new();
     let (mut all, mut open, mut reasoned) = (Row::default(), String::new(), String::new());
     for mutant in mutants {
-        let Some(fate) = fates.get(&mutant.key()) else { continue };
-        let reason = reasons.iter().find(|reason| reason.fits(mutant)).filter(|_| !fate.noticed());
+        let fate = fates.get(&mutant.key());
+        let noticed = fate.is_some_and(Fate::noticed);
+        let reason = reasons.iter().find(|reason| reason.fits(mutant)).filter(|_| !noticed);
+        if fate.is_none() && reason.is_none() {
+            continue;
+        }
         for row in [&mut all, rows.entry(folder(&mutant.file)).or_default()] {
             row.drawn += 1;
             match (fate, reason) {
                 (_, Some(_)) => row.reasoned += 1,
-                (Fate::Killed { .. } | Fate::Endless { .. }, _) => row.killed += 1,
-                (Fate::Survived { .. }, _) => row.survived += 1,
-                (Fate::Unreached, _) => row.unreached += 1,
+                (Some(Fate::Killed { .. } | Fate::Endless { .. }), _) => row.killed += 1,
+                (Some(Fate::Survived { .. }), _) => row.survived += 1,
+                (Some(Fate::Unreached) | None, _) => row.unreached += 1,
             }
         }
-        if fate.noticed() {
+        if noticed {
             continue;
         }
         let Mutant { file, line, function, operator, original, mutated, .. } = mutant;
         let place = format!("- {file}:{line} `{function}`, {operator}: `{original}` → `{mutated}`");
         match (reason, fate) {
             (Some(reason), _) => writeln!(reasoned, "{place}\n  {}", reason.reason),
-            (None, Fate::Survived { tests }) => writeln!(open, "{place}\n  {tests} tests reach it"),
+            (None, Some(Fate::Survived { tests })) => writeln!(open, "{place}\n  {tests} tests reach it"),
             (None, _) => writeln!(open, "{place}\n  unreached"),
         }
         .expect("a text can be written");

@@ -11,6 +11,8 @@ pub struct Export<'a> {
     pub title: &'a str,
     /// The beginning of the names of the files, without folders.
     pub stem: &'a str,
+    /// The width and height of pictures, pixels; [`PICTURE_SIZE`](super::PICTURE_SIZE) unless someone wants others.
+    pub picture_size: (u16, u16),
 }
 
 /// A file to be written.

@@ -9,8 +9,8 @@ use crate::view::{self, RenderInput, StillOptions};
 const RATE: f64 = 10.0;
 /// The greatest number of pictures: those of longer plans are further apart.
 const FRAMES_MAX: usize = 120;
-/// The width and height of a picture, pixels.
-const SIZE: (usize, usize) = (480, 320);
+/// The usual width and height of pictures, pixels.
+pub const PICTURE_SIZE: (u16, u16) = (480, 320);
 
 /// Returns the times of the pictures, s, and how long each is shown, in hundredths of a second.
 fn times(plan: &Plan) -> (Vec<f64>, u16) {
@@ -23,8 +23,8 @@ fn times(plan: &Plan) -> (Vec<f64>, u16) {
 
 fn drawn(export: &Export, times: &[f64], see: &mut dyn FnMut(Vec<[u8; 3]>, Vec<u8>)) {
     let input = RenderInput { title: export.title, plan: export.plan, texts: &[], command: "" };
-    let (width, height) = SIZE;
-    let options = StillOptions { width, height, ..StillOptions::default() };
+    let (width, height) = export.picture_size;
+    let options = StillOptions { width: width.into(), height: height.into(), ..StillOptions::default() };
     view::frames(&input, &options, times, see);
 }
 
@@ -34,7 +34,7 @@ fn drawn(export: &Export, times: &[f64], see: &mut dyn FnMut(Vec<[u8; 3]>, Vec<u
 /// None: every plan has pictures.
 pub(super) fn write_gif(export: &Export) -> Result<Vec<ExportFile>, Refusal> {
     let (times, shown) = times(export.plan);
-    let (width, height) = (SIZE.0 as u16, SIZE.1 as u16);
+    let (width, height) = export.picture_size;
     let mut bytes = Vec::new();
     let mut encoder = gif::Encoder::new(&mut bytes, width, height, &[]).expect("memory takes all bytes");
     encoder.set_repeat(gif::Repeat::Infinite).expect("memory takes all bytes");
@@ -54,10 +54,11 @@ pub(super) fn write_gif(export: &Export) -> Result<Vec<ExportFile>, Refusal> {
 /// None: every plan has pictures.
 pub(super) fn write_frames(export: &Export) -> Result<Vec<ExportFile>, Refusal> {
     let (times, _) = times(export.plan);
+    let size = (export.picture_size.0.into(), export.picture_size.1.into());
     let mut files = Vec::new();
     drawn(export, &times, &mut |colours, pixels| {
         let name = format!("{}.frames/{:04}.png", export.stem, files.len() + 1);
-        files.push(ExportFile { name, bytes: view::indexed_png(SIZE, &colours, &pixels) });
+        files.push(ExportFile { name, bytes: view::indexed_png(size, &colours, &pixels) });
     });
     Ok(files)
 }

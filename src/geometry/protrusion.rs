@@ -50,6 +50,10 @@ fn of_part(part: &Part, cover: &Solid) -> f64 {
     }
     let near = TOL_NEAR * part.radius;
     let mut open: BinaryHeap<Face> = faces(&corners).into_iter().map(|face| Face::new(face, cover)).collect();
+    if open.is_empty() {
+        // Without a hull there are no faces to divide.
+        return whole;
+    }
     let mut reached = open.iter().map(|face| face.reached).fold(0.0, f64::max);
     for _ in 0..DIVISIONS_MAX {
         let Some(face) = open.pop() else { break };

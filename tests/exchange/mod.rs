@@ -10,7 +10,7 @@ mod smores;
 mod smores_motions;
 mod traps;
 
-use modl::exchange::{Export, ExportFile, PlanFormat};
+use modl::exchange::{Export, ExportFile, PICTURE_SIZE, PlanFormat};
 use modl::plan::Plan;
 
 use crate::support::desk::run_clean;
@@ -25,7 +25,7 @@ pub fn planned(program: &str) -> Plan {
 pub fn exported(plan: &Plan, format: &str) -> Vec<ExportFile> {
     let format = PlanFormat::named(format).expect("there is this format");
     format
-        .write(&Export { plan, title: "robot", stem: "plan" })
+        .write(&Export { plan, title: "robot", stem: "plan", picture_size: PICTURE_SIZE })
         .expect("the format has a meaning for the plan")
 }
 

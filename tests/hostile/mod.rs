@@ -4,6 +4,7 @@ mod case;
 mod limits;
 mod refusing;
 mod system_calls;
+mod writers;
 
 use crate::desk::cli::Sandbox;
 use case::{Case, cases};

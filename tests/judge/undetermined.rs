@@ -8,6 +8,11 @@ use modl::interpret::Mode;
 /// -100 mm if there are `four`; with two skids, `skid` the place of each along x and its height above the ground (mm), each
 /// on a knee with a lever of 100 mm and a servo of this stiffness (N·m/rad).
 fn messages(four: bool, skid: [f64; 2], stiffness: f64, allows: &str) -> Vec<String> {
+    said(four, skid, stiffness, &format!("behavior go{allows} = turning()"))
+}
+
+/// Returns the messages about such a cart with the behaviours `behaviours`, of which `go` is planned.
+fn said(four: bool, skid: [f64; 2], stiffness: f64, behaviours: &str) -> Vec<String> {
     let [x, height] = skid;
     let mut links = "link body = box(100mm, 100mm, 40mm, mass: 2kg) at [0mm, 0mm, 80mm]\n".to_owned();
     let mut moves = Vec::new();
@@ -30,7 +35,7 @@ fn messages(four: bool, skid: [f64; 2], stiffness: f64, allows: &str) -> Vec<Str
     }
     let program = format!(
         "module M {{\n{links}}}
-         config C {{ part m: M  behavior go{allows} = Pc({}) }}
+         config C {{ part m: M  behavior turning = Pc({})  {behaviours} }}
          let cart = C()
          emit(plan(cart.go(), world: world(dynamics: full)), \"p.json\")
 ",
@@ -92,4 +97,14 @@ fn skids_that_stiff_servos_press_down_do_not_determine_the_travel() {
     assert!(found[0].contains("elsewhere if servos were 3.3 times as stiff"), "{found:?}");
     let [length, away] = distances(&found[0]);
     assert!((length - 190.0).abs() < 20.0 && (away - length).abs() < 20.0, "{length} and {away}");
+}
+
+#[test]
+fn each_of_several_permissions_for_undetermined_travel_is_needed() {
+    let behaviours = "
+  behavior first allows traction = turning()
+  behavior second allows traction = turning()
+  behavior go = Sc(first(), second())";
+    let found = said(false, [-108.0, 0.0], 1000.0, behaviours);
+    assert!(found.is_empty(), "{found:?}");
 }

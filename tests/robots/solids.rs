@@ -348,10 +348,8 @@ fn triangles_of_a_polygon_make_up_its_area_and_do_not_overlap() {
         });
         let flat: Vec<[f64; 2]> =
             if round % 20 == 0 { comb.iter().map(|c| c.map(|x| x / 64.0)).collect() } else { star.collect() };
-        // The comb has corners in line, which rounding would take out of it.
-        let placed =
-            if round % 20 == 0 { Pose::identity() } else { shifted(n.vector() * 10.0) * n.rotation() };
-        let (count, pose) = (flat.len(), placed);
+        // The comb has corners in line, which rounding takes out of it.
+        let (count, pose) = (flat.len(), shifted(n.vector() * 10.0) * n.rotation());
         let corners: Vec<Vec3> =
             flat.iter().map(|[x, y]| pose.transform_point(&Vec3::new(*x, *y, 0.0).into()).coords).collect();
         let twice = |[a, b, c]: [usize; 3]| {

@@ -41,7 +41,7 @@ impl Recorder {
     /// Records the attitude of a sample, unless it is near the last one recorded, and its travel; samples come in
     /// order of time.
     pub(in super::super) fn observe(&mut self, sample: &Sample) {
-        self.travel = sample.travel;
+        self.travel.clone_from(&sample.travel);
         self.tips |= sample.tip.is_some();
         let known = self.bonds.iter().position(|bonds| bonds == sample.bonds);
         let bonds = known.unwrap_or_else(|| {

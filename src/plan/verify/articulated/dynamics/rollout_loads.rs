@@ -472,9 +472,9 @@ impl<'a> RolloutLoads<'a> {
         let undetermined = |travel: &GroundTravel| {
             differs(travel, PARAMETERS.travel_undetermined, PARAMETERS.travel_undetermined_min)
         };
-        let TravelSummary { judged, allowed } = &self.travel;
-        if let Some((time, _)) = allowed.filter(|(_, travel)| undetermined(travel)) {
-            ledger.excuses(CheckKind::Traction, time, |kind| *kind == ExemptionKind::Traction);
+        let TravelSummary { judged, allowed, allowed_by } = &self.travel;
+        if undetermined(allowed) {
+            allowed_by.iter().for_each(|&index| ledger.use_exemption(index, CheckKind::Traction));
         }
         let length = |v| quantity(v, Dimension::LENGTH);
         let words = [length(judged.length), length(judged.away)];

@@ -28,8 +28,8 @@ pub(in super::super) struct Traction {
     judged: TravelPoses,
     /// The travel of the samples at which one holds.
     allowed: TravelPoses,
-    /// The time of the first sample at which one holds, s; `None` before it.
-    allowed_at: Option<f64>,
+    /// The exemptions `allows traction` that hold at a sample so far, by their indices in the plan's list.
+    allowed_by: Vec<usize>,
     /// True for a part that came off another in motion: it slides on whether its joints move or not.
     came_off: bool,
 }
@@ -108,13 +108,14 @@ pub struct GroundTravel {
 }
 
 /// The travel of a rollout up to a sample, in two parts: without and with an exemption `allows traction`.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct TravelSummary {
     /// The travel during the samples at which no such exemption holds, which is judged.
     pub judged: GroundTravel,
-    /// The travel during the samples at which one holds, with the time of the first of them (s); `None` if there are
-    /// none.
-    pub allowed: Option<(f64, GroundTravel)>,
+    /// The travel during the samples at which one holds.
+    pub allowed: GroundTravel,
+    /// The exemptions that hold at one of them, by their indices in the plan's list.
+    pub allowed_by: Vec<usize>,
 }
 
 /// The velocities at the last instant at which forces were determined, in level axes.
@@ -191,12 +192,13 @@ impl Traction {
         let shift = |rate: Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
         let allows = |e: &Exemption| e.kind == ExemptionKind::Traction && e.covers(step.time);
-        let allowed = step.rollout.exemptions.iter().any(allows);
-        let poses = if allowed { &mut self.allowed } else { &mut self.judged };
+        let exemptions = step.rollout.exemptions.iter().enumerate();
+        let allowing: Vec<usize> = exemptions.filter(|(_, e)| allows(e)).map(|(index, _)| index).collect();
+        let poses = if allowing.is_empty() { &mut self.judged } else { &mut self.allowed };
         poses.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
-        if allowed {
-            self.allowed_at.get_or_insert(step.time);
-        }
+        let new = |index: &usize| !self.allowed_by.contains(index);
+        let new: Vec<usize> = allowing.into_iter().filter(new).collect();
+        self.allowed_by.extend(new);
         (pose.moved(&shift(last.rate)), slips)
     }
 
@@ -241,8 +243,8 @@ impl Traction {
 
     /// Returns the travel from the start of the rollout to the last step.
     pub(in super::super) fn travel(&self) -> TravelSummary {
-        let allowed = self.allowed_at.map(|time| (time, self.allowed.travel()));
-        TravelSummary { judged: self.judged.travel(), allowed }
+        let (judged, allowed) = (self.judged.travel(), self.allowed.travel());
+        TravelSummary { judged, allowed, allowed_by: self.allowed_by.clone() }
     }
 
     /// Determines the velocities at the end of a step from the equilibrium of forces there, and those under the
