@@ -180,8 +180,8 @@ pub const TARGETS: &[Target] = &[
         says: "the beginnings of plans as GIF and PNG",
         input: exports::input,
         check: exports::pictures,
-        gate: 40,
-        aim: 100_000,
+        gate: 10,
+        aim: 10_000,
     },
     Target {
         name: "wire",

@@ -1,6 +1,7 @@
 //! The judge: plans that must fail, each with a twin that must pass.
 
 mod adversary;
+mod allowed_slides;
 mod blamed;
 mod clearance_curves;
 mod close_links;
@@ -21,12 +22,14 @@ mod merged_statuses;
 mod missed;
 mod momentum;
 mod motion_loads;
+mod open_loads;
 pub mod oracle;
 mod overloads;
 pub mod parting;
 mod random_scenes;
 mod rolling;
 mod short_moves;
+mod sliding_down;
 mod slip_spread;
 pub mod slopes;
 mod snapping;
@@ -46,3 +49,4 @@ mod truss_walls;
 mod two_slides;
 mod undetermined;
 pub mod verify;
+mod yielding;
