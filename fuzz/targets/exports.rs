@@ -20,7 +20,7 @@ pub fn input(dice: &mut Dice) -> Vec<u8> {
 
 /// Returns the files of a plan in the formats of a kind.
 fn written(plan: &Plan, pictures: bool) -> Vec<ExportFile> {
-    let export = Export { plan, title: "a <title> & \"more\"", stem: "plan", picture_size: DRAWN_SIZE };
+    let export = Export { picture_size: DRAWN_SIZE, ..Export::new(plan, "a <title> & \"more\"", "plan") };
     let formats = PLAN_FORMATS.iter().filter(|format| PICTURES.contains(&format.name) == pictures);
     formats.flat_map(|format| format.write(&export).unwrap_or_default()).collect()
 }

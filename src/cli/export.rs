@@ -6,7 +6,7 @@ use super::program;
 use super::report::Report;
 use super::terminal::print_error;
 use super::{CallError, Ending, output};
-use crate::exchange::{Export, FIRST_LINE, PICTURE_SIZE, PlanFormat, bundle};
+use crate::exchange::{Export, FIRST_LINE, PlanFormat, bundle};
 use crate::interpret::WriteError;
 use crate::plan::Plan;
 use crate::source::{Diagnostic, Sources, code};
@@ -52,7 +52,7 @@ fn exported(
     let stem = stem(name);
     let title = plan.body.tracks().map(|tracks| tracks.robot.name.clone());
     let title = title.filter(|name| !name.is_empty()).unwrap_or_else(|| stem.clone());
-    let export = Export { plan: &plan, title: &title, stem: &stem, picture_size: PICTURE_SIZE };
+    let export = Export::new(&plan, &title, &stem);
     let cannot = |e: WriteError| {
         let why = match e {
             WriteError::Outside => "it would lie outside the output folder".to_owned(),

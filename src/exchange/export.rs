@@ -11,8 +11,16 @@ pub struct Export<'a> {
     pub title: &'a str,
     /// The beginning of the names of the files, without folders.
     pub stem: &'a str,
-    /// The width and height of pictures, pixels; [`PICTURE_SIZE`](super::PICTURE_SIZE) unless someone wants others.
+    /// The width and height of pictures, pixels.
     pub picture_size: (u16, u16),
+}
+
+impl<'a> Export<'a> {
+    /// Returns the export of a plan of the robot `title` to files whose names begin with `stem`, with pictures of 480 by 320
+    /// pixels.
+    pub fn new(plan: &'a Plan, title: &'a str, stem: &'a str) -> Export<'a> {
+        Export { plan, title, stem, picture_size: (480, 320) }
+    }
 }
 
 /// A file to be written.

@@ -33,7 +33,6 @@ pub use bundle::{FIRST_LINE, bundle};
 pub use export::{Export, ExportFile};
 pub use import_fault::ImportFault;
 pub use module_text::{ImportFile, Imported};
-pub use pictures::PICTURE_SIZE;
 pub use plan_formats::{PLAN_FORMATS, PlanFormat};
 pub use refusal::Refusal;
 pub use smores::{FaultIn, import};

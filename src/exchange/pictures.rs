@@ -9,8 +9,6 @@ use crate::view::{self, RenderInput, StillOptions};
 const RATE: f64 = 10.0;
 /// The greatest number of pictures: those of longer plans are further apart.
 const FRAMES_MAX: usize = 120;
-/// The usual width and height of pictures, pixels.
-pub const PICTURE_SIZE: (u16, u16) = (480, 320);
 
 /// Returns the times of the pictures, s, and how long each is shown, in hundredths of a second.
 fn times(plan: &Plan) -> (Vec<f64>, u16) {

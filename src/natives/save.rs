@@ -5,7 +5,7 @@ use super::plan::{output_path, write_output};
 use super::rofi;
 use super::save_table;
 use super::show::{Form, picture_of, plot_of};
-use crate::exchange::{Export, ExportFile, PICTURE_SIZE, PLAN_FORMATS, PlanFormat};
+use crate::exchange::{Export, ExportFile, PLAN_FORMATS, PlanFormat};
 use crate::formats::{Crease, CreasePattern, ExportFormat, FOLDING_FORMATS, ROBOT_FORMATS, TABLE_FORMATS};
 use crate::interpret::argument::parameters;
 use crate::interpret::interpreter::Interpreter;
@@ -94,7 +94,7 @@ fn export(interpreter: &mut Interpreter, call: &Call, format: &PlanFormat, path:
     let (folder, file) = path.rsplit_once('/').map_or(("", path), |(folder, file)| (folder, file));
     let (_, stem) = PlanFormat::of_file(file).unwrap_or((format, file));
     let stem = if stem.is_empty() { "plan" } else { stem };
-    let export = Export { plan: &plan, title: &planned.robot.name, stem, picture_size: PICTURE_SIZE };
+    let export = Export::new(&plan, &planned.robot.name, stem);
     let files = format.write(&export).map_err(|refusal| call.refuse("what", refusal.to_string()))?;
     for ExportFile { name, bytes } in files {
         let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };

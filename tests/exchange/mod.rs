@@ -10,7 +10,7 @@ mod smores;
 mod smores_motions;
 mod traps;
 
-use modl::exchange::{Export, ExportFile, PICTURE_SIZE, PlanFormat};
+use modl::exchange::{Export, ExportFile, PlanFormat};
 use modl::plan::Plan;
 
 use crate::support::desk::run_clean;
@@ -24,9 +24,7 @@ pub fn planned(program: &str) -> Plan {
 /// The files of a plan in a format.
 pub fn exported(plan: &Plan, format: &str) -> Vec<ExportFile> {
     let format = PlanFormat::named(format).expect("there is this format");
-    format
-        .write(&Export { plan, title: "robot", stem: "plan", picture_size: PICTURE_SIZE })
-        .expect("the format has a meaning for the plan")
+    format.write(&Export::new(plan, "robot", "plan")).expect("the format has a meaning for the plan")
 }
 
 /// The text of the file of this name.

@@ -171,12 +171,7 @@ fn readers_of_robots_trajectories_and_recordings_find_what_the_plan_says() {
         plan.verdict = Some(verdict);
         let below = folder.path().join(index.to_string());
         let robot = &plan.body.tracks().expect("the robot has joints").robot;
-        let export = modl::exchange::Export {
-            plan: &plan,
-            title: "robot",
-            stem: "plan",
-            picture_size: modl::exchange::PICTURE_SIZE,
-        };
+        let export = modl::exchange::Export::new(&plan, "robot", "plan");
         let mut urdfs = vec![];
         if let Ok(files) = PlanFormat::named("urdf").expect("it is a format").write(&export) {
             robots += 1;

@@ -1,7 +1,7 @@
 //! Plans that make exports stumble: odd names, links without mass, a thousand modules, meshes under odd paths.
 
 use super::{exported, planned, text};
-use modl::exchange::{Export, PICTURE_SIZE, PLAN_FORMATS, PlanFormat};
+use modl::exchange::{Export, PLAN_FORMATS, PlanFormat};
 use modl::plan::{Body, Obstacle, Plan};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -121,7 +121,7 @@ fn meshes_lie_where_descriptions_say() {
         "use std.mori.Mori\nuse std.shapes.octahedron\nlet p = fold(octahedron(edge: 80mm), module: Mori)",
     );
     let urdf = PlanFormat::named("urdf").expect("it is a format");
-    let export = Export { plan: &plan, title: "octa", stem: "my plan: 100% ü", picture_size: PICTURE_SIZE };
+    let export = Export::new(&plan, "octa", "my plan: 100% ü");
     let files = urdf.write(&export).expect("it has links and no loop");
     let named: BTreeSet<String> =
         values(text(&files, "my plan: 100% ü.urdf"), "filename").into_iter().collect();
@@ -141,10 +141,7 @@ fn meshes_lie_where_descriptions_say() {
 fn what_has_no_meaning_is_refused_by_its_reason() {
     let said = |plan: &Plan, format: &str| {
         let format = PlanFormat::named(format).expect("it is a format");
-        format
-            .write(&Export { plan, title: "t", stem: "t", picture_size: PICTURE_SIZE })
-            .map(|_| ())
-            .map_err(|refusal| refusal.to_string())
+        format.write(&Export::new(plan, "t", "t")).map(|_| ()).map_err(|refusal| refusal.to_string())
     };
     let lattice = planned(
         "use std.crystal.ExpandingCube\nlattice A of ExpandingCube = row(4)\nlattice B of ExpandingCube = column(4)\n\

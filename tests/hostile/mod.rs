@@ -8,6 +8,8 @@ mod writers;
 
 use crate::desk::cli::Sandbox;
 use case::{Case, cases};
+#[cfg(unix)]
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -27,6 +29,29 @@ config Pair {
   behavior turn = move(a.tilt, to: 20deg)
 }
 ";
+
+/// The contents of all files below a folder, by their paths; folders have none.
+#[cfg(unix)]
+type Files = BTreeMap<String, Option<Vec<u8>>>;
+
+/// Returns the contents of all files below a folder.
+#[cfg(unix)]
+fn files(folder: &Path) -> Files {
+    fn add(folder: &Path, prefix: &str, found: &mut Files) {
+        for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
+            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            if entry.file_type().expect("a type").is_dir() {
+                add(&entry.path(), &format!("{name}/"), found);
+                found.insert(name, None);
+            } else {
+                found.insert(name, Some(std::fs::read(entry.path()).expect("a file")));
+            }
+        }
+    }
+    let mut found = Files::new();
+    add(folder, "", &mut found);
+    found
+}
 
 /// What became of a case.
 struct Ended {

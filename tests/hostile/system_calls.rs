@@ -2,15 +2,11 @@
 //! command says so, and nothing else is left behind. `strace` lets the calls fail.
 #![cfg(target_os = "linux")]
 
-use super::PARTS;
+use super::{Files, PARTS, files};
 use crate::desk::cli::Sandbox;
 use crate::support::properties::whole;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Stdio};
-
-/// The contents of all files below a folder, by their paths; folders have none.
-type Files = BTreeMap<String, Option<Vec<u8>>>;
 
 const PROGRAM: &str = "use \"parts.mod\".{Pair}
 let p = plan(Pair().turn(), world: world(ground: off, gravity: off))
@@ -39,23 +35,6 @@ const FAULTS: &[(&str, &[&str])] = &[
 /// Calls at which the process is killed.
 const KILLS: &str =
     "write,pwrite64,openat,fsync,rename,renameat,renameat2,mkdir,mkdirat,unlink,unlinkat,fchmod,close";
-
-fn files(folder: &Path) -> Files {
-    fn add(folder: &Path, prefix: &str, found: &mut Files) {
-        for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
-            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
-            if entry.file_type().expect("a type").is_dir() {
-                add(&entry.path(), &format!("{name}/"), found);
-                found.insert(name, None);
-            } else {
-                found.insert(name, Some(std::fs::read(entry.path()).expect("a file")));
-            }
-        }
-    }
-    let mut found = Files::new();
-    add(folder, "", &mut found);
-    found
-}
 
 /// Puts files in the place of all below a folder.
 fn restore(folder: &Path, wanted: &Files) {

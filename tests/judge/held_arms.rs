@@ -4,11 +4,12 @@
 use crate::support::arms::robot_of;
 use crate::support::motions::{Motion, STATICS};
 use crate::support::robots::{joint, link};
+use crate::support::verdicts::status;
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Placed, Shape, Vec3};
 use modl::optimize::random::SplitMix64;
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Ground, Plan, Status, Verdict, World};
+use modl::plan::{CheckKind, Ground, Plan, Status, World};
 use modl::robot::{Joint, JointKind, Limits, Link};
 
 const HELD: World = World { ground: Ground::Held, ..STATICS };
@@ -67,10 +68,6 @@ fn coarse(motion: Motion) -> Plan {
     plan
 }
 
-fn status(verdict: &Verdict, kind: CheckKind) -> &Status {
-    &verdict.checks.iter().find(|check| check.kind == kind).expect("the check was made").status
-}
-
 /// Turns the first joint evenly through 60 degrees in a second, 2.5 degrees past the level at the samples around it.
 fn swung(motion: Motion) -> Motion {
     let [from, to] = [-17.5f64, 42.5].map(f64::to_radians);
@@ -86,7 +83,7 @@ fn a_peak_of_torque_between_samples_is_found() {
     let judged = |limit: f64| verify(&coarse(swung(arm(&masses, &[f64::INFINITY, limit]))));
     let passes = judged(1.0002 * peak);
     assert!(passes.ok(), "{:#?}", passes.failures);
-    assert_eq!(status(&passes, CheckKind::Torque), &Status::Proved);
+    assert_eq!(status(&passes, CheckKind::Torque), Status::Proved);
     let fails = judged(0.9995 * peak);
     let [over] = fails.failures.as_slice() else { panic!("{:#?}", fails.failures) };
     assert_eq!((over.kind, over.at.as_slice()), (CheckKind::Torque, &["r.j1".to_owned()][..]));
@@ -139,7 +136,7 @@ fn random_arms_hold_what_they_have_to_hold_and_no_more() {
             let over = verdict.failures.iter().find(|failure| failure.kind == CheckKind::Torque);
             assert_eq!(over.is_none(), holds, "{round}: {factor} of {greatest}: {over:?}");
             if holds {
-                assert_eq!(status(&verdict, CheckKind::Torque), &Status::Proved, "{round}");
+                assert_eq!(status(&verdict, CheckKind::Torque), Status::Proved, "{round}");
             }
         }
     }
@@ -165,7 +162,7 @@ fn sliding(axis: Vec3, force: f64, torque: f64) -> Motion {
 fn slides_bear_the_weight_along_them() {
     let failures = |axis: Vec3, force: f64, torque: f64| {
         let verdict = verify(&coarse(sliding(axis, force, torque)));
-        let status = status(&verdict, CheckKind::Torque).clone();
+        let status = status(&verdict, CheckKind::Torque);
         let at: Vec<String> = verdict.failures.iter().flat_map(|failure| failure.at.clone()).collect();
         (at, matches!(status, Status::Sampled(_)))
     };

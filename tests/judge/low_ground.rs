@@ -5,19 +5,16 @@
 use crate::support::arms::robot_of;
 use crate::support::motions::{Motion, STATICS};
 use crate::support::robots::{self, LEFT, RIGHT, TILT, boxed, joint, link};
+use crate::support::verdicts::status;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::verify::articulated::{Detail, Rollout, Tolerances, base_at, instants, roll_out};
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Ground, Plan, Status, Verdict, World, WorldFrom};
+use modl::plan::{CheckKind, Ground, Plan, Status, World, WorldFrom};
 use modl::robot::{Assembly, JointKind, Limits};
 
 /// Returns the plan of a motion, which is kept, in a world.
 fn planned(motion: &Motion, world: World) -> Plan {
     Motion { tracks: motion.tracks.clone() }.plan(world)
-}
-
-fn status(verdict: &Verdict, kind: CheckKind) -> Status {
-    verdict.checks.iter().find(|check| check.kind == kind).expect("the check was made").status.clone()
 }
 
 /// Returns a body on the ground with a mass on a slide along an axis, of which neither reaches the ground.

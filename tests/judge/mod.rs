@@ -1,7 +1,6 @@
 //! The judge: plans that must fail, each with a twin that must pass.
 
 mod adversary;
-mod allowed_slides;
 mod blamed;
 mod clearance_curves;
 mod close_links;

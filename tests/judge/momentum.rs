@@ -3,26 +3,39 @@
 #![allow(non_snake_case)]
 
 use crate::support::desk::run_clean;
+use crate::support::verdicts::status;
 use modl::geometry::{Mat3, Pose, Vec3};
 use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Plan, Status, Verdict};
+use modl::plan::{CheckKind, Plan, Status};
 use modl::robot::Kinematics;
 use nalgebra::Vector6;
+
+/// A block that a `Pusher` pushes away, or draws to itself, and that lets go half-way as its slide moves; the pusher is for its
+/// users to declare.
+pub const PUSHING: &str = "
+connector Face { mates Face, turns 4 }
+module Block {
+  link body = box(100mm, 60mm, 100mm, mass: 1kg)
+  port face: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
+}
+config Pushed { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
+  behavior part_ways = Sc(Pc(move(a.out, to: 100mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(2s))
+}
+config Drawn { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
+  set a.out = 100mm
+  behavior part_ways = Sc(Pc(move(a.out, to: 0mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(2s))
+}
+";
 
 /// A body of 5 kg with a slide of 0.5 kg that a block of 1 kg is docked to; a disc that turns about its centre of mass, with
 /// another on it; and an arm with a block at its end. Each lets go half-way, as the joint moves.
 const PARTING: &str = "
-connector Face { mates Face, turns 4 }
 module Pusher {
   link body = box(100mm, 100mm, 100mm, mass: 5kg)
   link slide = box(20mm, 60mm, 60mm, mass: 500g) at [70mm, 0mm, 0mm]
   joint out : body -> slide = prismatic(axis: X, range: 0mm..150mm) at [70mm, 0mm, 0mm]
   port tip: Face on slide at [10mm, 0mm, 0mm] facing +X up +Z
-}
-module Block {
-  link body = box(100mm, 60mm, 100mm, mass: 1kg)
-  port face: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
 }
 module Turner {
   link body = box(200mm, 200mm, 50mm, mass: 4kg)
@@ -40,13 +53,6 @@ module Arm {
   joint swing : body -> arm = revolute(axis: Z - 0.2 * Y, range: -180deg..180deg) at [100mm, 0mm, 30mm]
   port end: Face on arm at [150mm, 0mm, 0mm] facing +X up +Z
 }
-config Pushed { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
-  behavior part_ways = Sc(Pc(move(a.out, to: 100mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(2s))
-}
-config Drawn { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
-  set a.out = 100mm
-  behavior part_ways = Sc(Pc(move(a.out, to: 0mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(2s))
-}
 config Turned { part a: Turner  part b: Disc  connect a.top -- b.under  base a
   behavior part_ways = Sc(Pc(move(a.spin, to: 90deg, in: 2s), Sc(wait(1s), undock(a.top))), wait(1s))
 }
@@ -57,14 +63,14 @@ config Swung { part a: Arm  part b: Block  connect a.end -- b.face  base a
 
 fn plan(robot: &str, world: &str) -> Plan {
     let program =
-        format!("{PARTING}\nemit(plan({robot}().part_ways(), world: world({world})), \"p.json\")\n");
+        format!("{PUSHING}{PARTING}\nemit(plan({robot}().part_ways(), world: world({world})), \"p.json\")\n");
     run_clean(&program).plan("p.json")
 }
 
 const FREE: &str = "gravity: off, ground: off";
 
 /// Returns the world poses of the bodies of both modules at a time (s), as seen from where they began.
-fn bodies(plan: &Plan, paths: &ClusterPaths, time: f64) -> [Pose; 2] {
+pub fn bodies(plan: &Plan, paths: &ClusterPaths, time: f64) -> [Pose; 2] {
     let numbers = Kinematics::new(&plan.body.tracks().expect("modules").robot, &[true], 0);
     let at = |time: f64| {
         let mut poses = vec![Pose::identity(); numbers.link_count()];
@@ -76,10 +82,6 @@ fn bodies(plan: &Plan, paths: &ClusterPaths, time: f64) -> [Pose; 2] {
         let moved = now[i].translation.vector - begun[i].translation.vector;
         Pose::from_parts(moved.into(), now[i].rotation * begun[i].rotation.inverse())
     })
-}
-
-fn status(verdict: &Verdict, kind: CheckKind) -> Status {
-    verdict.checks.iter().find(|check| check.kind == kind).expect("the check was made").status.clone()
 }
 
 /// Returns the rate of the only joint at a time, rad/s or m/s.

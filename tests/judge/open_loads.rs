@@ -2,6 +2,7 @@
 //! turns.
 
 use crate::support::desk::{run_clean, stated};
+use crate::support::verdicts::status;
 use modl::plan::verify::verify;
 use modl::plan::{CheckKind, Plan, Status};
 
@@ -31,17 +32,12 @@ emit(plan(One().rest(), world: world(dynamics: full)), \"p.json\")
     run_clean(&program).plan("p.json")
 }
 
-fn status(plan: &Plan, kind: CheckKind) -> Status {
-    let verdict = verify(plan);
-    verdict.checks.iter().find(|check| check.kind == kind).expect("the check was made").status.clone()
-}
-
 /// Two servos that yield without end bear a leg by any parts, so that no loads are found, and no check by loads is made.
 #[test]
 fn loads_that_are_not_found_are_not_judged_be_it_at_a_single_instant() {
     for (time, instants) in [("0s", 1), ("500ms", 2)] {
-        let limp = plan(1e-300, time);
-        let firm = plan(100.0, time);
+        let limp = verify(&plan(1e-300, time));
+        let firm = verify(&plan(100.0, time));
         for kind in [CheckKind::Balance, CheckKind::Traction] {
             let unknown = format!("at {instants} of {instants} instants no loads were found");
             assert_eq!(status(&limp, kind), Status::NotChecked(unknown), "{kind:?}");

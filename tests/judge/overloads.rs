@@ -1,7 +1,7 @@
 //! The words about overloads under full dynamics, in closed form: a ball of 1 kg at the end of a weightless lever of 0.5 m, on a
 //! base that is held.
 
-use crate::support::desk::{run, stated};
+use crate::support::desk::{self, run, stated};
 use crate::support::suite::MapFiles;
 use modl::interpret::Mode;
 
@@ -22,8 +22,7 @@ fn messages_on(ground: &str, facts: &str, side: i32, [from, to]: [&str; 2], opti
          emit(plan(move(arm.m.bend, to: {to}, in: 8s), world: world(ground: {ground}, dynamics: full)), \"p.json\"{options})
 "
     );
-    let (observed, ..) = run(&MapFiles::of(&program), Mode::Run);
-    observed.diagnostics.iter().map(|d| d.message.clone()).filter(|m| m.contains("N*m")).collect()
+    desk::messages(&program).into_iter().filter(|m| m.contains("N*m")).collect()
 }
 
 fn messages(facts: &str, side: i32, ends: [&str; 2], options: &str) -> Vec<String> {

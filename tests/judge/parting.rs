@@ -1,6 +1,7 @@
 //! Robots that come apart: each part is judged by itself, where and when it comes off.
 
 use crate::support::desk::run_clean;
+use crate::support::verdicts::status;
 use modl::geometry::Pose;
 use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
@@ -80,10 +81,6 @@ fn tower(blocks: usize, below: usize) -> Plan {
 
 fn failures(verdict: &Verdict) -> Vec<CheckKind> {
     verdict.failures.iter().map(|failure| failure.kind).collect()
-}
-
-fn status(verdict: &Verdict, kind: CheckKind) -> Status {
-    verdict.checks.iter().find(|check| check.kind == kind).expect("the check was made").status.clone()
 }
 
 /// Returns the motion of the last clusters' bases from the split to the end, in the frame where each began.

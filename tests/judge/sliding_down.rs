@@ -1,11 +1,13 @@
 //! Robots that stand, drive or slide on slopes under full dynamics, and what the judge says of where they end.
 
+use super::momentum::{PUSHING, bodies};
+use crate::simulate::fixtures::CART;
 use crate::support::desk::run_clean;
-use modl::geometry::{Pose, Vec3};
+use crate::support::verdicts::failures_of;
+use modl::geometry::Vec3;
 use modl::plan::verify::articulated::ClusterPaths;
 use modl::plan::verify::verify;
-use modl::plan::{CauseId, CheckKind, Exemption, ExemptionKind, Failure, Plan, Verdict, World};
-use modl::robot::Kinematics;
+use modl::plan::{CauseId, CheckKind, Exemption, ExemptionKind, Plan, Verdict, World};
 
 fn plan(declarations: &str, behavior: &str, world: &str) -> Plan {
     let program = format!("{declarations}\nemit(plan({behavior}, world: world({world})), \"p.json\")\n");
@@ -25,14 +27,10 @@ config One {
 }
 ";
 
-fn slides(verdict: &Verdict) -> Vec<&Failure> {
-    verdict.failures.iter().filter(|failure| failure.kind == CheckKind::Traction).collect()
-}
-
 /// Returns the verdict of a block that rests for 500 ms on a slope of 10 degrees with a friction of 0.1, where a slide is
 /// allowed from the start to the time `allowed` (s).
-fn on_ice(gravity: f64, allowed: Option<f64>) -> Verdict {
-    let mut plan = plan(BLOCK, "One().rest()", "terrain: slope(10deg)");
+fn on_ice(dynamics: &str, gravity: f64, allowed: Option<f64>) -> Verdict {
+    let mut plan = plan(BLOCK, "One().rest()", &format!("terrain: slope(10deg), dynamics: {dynamics}"));
     plan.worlds[0].world = World { friction: 0.2, gravity, ..plan.worlds[0].world };
     let cause = CauseId(0);
     let until = |to| Exemption { kind: ExemptionKind::Traction, from: 0.0, to, cause };
@@ -40,18 +38,22 @@ fn on_ice(gravity: f64, allowed: Option<f64>) -> Verdict {
     verify(&plan)
 }
 
-/// What `allows traction` excuses is no failure: the first that is one comes when it has ended.
+/// A slide that `allows traction` excuses is no failure: the first that is one comes when the exemption has ended.
 #[test]
 fn a_slide_that_is_allowed_fails_only_when_that_ends() {
-    for (allowed, from) in [(None, 0.0), (Some(0.5), 0.5)] {
-        let verdict = on_ice(9.80665, allowed);
-        let found = slides(&verdict);
-        let [slide] = found.as_slice() else { panic!("{allowed:?}: {found:#?}") };
-        assert!((slide.time - from).abs() < 1e-9, "{allowed:?}: {slide:?}");
-        assert!((slide.value - libm::tan(10_f64.to_radians())).abs() < 1e-9, "{slide:?}");
-        assert!((slide.limit - 0.1).abs() < 1e-9, "{slide:?}");
-        let told = verdict.notes.iter().any(|note| note.contains("is not followed"));
-        assert_eq!(told, allowed.is_some(), "{:?}", verdict.notes);
+    let ways = [("full", "while no joint moves is not followed"), ("statics", "is not followed")];
+    for (dynamics, way) in ways {
+        for (allowed, from) in [(None, 0.0), (Some(0.5), 0.5)] {
+            let verdict = on_ice(dynamics, 9.80665, allowed);
+            let found = failures_of(CheckKind::Traction, &verdict);
+            let [slide] = found.as_slice() else { panic!("{allowed:?}: {found:#?}") };
+            assert!((slide.time - from).abs() < 1e-9, "{allowed:?}: {slide:?}");
+            assert!(slide.message.starts_with("the robot slides down the slope"), "{slide:?}");
+            assert!((slide.value - libm::tan(10_f64.to_radians())).abs() < 1e-9, "{slide:?}");
+            assert!((slide.limit - 0.1).abs() < 1e-9, "{slide:?}");
+            let told = verdict.notes.contains(&format!("the way down the slope {way}"));
+            assert_eq!(told, allowed.is_some(), "{dynamics}: {:?}", verdict.notes);
+        }
     }
 }
 
@@ -65,46 +67,30 @@ fn loads_that_agree_at_every_instant_are_not_noted() {
     }
 }
 
-/// Of a weight so small that its pressure vanishes among the numbers friction bears nothing; that is told in numbers, too.
+/// Friction bears nothing of a weight so small that its pressure vanishes among the numbers; that is told in numbers, too.
 #[test]
 fn a_slide_without_pressure_has_no_friction() {
-    let verdict = on_ice(1e-320, None);
-    let found = slides(&verdict);
+    let verdict = on_ice("full", 1e-320, None);
+    let found = failures_of(CheckKind::Traction, &verdict);
     let [slide] = found.as_slice() else { panic!("{found:#?}") };
     assert_eq!(slide.limit.to_bits(), 0, "{slide:?}");
     assert!(slide.message.ends_with("and has 0"), "{slide:?}");
     // A weight that is small as well, but presses, slides as any other does.
-    let verdict = on_ice(1e-200, None);
-    let found = slides(&verdict);
+    let verdict = on_ice("full", 1e-200, None);
+    let found = failures_of(CheckKind::Traction, &verdict);
     assert!(found.len() == 1 && (found[0].limit - 0.1).abs() < 1e-9, "{found:?}");
 }
-
-/// A cart with four wheels of 40 mm radius and a mast that may turn.
-const CART: &str = "
-module Cart {
-  link body = box(240mm, 60mm, 40mm, mass: 2kg)
-  link mast = cylinder(10mm, 40mm, mass: 50g) at [0mm, 0mm, 40mm]
-  link fl = cylinder(radius: 40mm, length: 10mm, axis: Y, mass: 20g, friction: 1) at [80mm, 60mm, 0mm]
-  link fr = cylinder(radius: 40mm, length: 10mm, axis: Y, mass: 20g, friction: 1) at [80mm, -60mm, 0mm]
-  link bl = cylinder(radius: 40mm, length: 10mm, axis: Y, mass: 20g, friction: 1) at [-80mm, 60mm, 0mm]
-  link br = cylinder(radius: 40mm, length: 10mm, axis: Y, mass: 20g, friction: 1) at [-80mm, -60mm, 0mm]
-  joint turn : body -> mast = revolute(axis: Z) at [0mm, 0mm, 40mm]
-  joint a : body -> fl = revolute(axis: Y) at [80mm, 60mm, 0mm]
-  joint b : body -> fr = revolute(axis: Y) at [80mm, -60mm, 0mm]
-  joint c : body -> bl = revolute(axis: Y) at [-80mm, 60mm, 0mm]
-  joint d : body -> br = revolute(axis: Y) at [-80mm, -60mm, 0mm]
-}
-config Car {
-  part c: Cart
-  behavior drive = Pc(move(c.a, by: 2rad, in: 2s), move(c.b, by: 2rad, in: 2s), move(c.c, by: 2rad, in: 2s), move(c.d, by: 2rad, in: 2s))
-}
-";
 
 /// A cart drives on a slope by the roll of its wheels, though its mast stands still.
 #[test]
 fn a_joint_at_rest_does_not_hold_a_cart_that_drives_on_a_slope() {
+    // A mast that may turn is the joint at rest.
+    let mast = "  link mast = cylinder(10mm, 40mm, mass: 50g) at [0mm, 0mm, 40mm]
+  joint turn : body -> mast = revolute(axis: Z) at [0mm, 0mm, 40mm]
+  joint a :";
+    let cart = CART.replace("friction: 0.3", "friction: 1").replace("  joint a :", mast);
     for angle in [-5.0, 5.0] {
-        let verdict = verify(&plan(CART, "Car().drive()", &format!("terrain: slope({angle}deg)")));
+        let verdict = verify(&plan(&cart, "Car().roll(2rad, 2s)", &format!("terrain: slope({angle}deg)")));
         assert!(verdict.ok(), "{:#?}", verdict.failures);
         let [x, y, _] = verdict.travel;
         // Wheels of 40 mm that turn by 2 rad; friction creeps by parts of a millimetre per second.
@@ -112,44 +98,32 @@ fn a_joint_at_rest_does_not_hold_a_cart_that_drives_on_a_slope() {
     }
 }
 
-/// A body that pushes a block away or draws it to itself, and lets it go on the way.
-const PARTING: &str = "
-connector Face { mates Face, turns 4 }
+/// A body with a slide whose centre of mass lies within the body, so that the weight is borne wherever the slide is.
+const PUSHER: &str = "
 module Pusher {
   link body = box(200mm, 200mm, 100mm, mass: BODY)
   link slide = box(20mm, 60mm, 60mm, mass: SLIDE, com: [-150mm, 0mm, 0mm]) at [120mm, 0mm, 0mm]
   joint out : body -> slide = prismatic(axis: X, range: 0mm..150mm) at [120mm, 0mm, 0mm]
   port tip: Face on slide at [10mm, 0mm, 0mm] facing +X up +Z
 }
-module Block {
-  link body = box(100mm, 60mm, 100mm, mass: 1kg)
-  port face: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
-}
-config Pushed { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
-  behavior part_ways = Sc(Pc(move(a.out, to: 100mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(2s))
-}
-config Drawn { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
-  set a.out = 100mm
-  behavior part_ways = Sc(Pc(move(a.out, to: 0mm, in: 2s), Sc(wait(1s), undock(a.tip))), wait(10s))
-}
 ";
 
-/// Returns the positions of both modules at some times (s).
+/// Returns the declarations of such a body that pushes a block away or draws it to itself, with these masses.
+fn pushing(body: &str, slide: &str) -> String {
+    PUSHING.to_owned() + &PUSHER.replace("BODY", body).replace("SLIDE", slide)
+}
+
+/// Returns how far both modules have moved at some times (s).
 fn places(plan: &Plan, times: &[f64]) -> Vec<[Vec3; 2]> {
     let paths = ClusterPaths::of(plan, f64::INFINITY).expect("two parts");
-    let numbers = Kinematics::new(&plan.body.tracks().expect("modules").robot, &[true], 0);
-    let at = |time: &f64| {
-        let mut poses = vec![Pose::identity(); numbers.link_count()];
-        paths.place(*time, &mut poses);
-        [0, 1].map(|module| numbers.module_pose(module, &poses).translation.vector)
-    };
-    times.iter().map(at).collect()
+    times.iter().map(|time| bodies(plan, &paths, *time).map(|pose| pose.translation.vector)).collect()
 }
 
 /// A block that comes off in motion slides on until friction holds it, and then stands where it is.
 #[test]
 fn what_came_off_in_motion_stands_on_a_slope_once_friction_has_stopped_it() {
-    let declarations = PARTING.replace("BODY", "5kg").replace("SLIDE", "500g");
+    // Time enough to stop.
+    let declarations = pushing("5kg", "500g").replace("wait(2s)", "wait(10s)");
     let plan = plan(&declarations, "Drawn().part_ways()", "terrain: slope(10deg), friction: 0.5");
     let found = places(&plan, &[1.0, 3.0, 7.0, 11.9]);
     let moved = |from: usize, to: usize, part: usize| (found[to][part] - found[from][part]).norm();
@@ -159,10 +133,10 @@ fn what_came_off_in_motion_stands_on_a_slope_once_friction_has_stopped_it() {
     }
 }
 
-/// On ice a body whose slide is heavier than itself moves back with it, as a block comes off in motion.
+/// A body on ice whose slide is heavier than itself moves back with it, as a block comes off in motion.
 #[test]
 fn on_ice_a_heavy_slide_moves_its_body_as_a_block_comes_off() {
-    let along_x = PARTING.replace("BODY", "500g").replace("SLIDE", "5kg");
+    let along_x = pushing("500g", "5kg");
     let turned = [
         ("[-150mm, 0mm, 0mm]", "[0mm, -150mm, 0mm]"),
         ("[120mm, 0mm, 0mm]", "[0mm, 120mm, 0mm]"),

@@ -1,6 +1,7 @@
 //! The judge on the forces, the rigidity and the slip of trusses, against statics done by hand.
 
 use super::truss_judge::{plan_in, straight};
+use crate::support::verdicts::status;
 use modl::plan::{
     Body, CauseId, CheckKind, Exemption, ExemptionKind, Ground, NodePaths, Plan, Status, Verdict, World,
     verify,
@@ -45,10 +46,6 @@ fn leg() -> f64 {
     let weight = 1.5 * 9.80665;
     let length = libm::sqrt(0.8 * 0.8 + 1.0 / 3.0);
     weight / 3.0 * length / 0.8
-}
-
-fn status(verdict: &Verdict, kind: CheckKind) -> Status {
-    verdict.checks.iter().find(|check| check.kind == kind).expect("checked").status.clone()
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! Plans of trusses for the tests of their judge: made by hand, of struts that are long, fast and strong.
 
+pub use crate::support::verdicts::{failures_of as of, status};
 use modl::optimize::random::SplitMix64;
 use modl::plan::{
-    Body, Cause, CauseId, CheckKind, Failure, Ground, Interpolation, Keyframe, Margins, NodePaths, Plan,
-    Ramps, Settings, Status, Surroundings, TrussLimits, Verdict, World, verify,
+    Body, Cause, CauseId, Ground, Interpolation, Keyframe, Margins, NodePaths, Plan, Ramps, Settings,
+    Surroundings, TrussLimits, Verdict, World, verify,
 };
 use modl::robot::{Library, Strut};
 use std::sync::Arc;
@@ -105,15 +106,6 @@ pub fn judged(plan: &Plan) -> Verdict {
     let sound = modl::plan::validation::check(plan);
     assert!(sound.is_ok(), "{:?}", sound.map_err(|fault| fault.to_string()));
     verdict
-}
-
-/// Returns the failures of one check.
-pub fn of(kind: CheckKind, verdict: &Verdict) -> Vec<Failure> {
-    verdict.failures.iter().filter(|failure| failure.kind == kind).cloned().collect()
-}
-
-pub fn status(verdict: &Verdict, kind: CheckKind) -> Status {
-    verdict.checks.iter().find(|check| check.kind == kind).expect("checked").status.clone()
 }
 
 /// Returns random numbers between two.

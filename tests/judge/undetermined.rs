@@ -1,8 +1,6 @@
 //! Travel that friction or servos do not determine: wheels that pull against skids with nearly as much friction.
 
-use crate::support::desk::{run, stated};
-use crate::support::suite::MapFiles;
-use modl::interpret::Mode;
+use crate::support::desk::{self, stated};
 
 /// Returns the messages about a cart whose wheels turn by 4 rad in 10 s: two of 50 mm radius at x = 100 mm, and as many at
 /// -100 mm if there are `four`; with two skids, `skid` the place of each along x and its height above the ground (mm), each
@@ -41,8 +39,7 @@ fn said(four: bool, skid: [f64; 2], stiffness: f64, behaviours: &str) -> Vec<Str
 ",
         moves.join(", ")
     );
-    let (observed, ..) = run(&MapFiles::of(&program), Mode::Run);
-    observed.diagnostics.iter().map(|d| d.message.clone()).collect()
+    desk::messages(&program)
 }
 
 /// Returns the distances in the message about undetermined travel, mm.

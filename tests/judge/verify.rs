@@ -2,6 +2,7 @@
 
 use crate::support::motions::{self, Motion, STATICS};
 use crate::support::robots::{self, FRONT, LEFT, RIGHT, TILT};
+use crate::support::verdicts::status;
 use modl::plan::verify::{verify, verify_state};
 use modl::plan::{
     Body, CauseId, CheckKind, DockingEvent, DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings,
@@ -26,10 +27,6 @@ fn passes(verdict: &Verdict) {
 #[track_caller]
 fn fails(verdict: &Verdict, kind: CheckKind) {
     assert!(kinds(verdict).contains(&kind), "{verdict:#?}");
-}
-
-fn status(verdict: &Verdict, kind: CheckKind) -> &Status {
-    &verdict.checks.iter().find(|c| c.kind == kind).expect("the check was made").status
 }
 
 /// The paper's SQUARE: four drives and four turns.
@@ -62,7 +59,7 @@ fn joints_keep_to_their_range() {
     fails(&judged(Motion::new(robots::chain(3)).smooth("m1", TILT, 95.0, 0.0, 4.0)), CheckKind::JointRange);
     let verdict = judged(Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 4.0));
     passes(&verdict);
-    assert_eq!(status(&verdict, CheckKind::JointRange), &Status::Proved);
+    assert_eq!(status(&verdict, CheckKind::JointRange), Status::Proved);
 }
 
 #[test]
@@ -124,7 +121,7 @@ fn joints_that_stop_at_once_are_told_and_counted() {
         let turn = |m: Motion, wheel: &usize| m.spin("m0", *wheel, 2.0, 0.0, 1.0);
         let verdict = judged(wheels.iter().fold(Motion::new(robots::chain(1)), turn));
         match status(&verdict, CheckKind::Rest) {
-            Status::NotChecked(words) => words.clone(),
+            Status::NotChecked(words) => words,
             other => panic!("{other:?}"),
         }
     };
@@ -340,7 +337,7 @@ fn excused(arm: usize, kind: ExemptionKind, from: f64, to: f64) -> Verdict {
 fn exemptions_excuse_but_not_the_end() {
     let verdict = excused(8, ExemptionKind::Unstable, 0.0, 2.0);
     assert!(!kinds(&verdict).contains(&CheckKind::Stability), "{:?}", verdict.failures);
-    assert_eq!(status(&verdict, CheckKind::Stability), &Status::Exempt);
+    assert_eq!(status(&verdict, CheckKind::Stability), Status::Exempt);
     assert!(verdict.events.iter().any(|e| e.1.contains("tips over")));
     // The arm is still out at the end, and that is not excused.
     let verdict = excused(6, ExemptionKind::Overload(None), 0.0, 2.0);

@@ -1,21 +1,11 @@
 //! Motors at their limits, joints that move several links at once, and bodies that float or stand on a narrow foot: forces and
 //! travel of full dynamics in closed form.
 
-use crate::support::desk::{run, run_clean, stated};
-use crate::support::suite::MapFiles;
-use modl::interpret::Mode;
-use modl::plan::CheckKind;
+use crate::simulate::fixtures::GRAVITY;
+use crate::support::desk::{messages, run_clean, stated};
 use modl::plan::verify::articulated::{Detail, base_at, instants};
 use modl::plan::verify::verify;
-
-/// The standard gravity, m/s².
-const GRAVITY: f64 = 9.80665;
-
-/// Returns the messages about a program.
-fn messages(program: &str) -> Vec<String> {
-    let (observed, ..) = run(&MapFiles::of(program), Mode::Run);
-    observed.diagnostics.iter().map(|d| d.message.clone()).collect()
-}
+use modl::plan::{CheckKind, Plan};
 
 #[test]
 fn a_rotor_that_turns_on_a_body_that_floats_bears_the_reduced_inertia() {
@@ -123,32 +113,39 @@ fn a_motor_at_its_limit_that_moves_two_links_sags_under_both() {
     assert!((sag - expected).abs() < 0.006 * expected, "{sag} of {expected} in {}", found[0]);
 }
 
+/// Returns the plan of a body of 3 kg with an arm of 10 g that turns on it, on feet with levers of 100 mm, of which the first two
+/// move as one. `foot`: the mass of a foot, g; `feet`: the place of each along x and y (mm), and the facts of its knee.
+fn stool(foot: u32, feet: &[((i32, i32), String)]) -> Plan {
+    let mut links = String::new();
+    for (i, ((x, y), facts)) in feet.iter().enumerate() {
+        links += &format!(
+            "link f{i} = sphere(15mm, mass: {foot}g, friction: 1) at [{x}mm, {y}mm, 15mm]
+             joint k{i} : body -> f{i} = revolute(axis: Y, {facts}) at [{}mm, {y}mm, 15mm]\n",
+            x + 100
+        );
+    }
+    run_clean(&format!(
+        "module Stool {{
+           link body = box(100mm, 100mm, 40mm, mass: 3kg) at [0mm, 0mm, 80mm]
+           {links}
+           joint k1 = k0
+           link arm = box(10mm, 10mm, 30mm, mass: 10g) at [0mm, 0mm, 115mm]
+           joint turn : body -> arm = revolute(axis: Z)
+         }}
+         let stool = Stool()
+         emit(plan(move(stool.turn, by: 0.1rad, in: 4s), world: world(dynamics: full)), \"p.json\")
+"
+    ))
+    .plan("p.json")
+}
+
 #[test]
 fn feet_on_knees_that_move_together_and_on_knees_at_their_stops_share_the_weight_by_symmetry() {
     // Four feet bear a quarter each, whatever their knees yield: two move as one, and two rest on stops 2 mrad away.
     for range in ["", ", range: -30deg..0.1deg"] {
-        let mut links = String::new();
-        for (i, (x, y)) in [(150, 80), (150, -80), (-150, 80), (-150, -80)].into_iter().enumerate() {
-            let range = if i < 2 { "" } else { range };
-            links += &format!(
-                "link f{i} = sphere(15mm, mass: 50g, friction: 1) at [{x}mm, {y}mm, 15mm]
-                 joint k{i} : body -> f{i} = revolute(axis: Y, stiffness: 100N*m/rad{range}) at [{}mm, {y}mm, 15mm]\n",
-                x + 100
-            );
-        }
-        let plan = run_clean(&format!(
-            "module Stool {{
-               link body = box(100mm, 100mm, 40mm, mass: 3kg) at [0mm, 0mm, 80mm]
-               {links}
-               joint k1 = k0
-               link arm = box(10mm, 10mm, 30mm, mass: 10g) at [0mm, 0mm, 115mm]
-               joint turn : body -> arm = revolute(axis: Z)
-             }}
-             let stool = Stool()
-             emit(plan(move(stool.turn, by: 0.1rad, in: 4s), world: world(dynamics: full)), \"p.json\")
-"
-        ))
-        .plan("p.json");
+        let places = [(150, 80), (150, -80), (-150, 80), (-150, -80)].into_iter().enumerate();
+        let facts = |i| format!("stiffness: 100N*m/rad{}", if i < 2 { "" } else { range });
+        let plan = stool(50, &places.map(|(i, place)| (place, facts(i))).collect::<Vec<_>>());
         let found = &instants(&plan, &[2.0], Detail::Loads, None)[0];
         let quarter = 3.21 / 4.0 * GRAVITY;
         let forces = found.forces.as_ref().expect("forces are known");
@@ -169,33 +166,12 @@ fn feet_on_knees_at_their_stops_share_the_weight_with_knees_that_move_together_a
     // their stops, 2.3 degrees away. All have levers of 100 mm, and the body sinks level.
     let (contact, stop, gap, lever) = (1e5, 1e3, 2.3_f64.to_radians(), 0.1);
     let (both, alone, foot) = (25.0, 10.0, 0.02 * GRAVITY);
-    let mut links = String::new();
-    let places = [(0, 80), (0, -80), (150, 80), (150, -80), (-150, 80), (-150, -80)];
-    for (i, (x, y)) in places.into_iter().enumerate() {
-        let facts = if i < 2 {
-            format!("stiffness: {both}N*m/rad")
-        } else {
-            format!("stiffness: {alone}N*m/rad, range: -30deg..2.3deg")
-        };
-        links += &format!(
-            "link f{i} = sphere(15mm, mass: 20g, friction: 1) at [{x}mm, {y}mm, 15mm]
-             joint k{i} : body -> f{i} = revolute(axis: Y, {facts}) at [{}mm, {y}mm, 15mm]\n",
-            x + 100
-        );
-    }
-    let plan = run_clean(&format!(
-        "module Stool {{
-           link body = box(100mm, 100mm, 40mm, mass: 3kg) at [0mm, 0mm, 80mm]
-           {links}
-           joint k1 = k0
-           link arm = box(10mm, 10mm, 30mm, mass: 10g) at [0mm, 0mm, 115mm]
-           joint turn : body -> arm = revolute(axis: Z)
-         }}
-         let stool = Stool()
-         emit(plan(move(stool.turn, by: 0.1rad, in: 4s), world: world(dynamics: full)), \"p.json\")
-"
-    ))
-    .plan("p.json");
+    let places = [(0, 80), (0, -80), (150, 80), (150, -80), (-150, 80), (-150, -80)].into_iter().enumerate();
+    let facts = |i| match i {
+        0 | 1 => format!("stiffness: {both}N*m/rad"),
+        _ => format!("stiffness: {alone}N*m/rad, range: -30deg..2.3deg"),
+    };
+    let plan = stool(20, &places.map(|(i, place)| (place, facts(i))).collect::<Vec<_>>());
     // A foot bears (sink + rest) / yields.
     let middle = (2.0 * lever * lever / both * foot, 1.0 / contact + 2.0 * lever * lever / both);
     let stopped = lever / (alone + stop);

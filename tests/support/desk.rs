@@ -67,6 +67,12 @@ pub fn run(files: &MapFiles, mode: Mode) -> (Observed, Desk, Outcome) {
     (observed, desk, outcome)
 }
 
+/// Checks and runs a program, and returns the messages of its diagnostics.
+pub fn messages(text: &str) -> Vec<String> {
+    let (observed, ..) = run(&MapFiles::of(text), Mode::Run);
+    observed.diagnostics.iter().map(|d| d.message.clone()).collect()
+}
+
 /// What a program that must be without mistakes prints and writes.
 pub fn run_clean(text: &str) -> Desk {
     let (observed, desk, _) = run(&MapFiles::of(text), Mode::Run);

@@ -20,3 +20,4 @@ pub mod suite;
 pub mod terminal;
 pub mod tree;
 pub mod trusses;
+pub mod verdicts;

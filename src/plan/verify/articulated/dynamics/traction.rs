@@ -12,10 +12,11 @@ use super::tolerances::PARAMETERS;
 use super::twist::{self, Momentum};
 use crate::geometry::Mat3;
 use crate::geometry::Vec3;
-use crate::plan::{Exemption, ExemptionKind, Verdict, World};
+use crate::plan::{ExemptionKind, Verdict, World};
 use crate::robot::dynamics::{Dynamics, Twist};
 use crate::units::{Dimension, number, quantity};
 use nalgebra::Vector3;
+use std::collections::BTreeSet;
 
 /// The travel over the ground by friction and momentum, followed from sample to sample of a rollout.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +30,7 @@ pub(in super::super) struct Traction {
     /// The travel of the samples at which one holds.
     allowed: TravelPoses,
     /// The exemptions `allows traction` that hold at a sample so far, by their indices in the plan's list.
-    allowed_by: Vec<usize>,
+    allowed_by: BTreeSet<usize>,
     /// True for a part that came off another in motion: it slides on whether its joints move or not.
     came_off: bool,
 }
@@ -115,7 +116,7 @@ pub struct TravelSummary {
     /// The travel during the samples at which one holds.
     pub allowed: GroundTravel,
     /// The exemptions that hold at one of them, by their indices in the plan's list.
-    pub allowed_by: Vec<usize>,
+    pub allowed_by: BTreeSet<usize>,
 }
 
 /// The velocities at the last instant at which forces were determined, in level axes.
@@ -191,14 +192,14 @@ impl Traction {
         let drift = yaw_between(step.R_before, step.R);
         let shift = |rate: Vector3<f64>| Vec3::new(rate.x * dt, rate.y * dt, rate.z * dt - drift);
         let slips = last.slips.iter().map(|&(link, speed, load)| (link, speed * dt, load)).collect();
-        let allows = |e: &Exemption| e.kind == ExemptionKind::Traction && e.covers(step.time);
-        let exemptions = step.rollout.exemptions.iter().enumerate();
-        let allowing: Vec<usize> = exemptions.filter(|(_, e)| allows(e)).map(|(index, _)| index).collect();
-        let poses = if allowing.is_empty() { &mut self.judged } else { &mut self.allowed };
+        let mut poses = &mut self.judged;
+        for (index, exemption) in step.rollout.exemptions.iter().enumerate() {
+            if exemption.kind == ExemptionKind::Traction && exemption.covers(step.time) {
+                self.allowed_by.insert(index);
+                poses = &mut self.allowed;
+            }
+        }
         poses.advance(&shift(last.rate), &last.others.map(|more| shift(last.rate + more)));
-        let new = |index: &usize| !self.allowed_by.contains(index);
-        let new: Vec<usize> = allowing.into_iter().filter(new).collect();
-        self.allowed_by.extend(new);
         (pose.moved(&shift(last.rate)), slips)
     }
 
