@@ -27,6 +27,11 @@ const SUNS_QUICK: (usize, usize) = (3, 450);
 /// The width and height of depth maps of the sky, in texels.
 const SKY_MAP_SIZE: usize = 160;
 
+/// The most texels of a depth map, of the sun and of the sky, for a pixel of the picture's width: finer shadows than a small
+/// picture can show would take most of its time.
+const SUN_TEXELS: usize = 2;
+const SKY_TEXELS: usize = 1;
+
 /// The directions of the sky that each sample sees, in a fine picture and in a quick one.
 const DIRECTIONS_FINE: usize = 4;
 const DIRECTIONS_QUICK: usize = 2;
@@ -120,16 +125,17 @@ impl Map {
 }
 
 impl Light {
-    /// Returns the light of bodies in a ball, as (centre, radius) in m.
-    pub(super) fn new(bodies: &[Drawn], around: (Vec3, f64), fineness: Fineness) -> Light {
+    /// Returns the light of bodies in a ball, as (centre, radius) in m. `width`: the width of the picture in pixels.
+    pub(super) fn new(bodies: &[Drawn], around: (Vec3, f64), fineness: Fineness, width: usize) -> Light {
         let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
         let (each, (suns, size)) = match fineness {
             Fineness::Fine => (DIRECTIONS_FINE, SUNS_FINE),
             Fineness::Quick => (DIRECTIONS_QUICK, SUNS_QUICK),
         };
         let count = if triangles < TRIANGLES_MANY { SAMPLES * each } else { SAMPLES };
-        let suns = (0..suns).map(|i| Map::new(bodies, around, sun(i, suns), size)).collect();
-        let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), SKY_MAP_SIZE)).collect();
+        let (sun_size, sky_size) = (size.min(SUN_TEXELS * width), SKY_MAP_SIZE.min(SKY_TEXELS * width));
+        let suns = (0..suns).map(|i| Map::new(bodies, around, sun(i, suns), sun_size)).collect();
+        let skies = (0..count).map(|i| Map::new(bodies, around, sky(i, count), sky_size)).collect();
         Light { suns, skies, radius: around.1 }
     }
 

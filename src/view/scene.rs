@@ -70,7 +70,7 @@ impl Scene {
         let camera = framing::camera(&around, options.side.direction(), width as f64 / height as f64);
         let (low, high) = bounds(&bodies);
         let (middle, radius) = ((low + high) / 2.0, ((high - low).norm() / 2.0).max(TOLERANCES.radius));
-        let light = Light::new(&bodies, (middle, radius), fineness);
+        let light = Light::new(&bodies, (middle, radius), fineness, options.width);
         let numbers = bodies.iter().enumerate();
         let numbers = numbers.flat_map(|(i, body)| (0..body.mesh.triangles.len()).map(move |j| (i, j)));
         let facet = |at: (usize, usize)| {
