@@ -164,6 +164,8 @@ export async function sides(page, fault) {
   if ((await look())[1] < 1.4) fault("the top is not looked at from above");
   await page.keyboard.press("h");
   await measures(page, fault);
+  // What was just turned is drawn coarsely for a moment.
+  await page.waitForFunction(() => window.modl.coarseness() === 0);
   const before = await picture(page);
   await page.keyboard.press("b");
   const white = await page.evaluate(() => {

@@ -456,7 +456,7 @@ function main() {
     return Array.from(X);
   };
   // For scripts and tests.
-  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, X, x, y), places, onScreen, measure };
+  window.modl = { plan, stats, state, stops: events.stops, camera, seek: t => player.seek(t, true), redraw: () => draw(0), pick: (x, y) => renderer.pick(scene_, X, x, y), places, onScreen, measure, coarseness };
   try {
     if (renderer) renderer.ready();
   } catch (error) {
