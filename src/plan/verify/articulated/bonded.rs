@@ -125,18 +125,16 @@ impl BondedPair {
         touch + self.explained + moved
     }
 
-    /// Returns the pair for links that two bonds join: the greater explained overlap and the greater error.
+    /// Returns the pair for links that another bond joins, too, which closes a loop: the greater explained overlap and the
+    /// greater error.
     fn and(&self, other: &BondedPair) -> BondedPair {
-        let rigid = if other.rigid && !self.rigid { other } else { self };
         BondedPair {
-            bond: rigid.bond,
-            overlap: rigid.overlap,
             explained: self.explained.max(other.explained),
-            rigid: rigid.rigid,
             error: [self.error, other.error]
                 .into_iter()
                 .flatten()
                 .max_by(|x, y| x.0.distance.total_cmp(&y.0.distance)),
+            ..*self
         }
     }
 
