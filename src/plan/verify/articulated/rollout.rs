@@ -300,7 +300,7 @@ impl<'a> Stepper<'a> {
                 R_before: &self.stance.R,
                 R: &self.stance.R,
             };
-            traction.begin(&ground, &entry.twist, self.stance.planar_pose.yaw);
+            traction.begin(&ground, &entry.momentum, self.stance.planar_pose.yaw);
         }
     }
 

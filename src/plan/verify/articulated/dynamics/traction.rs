@@ -1,11 +1,11 @@
 //! Travel over the ground with friction and momentum: the base moves by the twist that the friction of its loaded
 //! contacts gives it.
 
-use super::super::minimum_power::PlanarPose;
+use super::super::minimum_power::{PlanarPose, along_ground};
 use super::super::model::Model;
 use super::super::rollout_input::Rollout;
 use super::equilibrium::{self, Equilibrium, Warm};
-use super::posed::{Posed, Situation, turned};
+use super::posed::{Posed, Situation};
 use super::slide;
 use super::slip_spread::SlipSpread;
 use super::tolerances::PARAMETERS;
@@ -13,7 +13,7 @@ use super::twist::{self, Momentum};
 use crate::geometry::Mat3;
 use crate::geometry::Vec3;
 use crate::plan::{ExemptionKind, Verdict, World};
-use crate::robot::dynamics::{Dynamics, Twist};
+use crate::robot::dynamics::{Dynamics, Twist, Wrench};
 use crate::units::{Dimension, number, quantity};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -203,29 +203,30 @@ impl Traction {
         (pose.moved(&shift(last.rate)), slips)
     }
 
-    /// Begins with a robot in motion, at the time of a step that lasts no time. `base`: the twist of its base's own frame in the
-    /// world, m/s and rad/s, of which what is along the ground counts; `yaw`: the heading then, rad.
-    pub(in super::super) fn begin(&mut self, step: &GroundStep, base: &Twist, yaw: f64) {
-        if *base == Twist::default() {
+    /// Begins with a robot in motion, at the time of a step that lasts no time. `momentum`: its momentum (N·s) and angular
+    /// momentum about its centre of mass (N·m·s) in the world, of which what is along the ground and about its normal counts;
+    /// `yaw`: the heading then, rad.
+    pub(in super::super) fn begin(&mut self, step: &GroundStep, momentum: &Wrench, yaw: f64) {
+        if *momentum == Wrench::default() {
             return;
         }
         let posed = step.posed(yaw);
         let to_ground = step.world.ground_pose().rotation.inverse();
-        let level =
-            turned(&Twist { linear: to_ground * base.linear, angular: to_ground * base.angular }, -yaw);
-        let arm = posed.poses[step.model.base_link()].translation.vector;
-        let twist = Twist { linear: level.linear - level.angular.cross(&arm), angular: level.angular };
-        let (_, carried) = planar(&posed);
-        let by_joints = carried / step.model.mass;
+        let level = |v: &Vec3| along_ground(&(to_ground * v), -yaw);
+        let (force, moment) = (level(&momentum.force), level(&momentum.moment));
+        let whole = Vector3::new(force.x, force.y, moment.z);
+        // The share of the joints is a mean over a window, here and in the steps to come; the whole is that of this instant.
+        let (inertia, carried) = planar(&posed);
+        let base = per(&(whole - carried), &inertia);
         self.came_off = true;
         self.last = Some(Last {
             time: step.time,
             bonds: step.bonds.to_vec(),
             carried,
-            rate: Vector3::new(twist.linear.x + by_joints.x, twist.linear.y + by_joints.y, twist.angular.z),
+            rate: Vector3::new(whole.x / inertia.x, whole.y / inertia.y, base.z),
             others: [Vector3::zeros(); Variation::ALL.len()],
             varied_at: f64::NEG_INFINITY,
-            twist,
+            twist: Twist { linear: Vec3::new(base.x, base.y, 0.0), angular: Vec3::z() * base.z },
             slips: vec![],
             spread: SlipSpread::default(),
         });
@@ -265,14 +266,7 @@ impl Traction {
             _ => (Vector3::zeros(), Vector3::zeros()),
         };
         // Without friction momentum stays: what the joints gain, the base loses.
-        // A single point has no inertia in yaw, and gains no turn.
-        let recoil = (carried - had).zip_map(
-            &inertia,
-            |gained, inertia| {
-                if inertia > 0.0 { gained / inertia } else { 0.0 }
-            },
-        );
-        let free = was - recoil;
+        let free = was - per(&(carried - had), &inertia);
         let [least, most] = PARAMETERS.momentum_step;
         let duration = since.filter(|_| moving).unwrap_or(least).clamp(least, most);
         let momentum = Momentum { inertia, free, step: duration };
@@ -358,6 +352,11 @@ pub(in super::super) fn soft_servos() -> String {
 fn yaw_between(from: &Mat3, to: &Mat3) -> f64 {
     let turn = to * from.transpose();
     libm::atan2(turn[(1, 0)] - turn[(0, 1)], turn[(0, 0)] + turn[(1, 1)])
+}
+
+/// Returns velocities from momenta and inertia, x, y and yaw. A single point has no inertia in yaw, and gains no turn.
+fn per(momentum: &Vector3<f64>, inertia: &Vector3<f64>) -> Vector3<f64> {
+    momentum.zip_map(inertia, |momentum, inertia| if inertia > 0.0 { momentum / inertia } else { 0.0 })
 }
 
 /// Returns the composite inertia in x, y (kg) and yaw about the centre of mass (kg·m²), and the planar momentum of the
