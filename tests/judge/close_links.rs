@@ -2,7 +2,7 @@
 //! on nothing.
 
 use crate::support::arms::robot_of;
-use crate::support::desk::run_clean;
+use crate::support::desk::{messages, run_clean};
 use crate::support::hollow_meshes::hollow_cube;
 use crate::support::motions::{Motion, STATICS};
 use crate::support::robots::{self, boxed, joint, link};
@@ -10,8 +10,8 @@ use modl::geometry::pose::shifted;
 use modl::geometry::{Placed, Pose, Shape, Vec3};
 use modl::plan::verify::articulated::collision_point;
 use modl::plan::verify::verify;
-use modl::plan::{CheckKind, Obstacle, World};
-use modl::robot::{JointKind, Limits};
+use modl::plan::{CheckKind, DynamicsModel, Obstacle, World};
+use modl::robot::{Assembly, JointKind, Limits};
 
 /// The places of a ball of 2 mm along x that are in the wall of a hollow cube of 60 and 30 mm, in its hollow, and outside.
 const PLACES: [(f64, bool); 6] =
@@ -71,15 +71,20 @@ fn what_is_in_the_wall_of_its_own_module_meets_it() {
     }
 }
 
-/// A light block and a heavy one that a slide draws apart: the light one slips, all the way.
-#[test]
-fn slip_beyond_what_is_stated_fails_when_it_comes_to_be_more() {
+/// A light block and a heavy one on a slide.
+fn two_blocks() -> Assembly {
     let block = |x: f64| vec![boxed(Vec3::new(x - 0.05, -0.05, 0.0), Vec3::new(x + 0.05, 0.05, 0.05))];
     let (heavy, light) = (Vec3::new(0.0, 0.0, 0.025), Vec3::new(0.2, 0.0, 0.025));
     let links = vec![link("heavy", block(0.0), 3.0, heavy, 0.5), link("light", block(0.2), 1.0, light, 0.5)];
     let range = Limits { range: Some((-1.0, 1.0)), ..Limits::default() };
     let slide = joint("slide", (0, 1), JointKind::Prismatic, Pose::identity(), Vec3::x(), range);
-    let plan = Motion::new(robot_of(links, vec![slide])).segment(0, 0.0, 1.0, vec![0.0, 0.1]).plan(STATICS);
+    robot_of(links, vec![slide])
+}
+
+/// Where the slide draws them apart the light one slips, all the way.
+#[test]
+fn slip_beyond_what_is_stated_fails_when_it_comes_to_be_more() {
+    let plan = Motion::new(two_blocks()).segment(0, 0.0, 1.0, vec![0.0, 0.1]).plan(STATICS);
     for (most, fails) in
         [(None, false), (Some(0.11), false), (Some(0.101), false), (Some(0.09), true), (Some(0.03), true)]
     {
@@ -99,6 +104,45 @@ fn slip_beyond_what_is_stated_fails_when_it_comes_to_be_more() {
             assert!((failure.time - most / 0.1).abs() <= 0.011, "{failure:?}");
         }
     }
+}
+
+/// Full dynamics let the heavy one creep, as friction is viscous below 1 mm/s: where it bears a third of what it can, by
+/// 0.35 mm a second.
+#[test]
+fn of_a_light_block_and_a_heavy_one_the_light_one_slips_under_full_dynamics() {
+    let world = World { dynamics: DynamicsModel::Full, ..STATICS };
+    let apart = vec![0.0, 0.0, 0.0, 0.1, 0.1, 0.1];
+    let verdict = verify(&Motion::new(two_blocks()).segment(0, 0.0, 1.0, apart).plan(world));
+    let slip = verdict.slip.expect("it slips");
+    assert!((slip.value - 0.1).abs() < 1e-3 && slip.at == ["r.light"], "{slip:?}");
+}
+
+/// Two cubes that dock face to face, and turn about the middle of the faces by another way: as their connectors capture at any
+/// angle the loop holds, but the edge of one goes into the other by half a side times the sine of the angle.
+#[test]
+fn ports_that_capture_at_any_angle_excuse_no_edges() {
+    let found = messages(
+        "connector Face { mates Face, turns 4, capture 2mm }
+         module Left {
+           link body = box(100mm, 100mm, 100mm, mass: 1kg)
+           link arm = sphere(radius: 5mm, mass: 100g) at [50mm, 0mm, 200mm]
+           joint bend : body -> arm = revolute(axis: Y, range: -90deg..90deg) at [50mm, 0mm, 0mm]
+           port face: Face on body at [50mm, 0mm, 0mm] facing +X up +Z
+           port end: Face on arm at [0mm, 0mm, 5mm] facing +Z up +X
+         }
+         module Right {
+           link body = box(100mm, 100mm, 100mm, mass: 1kg)
+           port face: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
+           port hung: Face on body at [-50mm, 0mm, 205mm] facing -Z up +X
+         }
+         config Both closed { part l: Left  part r: Right  connect l.end -- r.hung  connect l.face -- r.face  base l }
+         let b = Both()
+         emit(plan(move(b.l.bend, to: 10deg, in: 2s), world: world(gravity: off, ground: off)), \"p.json\")
+",
+    );
+    let depth = 50.0 * libm::sin(10_f64.to_radians());
+    let wanted = format!("l and r meet, up to {depth:.5}mm deep (body and body)");
+    assert!(found.len() == 1 && found[0].contains(&wanted), "{found:?}, not {wanted}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use crate::support::motions::{self, Motion, STATICS};
 use crate::support::robots::{self, FRONT, LEFT, RIGHT, TILT};
 use crate::support::verdicts::status;
+use modl::plan::verify::articulated::{Detail, history, instants};
 use modl::plan::verify::{verify, verify_state};
 use modl::plan::{
     Body, CauseId, CheckKind, DockingEvent, DockingKind, Exemption, ExemptionKind, Ground, Plan, Settings,
@@ -128,22 +129,42 @@ fn joints_that_stop_at_once_are_told_and_counted() {
     let rest = "and no greatest acceleration is stated";
     assert_eq!(words(&[LEFT]), format!("m0.left stops at once from 2rad/s at the end, {rest}"));
     assert!(words(&[LEFT, RIGHT]).ends_with(&format!("from 2rad/s at the end (and 1 more), {rest}")));
+    // Those that stop on the way are not of the same kind.
+    let m = Motion::new(robots::chain(2)).spin("m0", LEFT, 2.0, 0.0, 1.0);
+    let m = ["m0", "m1"].iter().fold(m, |m, module| m.spin(module, RIGHT, 2.0, 0.0, 0.5));
+    let Status::NotChecked(found) = status(&judged(m), CheckKind::Rest) else { panic!("it stops at once") };
+    assert_eq!(found, format!("m0.left stops at once from 2rad/s at the end, {rest}"));
 }
 
 /// Without ground nothing is touched, and the history says so.
 #[test]
 fn the_history_of_what_floats_has_no_contacts() {
     let plan = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(World::FREE);
-    let moments = modl::plan::verify::articulated::history(&plan, 1.0);
+    let moments = history(&plan, 1.0);
     assert!(moments.len() > 10);
     assert!(moments.iter().all(|m| m.contacts.is_empty() && m.support.is_empty() && m.margin.is_none()));
+}
+
+/// Nothing tips over that has no weight, and no joint bears any.
+#[test]
+fn the_history_of_what_weighs_nothing_has_neither_margins_nor_loads() {
+    let plan = |gravity: f64| {
+        let world = World { gravity, ..STATICS };
+        Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(world)
+    };
+    let moments = |gravity: f64| history(&plan(gravity), 1.0);
+    assert!(moments(0.0).iter().all(|m| m.margin.is_none() && m.loads.is_empty()));
+    assert!(moments(1.0).iter().all(|m| m.margin.is_some()));
+    assert!(moments(1.0).iter().any(|m| !m.loads.is_empty()));
+    let margin = |gravity: f64| instants(&plan(gravity), &[0.5], Detail::Loads, None)[0].margin;
+    assert!(margin(0.0).is_none() && margin(1.0).is_some());
 }
 
 /// Loads take longer than poses, and a history has them at every eighth of its moments.
 #[test]
 fn the_history_has_loads_at_every_eighth_moment() {
     let plan = Motion::new(robots::chain(3)).smooth("m1", TILT, 30.0, 0.0, 1.0).plan(STATICS);
-    let moments = modl::plan::verify::articulated::history(&plan, 1.0);
+    let moments = history(&plan, 1.0);
     let loaded: Vec<usize> = (0..moments.len()).filter(|i| !moments[*i].loads.is_empty()).collect();
     assert!(loaded.len() > 5 && loaded.iter().all(|i| i % 8 == 0), "{loaded:?}");
 }
