@@ -3,7 +3,7 @@
 use super::CallError;
 use crate::session::complete::{self, Knowledge};
 use crate::session::entry::{is_given_up, is_incomplete};
-use crate::session::highlight::{Class, classes};
+use crate::session::highlight::{Class, Piece, pieces};
 use rustyline::completion::{Completer, Pair};
 use rustyline::error::ReadlineError;
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -202,9 +202,9 @@ impl Highlighter for CompletionHelper {
         }
         let mut out = String::new();
         let mut at = 0;
-        for (range, class) in classes(line) {
+        for (range, piece) in pieces(line) {
             out.push_str(&line[at..range.start]);
-            out.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(class), &line[range.clone()]));
+            out.push_str(&format!("\x1b[{}m{}\x1b[0m", colour(piece), &line[range.clone()]));
             at = range.end;
         }
         out.push_str(&line[at..]);
@@ -224,15 +224,15 @@ impl Highlighter for CompletionHelper {
     }
 }
 
-/// Returns the escape sequence parameters of a class.
-fn colour(class: Class) -> &'static str {
-    match class {
-        Class::Keyword => "35",
-        Class::Type => "36",
-        Class::Number => "33",
-        Class::Text => "32",
-        Class::Comment => "2",
-        Class::Command => "34",
+/// Returns the escape sequence parameters of a kind of text.
+fn colour(piece: Piece) -> &'static str {
+    match piece {
+        Piece::Command => "34",
+        Piece::Program(Class::Keyword) => "35",
+        Piece::Program(Class::Type) => "36",
+        Piece::Program(Class::Number) => "33",
+        Piece::Program(Class::Text) => "32",
+        Piece::Program(Class::Comment) => "2",
     }
 }
 

@@ -1,9 +1,9 @@
 //! `modl explain`: the pages of `docs/errors/`, embedded.
 
 use super::arguments::Globals;
-use super::pages;
 use super::terminal::{print, print_json};
 use super::{CallError, Ending};
+use crate::document::page_of_code;
 use crate::source::{code, suggest::suggest};
 
 /// Runs the command `modl explain`: prints the page of a diagnostic code, in letters of any case, or lists all codes
@@ -21,7 +21,7 @@ pub(super) fn run(wanted: Option<&str>, globals: &Globals) -> Result<Ending, Cal
     let Some((code, title)) = found else {
         return Err(CallError(unknown(&wanted)));
     };
-    let page = pages::page(code.0).map_or_else(|| format!("# {code}: {title}\n"), str::to_owned);
+    let page = page_of_code(code.0).map_or_else(|| format!("# {code}: {title}\n"), str::to_owned);
     if globals.json {
         print_json(&format!(
             "{:#}",

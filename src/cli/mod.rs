@@ -22,7 +22,6 @@ mod manifest;
 mod memory;
 mod new;
 mod output;
-mod pages;
 mod plan;
 mod program;
 mod repl;

@@ -1,13 +1,18 @@
 //! The pages of the site: plain HTML that works from a file.
 
+use super::manual::ManualPage;
+use super::markdown::{Converted, coloured};
 use super::outline::{Page, PageEntry};
 use crate::check::summary::{Group, Inside};
 use std::fmt::Write as _;
 
-/// The style sheet (CSS) of the documentation site.
-pub(super) const STYLE: &str = include_str!("site.css");
-/// The script (JavaScript) of the documentation site's search.
-pub(super) const SCRIPT: &str = include_str!("search.js");
+/// The files that all pages share, as (name, text): the style sheet (CSS), and the scripts (JavaScript) of the search and of
+/// light and dark.
+pub(super) const SHARED: [(&str, &str); 3] = [
+    ("site.css", include_str!("site.css")),
+    ("search.js", include_str!("search.js")),
+    ("theme.js", include_str!("theme.js")),
+];
 
 /// A function that converts a piece of documentation from Markdown to HTML.
 pub(super) type Doc<'d> = &'d mut dyn FnMut(&str) -> String;
@@ -17,28 +22,68 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Returns a whole page around its body.
-fn frame(title: &str, pages: &[Page], body: &str) -> String {
-    let links: String = pages.iter().map(|page| link(&page.file, &page.title)).collect();
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
-         <link rel=\"stylesheet\" href=\"site.css\">\n</head>\n<body>\n<nav>\n\
-         <input id=\"search\" type=\"search\" placeholder=\"Search\" aria-label=\"Search\">\n\
-         <ul id=\"found\"></ul>\n<ul>\n{}{}{links}</ul>\n</nav>\n<main>\n{body}</main>\n\
-         <script src=\"index.js\"></script>\n<script src=\"search.js\"></script>\n</body>\n</html>\n",
-        link("index.html", "All"),
-        link("guide.html", "Guide to the robots"),
-        title = escaped(title),
-    )
+/// The pages of a site, as each page leads to them.
+pub(super) struct Shell<'s> {
+    /// The pages of programs, and of the library.
+    pub pages: &'s [Page],
+    /// The groups of pages of the manual, each with its title.
+    pub manual: &'s [(&'static str, Vec<ManualPage>)],
 }
 
-fn link(to: &str, words: &str) -> String {
-    format!("<li><a href=\"{to}\">{}</a></li>\n", escaped(words))
+impl Shell<'_> {
+    /// Returns a whole page around its body. `contents`: the places on the page as (level, anchor, words), of which level 3
+    /// is indented.
+    pub(super) fn frame(&self, title: &str, contents: &[(usize, String, String)], body: &str) -> String {
+        let mut nav =
+            list_of("", [("index.html", "Start"), ("guide.html", "Guide to the robots")].into_iter());
+        let pages = |library: bool| {
+            let of = self.pages.iter().filter(move |page| page.is_of_library() == library);
+            of.map(|page| (page.file.as_str(), page.title.as_str()))
+        };
+        nav.push_str(&list_of("Programs", pages(false)));
+        nav.push_str(&list_of("Library", pages(true)));
+        for (group, pages) in self.manual {
+            nav.push_str(&list_of(group, pages.iter().map(|page| (page.file.as_str(), page.title.as_str()))));
+        }
+        let contents = if contents.len() > 1 { contents_of(contents) } else { String::new() };
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
+             <link rel=\"stylesheet\" href=\"site.css\">\n<script src=\"theme.js\"></script>\n</head>\n<body>\n<nav>\n\
+             <div class=\"tools\"><input id=\"search\" type=\"search\" placeholder=\"Search ( / )\" \
+             aria-label=\"Search\"><button id=\"theme\" type=\"button\" title=\"Light or dark\" \
+             aria-label=\"Light or dark\">◐</button></div>\n\
+             <ol id=\"found\"></ol>\n<details open id=\"pages\"><summary>Pages</summary>\n{nav}</details>\n</nav>\n\
+             <main>\n{body}</main>\n{contents}\
+             <script src=\"index.js\"></script>\n<script src=\"search.js\"></script>\n</body>\n</html>\n",
+            title = escaped(title),
+        )
+    }
 }
 
-/// Returns the page of a file as HTML, with links to all `pages`.
-pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
+/// Returns a list of links as HTML under a title, empty for an empty list.
+fn list_of<'l>(title: &str, links: impl Iterator<Item = (&'l str, &'l str)>) -> String {
+    let links: String =
+        links.map(|(to, words)| format!("<li><a href=\"{to}\">{}</a></li>\n", escaped(words))).collect();
+    match (title, links.is_empty()) {
+        (_, true) => String::new(),
+        ("", false) => format!("<ul>\n{links}</ul>\n"),
+        (title, false) => format!("<h2>{}</h2>\n<ul>\n{links}</ul>\n", escaped(title)),
+    }
+}
+
+/// Returns the contents of a page as HTML.
+fn contents_of(places: &[(usize, String, String)]) -> String {
+    let line = |(level, anchor, words): &(usize, String, String)| {
+        let class = if *level > 2 { " class=\"below\"" } else { "" };
+        format!("<li{class}><a href=\"#{}\">{}</a></li>\n", escaped(anchor), escaped(words))
+    };
+    let lines: String = places.iter().map(line).collect();
+    format!("<aside><details open><summary>On this page</summary>\n<ul>\n{lines}</ul>\n</details></aside>\n")
+}
+
+/// Returns the page of a file as HTML.
+pub(super) fn page(page: &Page, shell: &Shell, doc: Doc) -> String {
     let mut body = format!("<h1>{}</h1>\n", escaped(&page.title));
     if let Some(text) = &page.doc {
         body.push_str(&doc(text));
@@ -46,7 +91,15 @@ pub(super) fn page(page: &Page, pages: &[Page], doc: Doc) -> String {
     for entry in &page.entries {
         body.push_str(&section(entry, doc));
     }
-    frame(&page.title, pages, &body)
+    let places = page.entries.iter().map(|entry| (2, entry.name.clone(), entry.name.clone()));
+    shell.frame(&page.title, &places.collect::<Vec<_>>(), &body)
+}
+
+/// Returns a page of the manual as HTML, from its text.
+pub(super) fn manual_page(page: &ManualPage, shell: &Shell, text: &Converted) -> String {
+    let places = text.headings.iter().filter(|heading| heading.level <= 3);
+    let places = places.map(|heading| (heading.level, heading.anchor.clone(), heading.title.clone()));
+    shell.frame(&page.title, &places.collect::<Vec<_>>(), &text.html)
 }
 
 /// Returns the section of a declaration.
@@ -55,7 +108,7 @@ fn section(entry: &PageEntry, doc: Doc) -> String {
         "<section id=\"{name}\">\n<h2><a href=\"#{name}\">{name}</a> <small>{}</small></h2>\n\
          <pre class=\"signature\">{}</pre>\n",
         entry.word,
-        escaped(&wrapped(&entry.signature)),
+        coloured(&wrapped(&entry.signature)),
         name = escaped(&entry.name),
     );
     if let Some(picture) = &entry.picture {
@@ -92,9 +145,9 @@ fn list(entry: &PageEntry, group: Group, inside: &[&Inside], doc: Doc) -> String
     let mut out = format!("<h3>{heading}s</h3>\n<dl>\n");
     for i in inside {
         let id = format!("{}.{}", entry.name, i.name);
-        let _ = writeln!(out, "<dt id=\"{id}\"><code>{}</code></dt>", escaped(&i.head), id = escaped(&id));
+        let _ = writeln!(out, "<dt id=\"{id}\"><code>{}</code></dt>", coloured(&i.head), id = escaped(&id));
         for clause in &i.contracts {
-            let _ = writeln!(out, "<dd><code>{}</code></dd>", escaped(clause));
+            let _ = writeln!(out, "<dd><code>{}</code></dd>", coloured(clause));
         }
         if let Some(text) = &i.doc {
             let _ = writeln!(out, "<dd>{}</dd>", doc(text));
@@ -126,96 +179,4 @@ fn wrapped(signature: &str) -> String {
         }
     }
     out
-}
-
-/// Returns the front page as HTML: all declarations, page by page.
-pub(super) fn index(pages: &[Page]) -> String {
-    let mut body = String::from("<h1>Documentation</h1>\n");
-    for page in pages {
-        let _ = writeln!(
-            body,
-            "<h2><a href=\"{}\">{}</a></h2>\n<ul class=\"names\">",
-            page.file,
-            escaped(&page.title)
-        );
-        for entry in &page.entries {
-            let _ = writeln!(
-                body,
-                "<li><a href=\"{}#{name}\">{name}</a> <small>{}</small></li>",
-                page.file,
-                entry.word,
-                name = escaped(&entry.name)
-            );
-        }
-        body.push_str("</ul>\n");
-    }
-    frame("Documentation", pages, &body)
-}
-
-/// Returns the guide as HTML: all configurations with their behaviours, by ascending order (depth of composition);
-/// those without a default instance last.
-pub(super) fn guide(pages: &[Page], doc: Doc) -> String {
-    let mut body = String::from(
-        "<h1>Guide to the robots</h1>\n<p>A configuration of order 1 is made of modules; one of order 2, of \
-         configurations of order 1 and modules; and so on.</p>\n",
-    );
-    let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
-    let mut configs: Vec<(u32, &Page, &PageEntry)> =
-        all.filter_map(|(page, entry)| Some((entry.order?, page, entry))).collect();
-    configs.sort_by_key(|(order, _, _)| *order);
-    // A configuration without a default instance has no known order.
-    let sized = |(_, entry): &(&Page, &PageEntry)| entry.word == "config" && entry.order.is_none();
-    let all = pages.iter().flat_map(|page| page.entries.iter().map(move |entry| (page, entry)));
-    let open = all.filter(sized).map(|(page, entry)| (None, page, entry));
-    let mut last = None;
-    for (order, page, entry) in configs.into_iter().map(|(order, p, e)| (Some(order), p, e)).chain(open) {
-        if last != Some(order) {
-            let title = order.map_or_else(|| "Of a size to be given".to_owned(), |n| format!("Order {n}"));
-            let _ = writeln!(body, "<h2>{title}</h2>");
-            last = Some(order);
-        }
-        let _ = writeln!(
-            body,
-            "<section>\n<h3><a href=\"{}#{name}\">{name}</a> <small>{} · {}</small></h3>",
-            page.file,
-            escaped(&page.title),
-            escaped(&entry.facts.join(" · ")),
-            name = escaped(&entry.name)
-        );
-        if let Some(picture) = &entry.picture {
-            let _ =
-                writeln!(body, "<img src=\"{picture}\" alt=\"{}\" loading=\"lazy\">", escaped(&entry.name));
-        }
-        if let Some(text) = &entry.doc {
-            body.push_str(&doc(text.trim().split("\n\n").next().unwrap_or("")));
-        }
-        let behaviors: Vec<&Inside> = entry.inside.iter().filter(|i| i.group == Group::Behavior).collect();
-        if !behaviors.is_empty() {
-            let shown = behaviors.iter().map(|b| format!("<code>{}</code>", escaped(&b.head)));
-            let _ = writeln!(body, "<p>{}</p>", shown.collect::<Vec<_>>().join(" "));
-        }
-        body.push_str("</section>\n");
-    }
-    frame("Guide to the robots", pages, &body)
-}
-
-/// Returns the search index as the text of a script, with [name, description, address] of each declaration and member.
-pub(super) fn search_index(pages: &[Page]) -> String {
-    let mut rows = Vec::new();
-    for page in pages {
-        for entry in &page.entries {
-            let about = entry.doc.as_deref().unwrap_or("").lines().next().unwrap_or("");
-            let address = format!("{}#{}", page.file, entry.name);
-            rows.push([entry.name.clone(), format!("{} · {} · {about}", entry.word, page.title), address]);
-            for i in &entry.inside {
-                let name = format!("{}.{}", entry.name, i.name);
-                let about = i.doc.as_deref().unwrap_or("").lines().next().unwrap_or("");
-                let address = format!("{}#{name}", page.file);
-                rows.push([name, format!("{} · {} · {about}", i.group.word(), page.title), address]);
-            }
-        }
-    }
-    let json = serde_json::to_string(&rows).expect("texts are plain data");
-    // No text in it can end the script element.
-    format!("const INDEX = {};\n", json.replace('<', "\\u003c"))
 }

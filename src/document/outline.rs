@@ -18,6 +18,13 @@ pub(super) struct Page {
     pub entries: Vec<PageEntry>,
 }
 
+impl Page {
+    /// Returns true for a file of the standard library; the titles of programs end in `.mod`.
+    pub(super) fn is_of_library(&self) -> bool {
+        !self.title.ends_with(".mod")
+    }
+}
+
 /// The entry of a page about one declaration.
 pub(super) struct PageEntry {
     /// The name of the declaration that the entry documents.

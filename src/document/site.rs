@@ -1,9 +1,12 @@
 //! The whole site: its pages, its files, and broken links.
 
-use super::html;
-use super::markdown::{Targets, to_html};
+use super::front;
+use super::html::{self, Shell};
+use super::manual::{self, ManualPage};
+use super::markdown::{Converted, Heading, Targets, to_html};
 use super::outline::{Page, PageEntry, page};
 use super::pictures::{Drawing, draw};
+use super::search::search_index;
 use crate::check::{self, Checked, Entry};
 use crate::interrupt::CancelState;
 use crate::source::{Diagnostic, FileId, Files, library};
@@ -17,7 +20,7 @@ pub struct Request<'r> {
     pub files: &'r dyn Files,
     /// The paths of the project's programs, from its root, in the order of the pages.
     pub programs: &'r [String],
-    /// True if the standard library is documented, too.
+    /// True if the standard library is documented, too, and the manual of modl is part of the site.
     pub library: bool,
     /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
@@ -95,18 +98,20 @@ fn library_pages(files: &dyn Files) -> Vec<Page> {
     pages
 }
 
-/// Adds the files of a site to `site`: a page for each of `pages`, the guide, the index, and what they link to;
+/// Adds the files of a site to `site`: a page for each of `pages`, the manual, the guide, the index, and what they link to;
 /// and the broken links of the pages.
 fn write(pages: &[Page], request: &Request, site: &mut Site) {
     let addresses = addresses(pages);
     let taken = RefCell::default();
+    let manual = if request.library { manual::groups() } else { Vec::new() };
+    let shell = Shell { pages, manual: &manual };
     let mut add = |name: &str, text: String| site.files.push((name.to_owned(), text.into_bytes()));
     let mut faults = Vec::new();
     let mut texts = Vec::new();
     for page in pages {
         let links = Links { addresses: &addresses, page, files: request.files, taken: &taken };
         let mut doc = |text: &str| {
-            let (html, lost) = to_html(text, &links);
+            let Converted { html, lost, .. } = to_html(text, &links, false);
             let entry = page.entries.iter().find(|entry| stands_in(entry, text));
             let entry = entry.map_or_else(String::new, |entry| entry.name.clone());
             faults.extend(lost.into_iter().map(|link| LinkFault {
@@ -116,20 +121,35 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
             }));
             html
         };
-        texts.push((page.file.clone(), html::page(page, pages, &mut doc)));
+        texts.push((page.file.clone(), html::page(page, &shell, &mut doc)));
     }
     for (name, text) in texts {
         add(&name, text);
     }
+    let converted: Vec<(&ManualPage, Converted)> = manual
+        .iter()
+        .flat_map(|(_, pages)| pages)
+        .map(|page| (page, manual::converted(page, pages)))
+        .collect();
+    for (page, text) in &converted {
+        add(&page.file, html::manual_page(page, &shell, text));
+    }
     let home = Page { title: String::new(), file: String::new(), doc: None, entries: Vec::new() };
     let links = Links { addresses: &addresses, page: &home, files: request.files, taken: &taken };
     // Broken links in it have been recorded with their declarations.
-    add("guide.html", html::guide(pages, &mut |text| to_html(text, &links).0));
-    add("index.html", html::index(pages));
-    add("index.js", html::search_index(pages));
-    add("search.js", html::SCRIPT.to_owned());
-    add("site.css", html::STYLE.to_owned());
+    let mut doc = |text: &str| to_html(text, &links, false).html;
+    add("guide.html", front::guide(&shell, &mut doc));
+    add("index.html", front::index(&shell, &mut doc));
+    let sections: Vec<(&ManualPage, &[Heading])> =
+        converted.iter().map(|(page, text)| (*page, text.headings.as_slice())).collect();
+    add("index.js", search_index(pages, &sections));
+    for (name, text) in html::SHARED {
+        add(name, text.to_owned());
+    }
     site.files.extend(taken.into_inner());
+    if request.library {
+        site.files.extend(manual::files());
+    }
     site.faults = faults;
 }
 
@@ -161,15 +181,8 @@ struct Links<'l> {
     taken: &'l RefCell<BTreeMap<String, Vec<u8>>>,
 }
 
-impl Targets for Links<'_> {
-    /// Prefers a declaration of the page itself.
-    fn address(&self, name: &str) -> Option<String> {
-        let found = self.addresses.get(name)?;
-        let own = found.iter().find(|(page, _)| *page == self.page.title);
-        own.or(found.first()).map(|(_, address)| address.clone())
-    }
-
-    /// Copies the file into the site.
+impl Links<'_> {
+    /// Returns the address of a file of the project, and takes it along into the site; `None` if it can't be read.
     fn file(&self, path: &str) -> Option<String> {
         if path.is_empty() || path.split('/').any(|part| part == "..") {
             return None;
@@ -178,5 +191,24 @@ impl Targets for Links<'_> {
         let name = format!("files/{path}");
         self.taken.borrow_mut().insert(name.clone(), bytes);
         Some(name)
+    }
+}
+
+impl Targets for Links<'_> {
+    /// Prefers a declaration of the page itself.
+    fn name(&self, name: &str) -> Option<String> {
+        let found = self.addresses.get(name)?;
+        let own = found.iter().find(|(page, _)| *page == self.page.title);
+        own.or(found.first()).map(|(_, address)| address.clone())
+    }
+
+    /// Returns the address of a declaration or of a file.
+    fn link(&self, to: &str) -> Option<String> {
+        if let Some(address) = self.name(to.trim_start_matches('#').trim_matches('`')) {
+            return Some(address);
+        }
+        let (path, place) = to.split_once('#').map_or((to, None), |(path, place)| (path, Some(place)));
+        let file = self.file(path)?;
+        Some(place.map_or_else(|| file.clone(), |place| format!("{file}#{place}")))
     }
 }

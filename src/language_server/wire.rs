@@ -4,8 +4,8 @@ use super::answers::{Shown, Symbol};
 use super::assistance::{Lens, Mend, ParameterHint};
 use super::places::{Encoding, Place, offset, place, places};
 use crate::session::complete::{Completion, Signature};
-use crate::session::highlight::Class;
 use crate::source::Severity;
+use crate::syntax::Class;
 use gen_lsp_types as lsp;
 use std::ops::Range;
 
@@ -220,7 +220,7 @@ pub(super) fn tokens(
     let mut line = (0, 0);
     for (range, class) in classes {
         let kind = match class {
-            Class::Keyword | Class::Command => 0,
+            Class::Keyword => 0,
             Class::Type => 1,
             Class::Number => 2,
             Class::Text => 3,

@@ -14,6 +14,7 @@ mod characters;
 mod explain;
 mod failure;
 mod habits;
+mod highlight;
 mod lex;
 mod outline;
 mod parse;
@@ -25,6 +26,7 @@ mod split;
 mod text_mistakes;
 mod words;
 
+pub use highlight::{Class, classes};
 pub use lex::{Token, TokenKind};
 pub use outline::{Chunk, Outline, Role, Skeleton, skeleton};
 pub use parse::{DIAGNOSTICS_MAX, HEIGHT_MAX, NESTING_MAX, Parsed, TEXT_MAX, breaks_off, parse, too_large};

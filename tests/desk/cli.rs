@@ -280,7 +280,7 @@ fn every_code_is_explained() {
         assert!(list.contains(&format!("{code}  {title}\n")), "{code}");
         let page = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("docs/errors/{code}.md"));
         let page = fs::read_to_string(page).expect("every code has a page");
-        assert_eq!(s.run(&["explain", code.0]).out, page, "src/cli/pages.rs lists every page");
+        assert_eq!(s.run(&["explain", code.0]).out, page, "src/document/manual.rs lists every page");
         assert!(page.starts_with(&format!("# {code}: {title}\n")), "{code}: the page has the code's title");
     }
     assert_eq!(s.run(&["explain", "e0301"]).code, 0);

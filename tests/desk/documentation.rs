@@ -1,7 +1,11 @@
 //! `modl doc` and the examples that `modl test` runs.
 
+use crate::desk::browser;
 use crate::desk::cli::Sandbox;
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 const ARM: &str = "\
 //! An arm of [`Hinge`]s.
@@ -51,6 +55,8 @@ fn a_site_tells_of_the_project_and_the_library() {
         fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"))
     };
     let arm = page("arm-mod.html");
+    assert!(arm.contains("<span class=\"k\">config</span> <span class=\"t\">Arm</span>"), "{arm}");
+    let arm = without_colours(&arm);
     for words in [
         "config Arm",
         "config Chain(n: Int)",
@@ -73,13 +79,13 @@ fn a_site_tells_of_the_project_and_the_library() {
     assert!(!arm.contains("_hidden") && !arm.contains("arm-mod-Chain.png"), "{arm}");
     let picture = fs::read(sandbox.path("out/doc/pictures/arm-mod-Arm.png")).expect("a picture");
     assert!(picture.starts_with(b"\x89PNG"));
-    let hinge = page("hinge-mod.html");
+    let hinge = without_colours(&page("hinge-mod.html"));
     assert!(
         hinge.contains("<code>bend: Joint&lt;Angle&gt;</code>") && hinge.contains("<code>back</code>"),
         "{hinge}"
     );
     // Planners and robots of the library.
-    assert!(page("prelude.html").contains("method: exact | heuristic | enumerate = exact"));
+    assert!(without_colours(&page("prelude.html")).contains("method: exact | heuristic | enumerate = exact"));
     assert!(page("std-smores.html").contains("pictures/std-smores-Chain3.png"));
     let guide = page("guide.html");
     let (first, second) = (guide.find("Order 1").expect("order 1"), guide.find("Order 2").expect("order 2"));
@@ -90,14 +96,82 @@ fn a_site_tells_of_the_project_and_the_library() {
     assert!(guide.find("arm-mod.html#Chain\">").is_some_and(|at| at > open), "{guide}");
     assert!(first < at("Arm") && at("Arm") < second && second < at("FourLeg17"));
     assert!(page("index.js").contains("\"Arm.curl\"") && page("index.html").contains("arm-mod.html#Arm"));
-    // Every address leads to a page that is there, and to a place on it.
-    for name in ["index.html", "guide.html", "arm-mod.html", "std-smores.html", "prelude.html"] {
-        for address in page(name).split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+    every_address_leads_to_a_place(&sandbox.path("out/doc"));
+    tells_of_modl(&page);
+    if let Some((playwright, chromium)) = browser::tools() {
+        is_used_in_a_browser(&playwright, &chromium, &sandbox.path("out/doc"));
+    }
+}
+
+/// The text of a page without the colours of programs.
+fn without_colours(text: &str) -> String {
+    let pieces = text.replace("</span>", "");
+    ["k", "t", "n", "s", "c"]
+        .iter()
+        .fold(pieces, |text, class| text.replace(&format!("<span class=\"{class}\">"), ""))
+}
+
+/// The parts of pages that are addresses: of links, pictures, styles and scripts.
+fn addresses(text: &str) -> impl Iterator<Item = &str> {
+    let after = |start| text.split(start).skip(1).filter_map(|rest: &str| rest.split('"').next());
+    after(" href=\"").chain(after(" src=\""))
+}
+
+/// Every address on every page leads to a file that is there, and to a place in it.
+fn every_address_leads_to_a_place(folder: &Path) {
+    let names = fs::read_dir(folder).expect("the site is a folder");
+    let names = names.map(|entry| entry.expect("it is listed").file_name().to_string_lossy().into_owned());
+    let pages: BTreeMap<String, String> = names
+        .filter(|name| name.ends_with(".html"))
+        .map(|name| (name.clone(), fs::read_to_string(folder.join(&name)).expect("a page")))
+        .collect();
+    assert!(pages.len() > 35, "{:?}", pages.keys());
+    for (name, text) in &pages {
+        for address in addresses(text).filter(|address| !address.starts_with("https://")) {
             let (file, place) = address.split_once('#').unwrap_or((address, ""));
-            let text = if file.is_empty() { page(name) } else { page(file) };
-            assert!(place.is_empty() || text.contains(&format!("id=\"{place}\"")), "{name}: {address}");
+            let there = if file.is_empty() { Some(text) } else { pages.get(file) };
+            assert!(there.is_some() || folder.join(file).is_file(), "{name}: {address}");
+            let found = there.is_none_or(|text| text.contains(&format!("id=\"{place}\"")));
+            assert!(place.is_empty() || found, "{name}: {address}");
         }
     }
+}
+
+/// The pages of the manual are those that users read of `docs/`, with colours, contents and words to search.
+fn tells_of_modl(page: &dyn Fn(&str) -> String) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    for folder in ["", "planners/"] {
+        for entry in fs::read_dir(root.join(folder)).expect("the folder is there") {
+            let name = entry.expect("it is listed").file_name().to_string_lossy().into_owned();
+            let Some(stem) = name.strip_suffix(".md") else { continue };
+            // The site has an index and a guide of its own, and is not for those who change the program.
+            if ["README", "architecture", "library"].contains(&stem) {
+                continue;
+            }
+            let file = format!("manual-{}{}.html", folder.replace('/', "-"), stem.replace('_', "-"));
+            let text = fs::read_to_string(root.join(folder).join(&name)).expect("a page");
+            let title =
+                text.lines().next().expect("it has a title").trim_start_matches("# ").replace('`', "");
+            assert!(page("index.html").contains(&format!("href=\"{file}\"")), "{file} is not listed");
+            let shown = title.replace('"', "&quot;");
+            assert!(page(&file).contains(&format!("<title>{shown}</title>")), "{file} is not {title}");
+        }
+    }
+    let tour = page("manual-tour.html");
+    assert!(tour.contains("<span class=\"k\">use</span>") && tour.contains("On this page"), "{tour}");
+    assert!(!page("manual-fuzzing.html").contains("&lt;!--"), "a comment is shown");
+    let errors = page("manual-errors.html");
+    assert!(errors.contains("<h2 id=\"e0301-a-port-that-is-taken-already\">"), "{errors}");
+    assert!(page("index.js").contains("manual-errors.html#e0301-a-port-that-is-taken-already"));
+}
+
+/// The site in Chromium: search, light and dark, contents, a phone.
+fn is_used_in_a_browser(playwright: &Path, chromium: &Path, folder: &Path) {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/browser/site.mjs");
+    let output = Command::new("node").args([&script, playwright, chromium, folder]).output();
+    let output = output.expect("Node.js runs, it has before");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "[]");
 }
 
 #[test]
