@@ -76,6 +76,39 @@ fn a_loop_that_two_dockings_close_is_judged_as_the_robot_moves_on() {
     assert!((4.0..6.0).contains(&open.time), "{open:?}");
 }
 
+/// Three robots in a row: the first docks with the second, which then docks with the third, which nothing has happened to
+/// before.
+#[test]
+fn a_robot_that_others_met_without_it_is_met_where_it_stands() {
+    let program = "connector Face { mates Face, turns 1, capture 4mm 5deg }
+module Reacher {
+  link body = box(100mm, 100mm, 100mm, mass: 5kg)
+  link hand = box(20mm, 40mm, 40mm, mass: 500g) at [70mm, 0mm, 0mm]
+  joint out : body -> hand = prismatic(axis: X, range: 0mm..150mm) at [70mm, 0mm, 0mm]
+  port tip: Face on hand at [10mm, 0mm, 0mm] facing +X up +Z
+  port back: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
+}
+config One { part m: Reacher }
+scene S {
+  part a: One
+  part b: One at [180mm, 0mm, 0mm]
+  part c: One at [360mm, 0mm, 0mm]
+  world(gravity: 0m/s^2, ground: off, dynamics: statics)
+  behavior meet = Sc(
+    move(a.m.out, to: 50mm, in: 1s), dock(a.m.tip, b.m.back), wait(500ms),
+    move(b.m.out, to: 50mm, in: 1s), dock(b.m.tip, c.m.back), wait(500ms),
+    move(b.m.out, to: 40mm, in: 1s),
+  )
+}
+emit(S().meet(), \"p.json\")
+";
+    let verdict = verify(&run_clean(program).plan("p.json"));
+    assert!(verdict.ok(), "{:#?}", verdict.failures);
+    let third = verdict.robots.iter().find(|robot| robot.reference == "c.m").expect("it has a verdict");
+    let travel = Vec3::from(third.verdict.travel);
+    assert!((travel - Vec3::new(-0.010, 0.0, 0.0)).norm() < 1e-9, "{travel:?}");
+}
+
 /// A robot that docks sooner after the start than a robot brakes has not been long enough on the ground to be seen to slide.
 #[test]
 fn robots_that_stand_may_dock_at_once() {
@@ -94,19 +127,20 @@ emit(S().meet(), \"p.json\")
     assert!(verdict.notes.iter().any(|note| note.contains("docks at 20ms")), "{:?}", verdict.notes);
 }
 
-/// A cart on wheels of 50 mm radius that docks half-way through a turn of its wheels by 1 rad in 2 s. The turn is a quintic,
-/// which is then 15/8 as fast as in the mean; the cart has gone 25 mm.
-#[test]
-fn a_cart_that_still_drives_docks_too_fast_also_where_every_instant_is_judged_at_rest() {
+/// Returns a scene of a cart on wheels of 50 mm radius that turn by 1 rad in all, and a block before it. `joint`: what the
+/// joints of the wheels state besides their axis; `away`: where the block is, mm; `moving`: what each wheel does, by its joint;
+/// `meeting`: the behaviour of all, by those of the wheels.
+fn driving(joint: &str, away: u32, world: &str, moving: &str, meeting: &str) -> String {
     let mut wheels = String::new();
     for (index, (x, y)) in [(60, 60), (60, -60), (-60, 60), (-60, -60)].iter().enumerate() {
         wheels += &format!(
             "  link w{index} = cylinder(radius: 50mm, length: 20mm, axis: Y, mass: 100g, friction: 1) at [{x}mm, {y}mm, 50mm]
-  joint t{index} : body -> w{index} = revolute(axis: Y) at [{x}mm, {y}mm, 50mm]\n"
+  joint t{index} : body -> w{index} = revolute(axis: Y{joint}) at [{x}mm, {y}mm, 50mm]\n"
         );
     }
-    let turns: Vec<String> = (0..4).map(|index| format!("move(a.m.t{index}, by: 1rad, in: 2s)")).collect();
-    let program = format!(
+    let all: Vec<String> = (0..4).map(|index| moving.replace("JOINT", &format!("a.m.t{index}"))).collect();
+    let meeting = meeting.replace("WHEELS", &all.join(", "));
+    format!(
         "connector Face {{ mates Face, turns 1, capture 4mm 5deg }}
 module Cart {{
   link body = box(100mm, 90mm, 60mm, mass: 2kg) at [0mm, 0mm, 60mm]
@@ -120,17 +154,34 @@ config One {{ part m: Cart }}
 config Other {{ part m: Block }}
 scene S {{
   part a: One
-  part b: Other at [195mm, 0mm, 0mm]
-  world(dynamics: statics)
-  behavior meet = Pc({}, Sc(wait(1s), dock(a.m.nose, b.m.face)))
+  part b: Other at [{away}mm, 0mm, 0mm]
+  world({world})
+  behavior meet = {meeting}
 }}
 emit(S().meet(), \"p.json\")
-",
-        turns.join(", ")
-    );
-    let found = desk::messages(&program);
+"
+    )
+}
+
+/// A cart that docks half-way through a turn of its wheels by 1 rad in 2 s. The turn is a quintic, which is then 15/8 as fast
+/// as in the mean; the cart has gone 25 mm.
+#[test]
+fn a_cart_that_still_drives_docks_too_fast_also_where_every_instant_is_judged_at_rest() {
+    let meeting = "Pc(WHEELS, Sc(wait(1s), dock(a.m.nose, b.m.face)))";
+    let found =
+        desk::messages(&driving("", 195, "dynamics: statics", "move(JOINT, by: 1rad, in: 2s)", meeting));
     let fast: Vec<_> = found.iter().filter(|message| message.contains("docks too fast")).collect();
     let [fast] = fast.as_slice() else { panic!("{found:#?}") };
     let (speed, expected) = (stated(fast, "the ports move at", "mm/s"), 50.0 * 0.5 * 15.0 / 8.0);
     assert!((speed - expected).abs() < 0.1, "{speed} of {expected} in {fast}");
+}
+
+/// A cart that brakes with 1 m/s² has 5 mm/s in the mean of its last 10 ms, and is at rest as it docks at their end.
+#[test]
+fn a_cart_that_has_braked_hard_is_at_rest_as_it_docks() {
+    let joint = ", max_speed: 2rad/s, max_accel: 20rad/s^2";
+    let meeting = "Sc(Pc(WHEELS), dock(a.m.nose, b.m.face), wait(100ms))";
+    let program = driving(joint, 210, "dynamics: full", "spin(JOINT, 2rad/s, for: 500ms)", meeting);
+    let verdict = verify(&run_clean(&program).plan("p.json"));
+    assert!(verdict.ok(), "{:#?}", verdict.failures);
 }

@@ -43,6 +43,8 @@ mod snapping;
 mod standing;
 mod stated_arcs;
 mod stated_paths;
+mod swinging;
+mod three_loops;
 mod truss_acceleration;
 mod truss_forces;
 pub mod truss_judge;

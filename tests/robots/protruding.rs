@@ -115,6 +115,18 @@ fn a_rod_is_covered_by_two_rods_that_meet() {
     assert!((found - 0.002).abs() < 1e-9, "{found}");
 }
 
+/// A rod in a block that ends before it, at one end or at the other.
+#[test]
+fn a_rod_sticks_out_at_either_end_by_what_it_is_longer() {
+    let rod = Shape::Cylinder { radius: 0.02, length: 0.1, axis: Vec3::z() };
+    let drawn = Placed { pose: Pose::identity(), shape: rod };
+    let radius = libm::hypot(0.02, 0.05);
+    for side in [-1.0, 1.0] {
+        let cover = block([0.0, 0.0, -0.005 * side], [0.1, 0.1, 0.1]);
+        sticks_out(std::slice::from_ref(&drawn), &[cover], radius, 0.005);
+    }
+}
+
 /// A box that is hollow: what is in its wall is covered, and what is in the hollow, open above, is not.
 #[test]
 fn walls_of_a_mesh_cover_and_its_hollow_does_not() {

@@ -251,6 +251,30 @@ fn balls_come_out_of_the_middle_by_the_nearest_way() {
     }
 }
 
+/// A ball about the centre of a tetrahedron comes out through the nearest face, whichever it is.
+#[test]
+fn balls_come_out_of_tetrahedra_through_the_nearest_face() {
+    let mut n = Numbers(12);
+    for round in 0..3000 {
+        let corners: Vec<Vec3> = (0..4).map(|_| n.vector() * 0.1).collect();
+        let hull = Shape::Hull { points: corners.clone() };
+        let (Ok(()), ball) = (check(&hull), n.between(0.001, 0.05)) else { continue };
+        let part = solid(&[at(Pose::identity(), hull)]).parts.remove(0);
+        // The distance from the plane of a face, positive on the side of the corner behind it.
+        let away = |face: usize| {
+            let [own, p, q, r] = [0, 1, 2, 3].map(|k| corners[(face + k) % 4]);
+            let normal = (q - p).cross(&(r - p)).normalize();
+            (part.centre - p).dot(&normal) * (own - p).dot(&normal).signum()
+        };
+        let nearest = (0..4).map(away).fold(f64::INFINITY, f64::min);
+        if nearest < 0.0 {
+            continue;
+        }
+        let found = signed_distance(&part, &Part::sphere(Vec3::zeros(), ball), &shifted(part.centre));
+        assert!((found.distance + nearest + ball).abs() < 1e-6, "{round}: {found:?} of {nearest} and {ball}");
+    }
+}
+
 /// Distances are the same from either side, from any first guess, and for boxes and hulls of their corners.
 #[test]
 fn distances_are_the_same_from_either_side() {
