@@ -6,7 +6,7 @@ use super::manifest::{self, Manifest};
 use super::report::{self, JsonLink, Report};
 use super::terminal::{cancel_state, cancelled, listen_for_cancel, print_error};
 use super::{CallError, Ending, output, show};
-use crate::document::{self, LinkFault, Request, Site};
+use crate::document::{self, LinkFault, Manual, Request, Site};
 use crate::interpret::WriteError;
 use crate::source::Files;
 use std::path::Path;
@@ -17,12 +17,18 @@ const FOLDER: &str = "doc";
 /// The greatest depth of folders that are searched.
 const DEPTH_MAX: usize = 16;
 
-/// Runs the command `modl doc`, which writes the documentation site of the project in `folder`. `library`: true to
-/// document the standard library, too; `open`: true to open the site in the browser.
+/// Runs the command `modl doc`, which writes the documentation site of the project in `folder`. `manual`: the
+/// manual, to put it into the site and document the standard library, too; `open`: true to open the site in the browser.
 ///
 /// # Errors
 /// A message if there is no program to document, or a file can't be written or opened.
-pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -> Result<Ending, CallError> {
+pub(super) fn run(
+    folder: &Path,
+    manual: Option<&Manual>,
+    open: bool,
+    globals: &Globals,
+) -> Result<Ending, CallError> {
+    let library = manual.is_some();
     let project =
         Project::of_folder(Some(globals.root.as_deref().unwrap_or(folder)), globals.stdlib.as_deref())?;
     let home = globals.out.join(FOLDER);
@@ -40,6 +46,7 @@ pub(super) fn run(folder: &Path, library: bool, open: bool, globals: &Globals) -
         files: &project,
         programs: &programs,
         library,
+        manual,
         cancel_state: cancel_state(),
         known: &known.unwrap_or_default(),
     };

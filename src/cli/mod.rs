@@ -35,6 +35,7 @@ mod watch;
 mod watched;
 mod what;
 
+use crate::document::Manual;
 use crate::source::suggest::suggest;
 use arguments::{Arguments, Command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -62,9 +63,10 @@ struct CallError(String);
 /// for the thread, 130 after Ctrl-C. SIGTERM is not caught: the system ends the process, which a shell tells as 143.
 ///
 /// The command has a thread of its own, because the stack of the first one may be small. Panics if the command does (a
-/// defect).
-pub fn main() -> ExitCode {
-    let command = std::thread::Builder::new().name("command".into()).stack_size(STACK_BYTES).spawn(command);
+/// defect). `manual`: the manual that sites of documentation hold.
+pub fn main(manual: &'static Manual) -> ExitCode {
+    let thread = std::thread::Builder::new().name("command".into()).stack_size(STACK_BYTES);
+    let command = thread.spawn(|| command(manual));
     match command.map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,
         Ok(Err(panic)) => std::panic::resume_unwind(panic),
@@ -114,9 +116,9 @@ fn json_is_asked() -> bool {
 }
 
 /// Carries out the command line.
-fn command() -> ExitCode {
+fn command(manual: &Manual) -> ExitCode {
     let code = match Arguments::try_parse() {
-        Ok(arguments) => carry_out(&arguments),
+        Ok(arguments) => carry_out(&arguments, manual),
         Err(told) if told.use_stderr() && json_is_asked() => {
             report::json_call_error(&wrong_call(&told));
             2
@@ -142,9 +144,9 @@ fn command() -> ExitCode {
 
 /// Runs the command and reports a wrong call, and a command that takes more memory than the limit; returns the exit
 /// code.
-fn carry_out(arguments: &Arguments) -> u8 {
+fn carry_out(arguments: &Arguments, manual: &Manual) -> u8 {
     memory::limit(&arguments.globals);
-    let ended = memory::within_limit(&arguments.globals, || run(arguments));
+    let ended = memory::within_limit(&arguments.globals, || run(arguments, manual));
     match ended {
         Ok(Ending::Fine) => 0,
         Ok(Ending::Wrong) => 1,
@@ -160,7 +162,7 @@ fn carry_out(arguments: &Arguments) -> u8 {
 ///
 /// # Errors
 /// The message for the user, if the call is wrong.
-fn run(arguments: &Arguments) -> Result<Ending, CallError> {
+fn run(arguments: &Arguments, manual: &Manual) -> Result<Ending, CallError> {
     let globals = &arguments.globals;
     let Some(command) = &arguments.command else {
         if arguments.expressions.is_empty() {
@@ -200,7 +202,7 @@ fn run(arguments: &Arguments) -> Result<Ending, CallError> {
         }
         Command::Show { file, open } => show::run(file, *open, globals),
         Command::What { file, robot } => repl::what(file, robot, globals),
-        Command::Doc { folder, only, open } => doc::run(folder, !only, *open, globals),
+        Command::Doc { folder, only, open } => doc::run(folder, (!only).then_some(manual), *open, globals),
         Command::Repl { file, .. } => repl::run(file.as_deref(), globals),
         Command::Fmt { files, check } => fmt::run(files, *check, globals),
         Command::Lsp { .. } => lsp::run(globals),

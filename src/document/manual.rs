@@ -1,4 +1,5 @@
-//! The manual of modl, embedded: the pages of `docs/` that its users read, and the pages about diagnostic codes.
+//! The manual of modl in the site: the pages of `docs/` that its users read, and those about diagnostic codes, which are
+//! embedded here.
 
 use super::markdown::{Converted, Targets, anchor, to_html};
 use super::outline::Page;
@@ -16,43 +17,30 @@ pub(super) struct ManualPage {
     pub text: String,
 }
 
-/// Pairs names of files below a folder with their texts.
-macro_rules! embed {
-    ($folder:literal: $($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../", $folder, $name)))),*]
-    };
+/// The manual as its texts, each paired with its path.
+#[derive(Clone, Copy, Debug)]
+pub struct Manual {
+    /// The groups of pages in their order, each with its title; the texts (Markdown) by path below `docs/`.
+    pub groups: &'static [(&'static str, &'static [(&'static str, &'static str)])],
+    /// The files that pages lead to, by path from the root of the repository.
+    pub files: &'static [(&'static str, &'static str)],
 }
 
-/// The groups of pages, each with its title, and their texts by path below `docs/`.
-const GROUPS: &[(&str, &[(&str, &str)])] = &[
-    (
-        "Learn",
-        embed!["docs/": "tour.md", "language.md", "repl.md", "editors.md", "live_page.md", "style.md", "documentation.md"],
-    ),
-    (
-        "Planners",
-        embed!["docs/": "planners/fold.md", "planners/squeeze.md", "planners/tosnake.md", "planners/truss.md",
-            "planners/goals.md", "planners/fastest.md", "planners/planar_path.md"],
-    ),
-    (
-        "Verdicts",
-        embed!["docs/": "dynamics.md", "simulation.md", "limits.md", "performance.md", "mutants.md", "fuzzing.md"],
-    ),
-    ("Other programs", embed!["docs/": "exchange.md", "executing.md", "mujoco.md", "json.md", "studies.md"]),
-];
-
-/// The files that pages of the manual lead to, by path from the root of the repository.
-const FILES: &[(&str, &str)] = embed!["": "docs/pictures/fold_growth.svg", "docs/plan.schema.json", "docs/robot-map.schema.json",
-    "examples/bumper.mod", "examples/fold_layouts.mod", "examples/hexapod.mod", "examples/mobile_manipulator.mod",
-    "examples/parting.mod", "examples/payload.mod", "examples/pick_and_place.mod", "examples/quadruped.mod",
-    "examples/robustness.mod", "examples/rough.mod", "examples/smores_hexapod.mod", "examples/snake.mod",
-    "examples/studies.mod", "examples/two_nines.mod", "examples/walkbot.mod"];
+/// The title of the group of pages that the page of all diagnostic codes is in.
+const LEARN: &str = "Learn";
 
 /// The path of the page of all diagnostic codes.
 const ERRORS: &str = "errors/";
 
-/// The code and page of each diagnostic code, by code.
-const CODES: &[(&str, &str)] = embed!["docs/errors/":
+/// Pairs names of files below `docs/errors/` with their texts.
+macro_rules! embed {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../docs/errors/", $name)))),*]
+    };
+}
+
+/// The file and page of each diagnostic code, by code.
+const CODES: &[(&str, &str)] = embed![
     "E0001.md", "E0002.md", "E0003.md", "E0004.md", "E0005.md", "E0006.md", "E0007.md", "E0008.md",
     "E0009.md", "E0010.md", "E0101.md", "E0102.md", "E0103.md", "E0104.md", "E0105.md", "E0106.md",
     "E0107.md", "E0108.md", "E0201.md", "E0202.md", "E0203.md", "E0204.md", "E0205.md", "E0206.md",
@@ -74,29 +62,42 @@ pub fn page_of_code(code: &str) -> Option<&'static str> {
     CODES.iter().find(|(known, _)| known.strip_suffix(".md") == Some(code)).map(|(_, page)| *page)
 }
 
-/// Returns the groups of pages in their order, each with its title.
-pub(super) fn groups() -> Vec<(&'static str, Vec<ManualPage>)> {
-    let page = |&(path, text): &(&'static str, &str)| ManualPage {
-        path,
-        file: file_of(path),
-        title: text.lines().next().unwrap_or_default().trim_start_matches("# ").replace('`', ""),
-        text: text.to_owned(),
-    };
-    let mut groups: Vec<_> =
-        GROUPS.iter().map(|(title, pages)| (*title, pages.iter().map(page).collect::<Vec<_>>())).collect();
-    // The headings of codes are those of sections, and their addresses are the codes.
-    let codes = CODES.iter().map(|(_, text)| text.replacen("# ", "## ", 1).replace("\n# ", "\n### "));
-    let text = format!("# Errors, warnings and notes\n\n{}", codes.collect::<Vec<_>>().join("\n\n"));
-    let errors = ManualPage {
+impl Manual {
+    /// Returns the groups of pages in their order, each with its title.
+    pub(super) fn pages(&self) -> Vec<(&'static str, Vec<ManualPage>)> {
+        let page = |&(path, text): &(&'static str, &str)| ManualPage {
+            path,
+            file: file_of(path),
+            title: text.lines().next().unwrap_or_default().trim_start_matches("# ").replace('`', ""),
+            text: text.to_owned(),
+        };
+        let mut groups: Vec<_> = self
+            .groups
+            .iter()
+            .map(|(title, pages)| (*title, pages.iter().map(page).collect::<Vec<_>>()))
+            .collect();
+        if let Some((_, pages)) = groups.iter_mut().find(|(title, _)| *title == LEARN) {
+            pages.push(errors());
+        }
+        groups
+    }
+
+    /// Returns the files that pages lead to, as (name in the site, contents).
+    pub(super) fn site_files(&self) -> impl Iterator<Item = (String, Vec<u8>)> {
+        self.files.iter().map(|(path, text)| (site_file(path), text.as_bytes().to_vec()))
+    }
+}
+
+/// Returns the page of all diagnostic codes.
+fn errors() -> ManualPage {
+    // The titles of their pages are headings of its sections.
+    let codes = CODES.iter().map(|(_, text)| text.replacen("# ", "## ", 1));
+    ManualPage {
         path: ERRORS,
         file: file_of(ERRORS),
         title: "Errors, warnings and notes".to_owned(),
-        text,
-    };
-    if let Some((_, pages)) = groups.iter_mut().find(|(title, _)| *title == "Learn") {
-        pages.push(errors);
+        text: format!("# Errors, warnings and notes\n\n{}", codes.collect::<Vec<_>>().join("\n\n")),
     }
-    groups
 }
 
 /// Returns the name in the site of the page of a text below `docs/`.
@@ -104,9 +105,9 @@ fn file_of(path: &str) -> String {
     format!("manual-{}.html", path.trim_end_matches(".md").trim_end_matches('/').replace(['/', '_'], "-"))
 }
 
-/// Returns a page as HTML. `pages`: the pages about programs and the library.
-pub(super) fn converted(page: &ManualPage, pages: &[Page]) -> Converted {
-    let targets = |anchors| ManualTargets { path: page.path, pages, anchors };
+/// Returns a page of a manual as HTML. `pages`: the pages about programs and the library.
+pub(super) fn converted(manual: &Manual, page: &ManualPage, pages: &[Page]) -> Converted {
+    let targets = |anchors| ManualTargets { manual, path: page.path, pages, anchors };
     // Links within the page need its anchors.
     let first = to_html(&page.text, &targets(BTreeSet::new()), true);
     let anchors = first.headings.into_iter().map(|heading| heading.anchor).collect();
@@ -115,6 +116,7 @@ pub(super) fn converted(page: &ManualPage, pages: &[Page]) -> Converted {
 
 /// The targets of links in a page of the manual.
 struct ManualTargets<'m> {
+    manual: &'m Manual,
     /// The path of the page's text below `docs/`.
     path: &'m str,
     /// The pages about programs and the library.
@@ -156,22 +158,17 @@ impl Targets for ManualTargets<'_> {
             if below == "library.md" {
                 return Some("guide.html".to_owned());
             }
-            if GROUPS.iter().any(|(_, pages)| pages.iter().any(|(known, _)| *known == below)) {
+            if self.manual.groups.iter().any(|(_, pages)| pages.iter().any(|(known, _)| *known == below)) {
                 return Some(with_place(file_of(below)));
             }
         }
-        FILES.iter().any(|(known, _)| *known == path).then(|| site_file(&path))
+        self.manual.files.iter().any(|(known, _)| *known == path).then(|| site_file(&path))
     }
 
     fn is_lenient(&self) -> bool {
         // Files that lie in the repository alone, such as tests, are named and not led to.
         true
     }
-}
-
-/// Returns the files that pages of the manual lead to, as (name in the site, contents).
-pub(super) fn files() -> impl Iterator<Item = (String, Vec<u8>)> {
-    FILES.iter().map(|(path, text)| (site_file(path), text.as_bytes().to_vec()))
 }
 
 fn site_file(path: &str) -> String {

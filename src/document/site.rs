@@ -2,7 +2,7 @@
 
 use super::front;
 use super::html::{self, Shell};
-use super::manual::{self, ManualPage};
+use super::manual::{self, Manual, ManualPage};
 use super::markdown::{Converted, Heading, Targets, to_html};
 use super::outline::{Page, PageEntry, page};
 use super::pictures::{Drawing, draw};
@@ -20,8 +20,10 @@ pub struct Request<'r> {
     pub files: &'r dyn Files,
     /// The paths of the project's programs, from its root, in the order of the pages.
     pub programs: &'r [String],
-    /// True if the standard library is documented, too, and the manual of modl is part of the site.
+    /// True if the standard library is documented, too.
     pub library: bool,
+    /// The manual of modl, where it is part of the site.
+    pub manual: Option<&'r Manual>,
     /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
     /// The drawings of an earlier site, by the program that made them; those whose files are as they were are not
@@ -103,8 +105,8 @@ fn library_pages(files: &dyn Files) -> Vec<Page> {
 fn write(pages: &[Page], request: &Request, site: &mut Site) {
     let addresses = addresses(pages);
     let taken = RefCell::default();
-    let manual = if request.library { manual::groups() } else { Vec::new() };
-    let shell = Shell { pages, manual: &manual };
+    let groups = request.manual.map_or_else(Vec::new, Manual::pages);
+    let shell = Shell { pages, manual: &groups };
     let mut add = |name: &str, text: String| site.files.push((name.to_owned(), text.into_bytes()));
     let mut faults = Vec::new();
     let mut texts = Vec::new();
@@ -126,11 +128,11 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
     for (name, text) in texts {
         add(&name, text);
     }
-    let converted: Vec<(&ManualPage, Converted)> = manual
-        .iter()
-        .flat_map(|(_, pages)| pages)
-        .map(|page| (page, manual::converted(page, pages)))
-        .collect();
+    let mut converted: Vec<(&ManualPage, Converted)> = Vec::new();
+    if let Some(manual) = request.manual {
+        let all = groups.iter().flat_map(|(_, pages)| pages);
+        converted.extend(all.map(|page| (page, manual::converted(manual, page, pages))));
+    }
     for (page, text) in &converted {
         add(&page.file, html::manual_page(page, &shell, text));
     }
@@ -147,9 +149,7 @@ fn write(pages: &[Page], request: &Request, site: &mut Site) {
         add(name, text.to_owned());
     }
     site.files.extend(taken.into_inner());
-    if request.library {
-        site.files.extend(manual::files());
-    }
+    site.files.extend(request.manual.into_iter().flat_map(Manual::site_files));
     site.faults = faults;
 }
 

@@ -109,6 +109,38 @@ emit(S().meet(), \"p.json\")
     assert!((travel - Vec3::new(-0.010, 0.0, 0.0)).norm() < 1e-9, "{travel:?}");
 }
 
+/// A fork that holds a block by both tips lets go of it with the first, draws that tip back, and pushes the block on with the
+/// other by 50 mm: into another block that stands 30 mm before it, and not into one that is 60 mm away.
+#[test]
+fn a_robot_is_seen_by_others_as_it_hangs_together_once_a_loop_has_opened() {
+    let of = |gap: u32| {
+        desk::messages(&format!(
+            "{FORK}
+config Both closed {{
+  part f: Fork  part k: Block
+  set f.out0 = 50mm  set f.out1 = 50mm
+  connect f.tip0 -- k.face0
+  connect f.tip1 -- k.face1
+  base f
+}}
+scene S {{
+  part a: Both
+  part b: Other at [{}mm, 0mm, 0mm]
+  world(gravity: 0m/s^2, ground: off, dynamics: statics)
+  behavior push = Sc(
+    wait(500ms), undock(a.f.tip0), wait(500ms), Pc(move(a.f.out0, to: 0mm, in: 2s), move(a.f.out1, to: 100mm, in: 2s)),
+  )
+}}
+emit(S().push(), \"p.json\")
+",
+            180 + 100 + gap
+        ))
+    };
+    let found = of(30);
+    assert!(found.len() == 1 && found[0].contains("a.k and b.m meet"), "{found:?}");
+    assert_eq!(of(60), Vec::<String>::new());
+}
+
 /// A robot that docks sooner after the start than a robot brakes has not been long enough on the ground to be seen to slide.
 #[test]
 fn robots_that_stand_may_dock_at_once() {
