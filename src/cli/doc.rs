@@ -28,14 +28,13 @@ pub(super) fn run(
     open: bool,
     globals: &Globals,
 ) -> Result<Ending, CallError> {
-    let library = manual.is_some();
     let project =
         Project::of_folder(Some(globals.root.as_deref().unwrap_or(folder)), globals.stdlib.as_deref())?;
     let home = globals.out.join(FOLDER);
     let mut programs = Vec::new();
     // Programs that pages lead to are copied into the site, and are not documented there.
     collect(&project, "", project.path_below(&home).as_deref(), 0, &mut programs);
-    if programs.is_empty() && !library {
+    if programs.is_empty() && manual.is_none() {
         return Err(CallError(format!("no programs in `{}`", folder.display())));
     }
     listen_for_cancel();
@@ -45,7 +44,6 @@ pub(super) fn run(
     let request = Request {
         files: &project,
         programs: &programs,
-        library,
         manual,
         cancel_state: cancel_state(),
         known: &known.unwrap_or_default(),

@@ -3,7 +3,6 @@
 
 use super::markdown::{Converted, Targets, anchor, to_html};
 use super::outline::Page;
-use std::collections::BTreeSet;
 
 /// A page of the manual.
 pub(super) struct ManualPage {
@@ -20,14 +19,12 @@ pub(super) struct ManualPage {
 /// The manual as its texts, each paired with its path.
 #[derive(Clone, Copy, Debug)]
 pub struct Manual {
-    /// The groups of pages in their order, each with its title; the texts (Markdown) by path below `docs/`.
+    /// The groups of pages in their order, each with its title; the texts (Markdown) by path below `docs/`. The page of all
+    /// diagnostic codes is added to the first.
     pub groups: &'static [(&'static str, &'static [(&'static str, &'static str)])],
     /// The files that pages lead to, by path from the root of the repository.
     pub files: &'static [(&'static str, &'static str)],
 }
-
-/// The title of the group of pages that the page of all diagnostic codes is in.
-const LEARN: &str = "Learn";
 
 /// The path of the page of all diagnostic codes.
 const ERRORS: &str = "errors/";
@@ -76,7 +73,7 @@ impl Manual {
             .iter()
             .map(|(title, pages)| (*title, pages.iter().map(page).collect::<Vec<_>>()))
             .collect();
-        if let Some((_, pages)) = groups.iter_mut().find(|(title, _)| *title == LEARN) {
+        if let Some((_, pages)) = groups.first_mut() {
             pages.push(errors());
         }
         groups
@@ -107,11 +104,7 @@ fn file_of(path: &str) -> String {
 
 /// Returns a page of a manual as HTML. `pages`: the pages about programs and the library.
 pub(super) fn converted(manual: &Manual, page: &ManualPage, pages: &[Page]) -> Converted {
-    let targets = |anchors| ManualTargets { manual, path: page.path, pages, anchors };
-    // Links within the page need its anchors.
-    let first = to_html(&page.text, &targets(BTreeSet::new()), true);
-    let anchors = first.headings.into_iter().map(|heading| heading.anchor).collect();
-    to_html(&page.text, &targets(anchors), true)
+    to_html(&page.text, &ManualTargets { manual, path: page.path, pages }, true)
 }
 
 /// The targets of links in a page of the manual.
@@ -121,8 +114,6 @@ struct ManualTargets<'m> {
     path: &'m str,
     /// The pages about programs and the library.
     pages: &'m [Page],
-    /// The anchors of the page's own headings.
-    anchors: BTreeSet<String>,
 }
 
 impl Targets for ManualTargets<'_> {
@@ -135,7 +126,7 @@ impl Targets for ManualTargets<'_> {
         let (path, place) = to.split_once('#').map_or((to, None), |(path, place)| (path, Some(place)));
         let with_place = |file: String| place.map_or_else(|| file.clone(), |place| format!("{file}#{place}"));
         if path.is_empty() {
-            return place.filter(|place| self.anchors.contains(*place)).map(|place| format!("#{place}"));
+            return Some(to.to_owned());
         }
         let path = joined(self.path, path)?;
         if let Some(below) = path.strip_prefix("docs/") {

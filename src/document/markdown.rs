@@ -41,7 +41,7 @@ pub(super) struct Heading {
     pub title: String,
     /// The identifier of its element in the page.
     pub anchor: String,
-    /// The words below it, without markup; those of code, too.
+    /// The words below it, without markup and without blocks of code.
     pub words: String,
 }
 
@@ -61,7 +61,7 @@ pub(super) fn to_html(text: &str, targets: &dyn Targets, anchored: bool) -> Conv
     };
     let parser = Parser::new_with_broken_link_callback(text, Options::ENABLE_TABLES, Some(&mut resolve));
     let mut events: Vec<Event> = Vec::new();
-    // Of each link that is open: true if it is shown as its words alone.
+    // The links that are open: true for one that is shown as its words alone.
     let mut bare_links = Vec::new();
     let mut code: Option<(bool, String)> = None;
     for event in parser {

@@ -3,6 +3,7 @@
 use super::manual::ManualPage;
 use super::markdown::Heading;
 use super::outline::Page;
+use crate::source::floor_char_boundary;
 
 /// The most bytes of a text in the index.
 const WORDS_MAX: usize = 4000;
@@ -54,6 +55,5 @@ fn one_line(text: &str) -> String {
 
 /// Returns the beginning of a text that is too long.
 fn cut(text: &str) -> String {
-    let end = text.char_indices().map(|(at, _)| at).take_while(|at| *at <= WORDS_MAX).last().unwrap_or(0);
-    if text.len() <= WORDS_MAX { text.to_owned() } else { text[..end].to_owned() }
+    text[..floor_char_boundary(text, text.len().min(WORDS_MAX))].to_owned()
 }

@@ -20,9 +20,7 @@ pub struct Request<'r> {
     pub files: &'r dyn Files,
     /// The paths of the project's programs, from its root, in the order of the pages.
     pub programs: &'r [String],
-    /// True if the standard library is documented, too.
-    pub library: bool,
-    /// The manual of modl, where it is part of the site.
+    /// The manual of modl, where it and the standard library are part of the site.
     pub manual: Option<&'r Manual>,
     /// The state by which the user cancels the drawing of pictures.
     pub cancel_state: CancelState,
@@ -71,7 +69,7 @@ pub fn site(request: &Request) -> Site {
             _ => site.wrong.push((checked, errors)),
         }
     }
-    if request.library {
+    if request.manual.is_some() {
         pages.extend(library_pages(request.files));
     }
     for page in &mut pages {

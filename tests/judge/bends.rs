@@ -1,8 +1,9 @@
-//! What lies in the bends of a motion: an interval is judged by the speeds in its middle, and a mover that speeds up, or turns
+//! Walls in the bends of a motion: an interval is judged by the speeds in its middle, and a mover that speeds up, or turns
 //! round, is elsewhere at its ends than these tell. Each motion meets a wall in one short stretch alone, and has a twin that
 //! passes it.
 
 use crate::support::desk::run_clean;
+use crate::support::verdicts::failures_of;
 use modl::plan::verify::verify;
 use modl::plan::{CheckKind, Failure, Plan};
 
@@ -64,8 +65,7 @@ fn plan(x: &[&[f64]], z: &[&[f64]], wall: (f64, f64)) -> Plan {
 
 /// Returns the collisions of a plan.
 fn collisions(plan: &Plan) -> Vec<Failure> {
-    let verdict = verify(plan);
-    verdict.failures.into_iter().filter(|failure| failure.kind == CheckKind::Collision).collect()
+    failures_of(CheckKind::Collision, &verify(plan))
 }
 
 /// The head is at x = 0.4 (t - 1.5)²: by its speed at 1 s it was at 0.5 m at the start, but it was at 0.9 m, in the wall.
@@ -90,7 +90,7 @@ fn a_head_that_turns_round_is_on_both_sides_of_the_bend() {
     for t in [0.0, 0.2, 0.4, 1.6, 1.8, 2.0] {
         let on_the_way = (-1.0 + t, -f64::abs(t - 1.0));
         assert_eq!(of(on_the_way).len(), 1, "{t} s");
-        // Where it would be had it not turned.
+        // It would be there had it not turned.
         assert_eq!(of((on_the_way.0, -on_the_way.1)), [], "{t} s");
     }
 }

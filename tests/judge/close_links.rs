@@ -81,7 +81,7 @@ fn two_blocks() -> Assembly {
     robot_of(links, vec![slide])
 }
 
-/// Where the slide draws them apart the light one slips, all the way.
+/// The light one slips, all the way, where the slide draws them apart.
 #[test]
 fn slip_beyond_what_is_stated_fails_when_it_comes_to_be_more() {
     let plan = Motion::new(two_blocks()).segment(0, 0.0, 1.0, vec![0.0, 0.1]).plan(STATICS);

@@ -1,6 +1,6 @@
 //! Parts that are let go: how their fall is told, how one that tips over is held, and how those that float move on.
 
-use super::momentum::bodies;
+use super::momentum::{FACE, PUSHER, PUSHING, bodies};
 use crate::support::desk::run_clean;
 use crate::support::motions::STATICS;
 use crate::support::verdicts::failures_of;
@@ -14,9 +14,7 @@ const WEIGHTLESS: World = World { dynamics: DynamicsModel::Full, ..World::FREE }
 /// Returns the plan of a behaviour in a world; it is written in one without weight, in which nothing falls.
 fn plan(declarations: &str, behavior: &str, world: World) -> Plan {
     let free = "world: world(gravity: 0m/s^2, ground: off, dynamics: statics)";
-    let program = format!(
-        "connector Face {{ mates Face, turns 4 }}{declarations}\nemit(plan({behavior}, {free}), \"p.json\")\n"
-    );
+    let program = format!("{FACE}{declarations}\nemit(plan({behavior}, {free}), \"p.json\")\n");
     let mut plan = run_clean(&program).plan("p.json");
     plan.worlds[0].world = world;
     plan
@@ -75,30 +73,23 @@ fn a_part_that_is_held_as_it_tips_over_keeps_its_foot_on_the_ground() {
     }
 }
 
-/// A body of 5 kg with a slide of 0.5 kg that a block of 1 kg is docked to.
-const PUSHER: &str = "
-module Pusher {
-  link body = box(100mm, 100mm, 100mm, mass: 5kg)
-  link slide = box(20mm, 60mm, 60mm, mass: 500g) at [70mm, 0mm, 0mm]
-  joint out : body -> slide = prismatic(axis: X, range: 0mm..150mm) at [70mm, 0mm, 0mm]
-  port tip: Face on slide at [10mm, 0mm, 0mm] facing +X up +Z
-}
-module Block {
-  link body = box(100mm, 60mm, 100mm, mass: 1kg)
-  port face: Face on body at [-50mm, 0mm, 0mm] facing -X up +Z
-}
-config Drawn { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
+/// Returns the declarations of a body that lets a block go before its slide moves, and of one alone.
+fn early() -> String {
+    let early = "
+config Early { part a: Pusher  part b: Block  connect a.tip -- b.face  base a
   set a.out = 100mm
   behavior part_ways = Sc(wait(1s), undock(a.tip), move(a.out, to: 0mm, in: 2s))
 }
 config Alone { part a: Pusher
   behavior push = Sc(wait(1s), move(a.out, to: 100mm, in: 2s))
 }";
+    format!("{PUSHING}{PUSHER}{early}")
+}
 
-/// What is let go at the instant at which the slide begins to move, even with a jerk, was at rest, and stays.
+/// A block that is let go at the instant at which the slide begins to move, even with a jerk, was at rest, and stays.
 #[test]
 fn what_is_let_go_before_a_joint_moves_stays() {
-    let mut plan = plan(PUSHER, "Drawn().part_ways()", WEIGHTLESS);
+    let mut plan = plan(&early(), "Early().part_ways()", WEIGHTLESS);
     let Body::Tracks(tracks) = &mut plan.body else { unreachable!("a plan of modules") };
     let [back] = tracks.tracks[0].segments.as_mut_slice() else { panic!("{:?}", tracks.tracks) };
     assert_eq!(back.start, 1.0);
@@ -115,7 +106,7 @@ fn what_is_let_go_before_a_joint_moves_stays() {
 fn a_robot_that_loses_its_ground_floats() {
     for ground in [Ground::Settle, Ground::Held, Ground::Off] {
         let gravity = if ground == Ground::Settle { 9.80665 } else { 0.0 };
-        let mut plan = plan(PUSHER, "Alone().push()", World { ground, gravity, ..WEIGHTLESS });
+        let mut plan = plan(&early(), "Alone().push()", World { ground, gravity, ..WEIGHTLESS });
         plan.worlds.push(WorldFrom { from: 0.5, world: WEIGHTLESS });
         let Body::Tracks(tracks) = &mut plan.body else { unreachable!("a plan of modules") };
         let wall =

@@ -1,6 +1,6 @@
 //! Robots that stand, drive or slide on slopes under full dynamics, and what the judge says of where they end.
 
-use super::momentum::{PUSHING, bodies};
+use super::momentum::{FACE, PUSHING, bodies};
 use crate::simulate::fixtures::CART;
 use crate::support::desk::run_clean;
 use crate::support::verdicts::failures_of;
@@ -110,7 +110,7 @@ module Pusher {
 
 /// Returns the declarations of such a body that pushes a block away or draws it to itself, with these masses.
 fn pushing(body: &str, slide: &str) -> String {
-    PUSHING.to_owned() + &PUSHER.replace("BODY", body).replace("SLIDE", slide)
+    format!("{FACE}{PUSHING}") + &PUSHER.replace("BODY", body).replace("SLIDE", slide)
 }
 
 /// Returns how far both modules have moved at some times (s).

@@ -1,42 +1,21 @@
 //! Ports that run along wide arcs and through their centres, and that turn far: deviations in closed form that lie between the
 //! times at which a port is always looked at.
 
-use crate::support::arms::robot_of;
+use super::stated_paths::{self, SLIDE_X, SLIDE_Y, TURN_Z, carrier, stating};
 use crate::support::motions::Motion;
-use crate::support::robots::{boxed, face, joint, link};
 use modl::geometry::pose::{shifted, turned};
 use modl::geometry::{Pose, Vec3};
-use modl::plan::verify::verify;
-use modl::plan::{CauseId, CheckKind, Failure, Plan, StatedPath, Status, World};
-use modl::robot::{Assembly, JointKind, Limits, Port, PortRef};
+use modl::plan::{CauseId, Failure, StatedPath, Status};
+use modl::robot::{Assembly, PortRef};
 use std::sync::Arc;
-
-const SLIDE_X: usize = 0;
-const SLIDE_Y: usize = 1;
-const TURN: usize = 2;
 
 /// The duration of a plan, s: one for each part between the times that are always looked at.
 const DURATION: f64 = 64.0;
 
-/// Returns a robot whose port two slides, along x and y, and a turn about z carry; its links are far from each other.
+/// Returns a robot whose port two slides, along x and y, and a turn about z through it carry.
 fn plotter() -> Assembly {
-    let links = (0..4).map(|i| {
-        let low = Vec3::z() * f64::from(i);
-        link(&format!("l{i}"), vec![boxed(low, low + Vec3::repeat(1e-3))], 1.0, Vec3::zeros(), 0.5)
-    });
-    let moved = |name: &str, at, kind, axis| {
-        let limits = Limits { range: Some((-10.0, 10.0)), speed: None, acceleration: None, effort: None };
-        joint(name, (at, at + 1), kind, Pose::identity(), axis, limits)
-    };
-    let joints = vec![
-        moved("x", 0, JointKind::Prismatic, Vec3::x()),
-        moved("y", 1, JointKind::Prismatic, Vec3::y()),
-        moved("turn", 2, JointKind::Revolute, Vec3::z()),
-    ];
-    let mut robot = robot_of(links.collect(), joints);
-    let library = Arc::make_mut(&mut robot.library);
-    library.connectors.push(face());
-    library.modules[0].ports.push(Port { name: "pen".into(), link: 3, pose: Pose::identity(), connector: 0 });
+    let mut robot = carrier(10.0);
+    Arc::make_mut(&mut robot.library).modules[0].ports[0].pose = Pose::identity();
     robot
 }
 
@@ -62,15 +41,8 @@ fn path(start: Pose, via: Option<Vec3>, end: Pose, within: f64) -> StatedPath {
 fn judged(motion: &Motion, path: StatedPath) -> (Status, Option<Failure>) {
     let mut motion = motion.clone();
     motion.tracks.duration = DURATION;
-    let mut plan: Plan = motion.plan(World::FREE);
-    plan.paths.push(path);
-    // Paths are looked at often enough without that.
-    plan.settings.sample = 1.0;
-    let mut verdict = verify(&plan);
-    let check = verdict.checks.iter().find(|check| check.kind == CheckKind::Path);
-    let status = check.unwrap_or_else(|| panic!("it is not judged: {:?}", verdict.failures)).status.clone();
-    verdict.failures.retain(|failure| failure.kind == CheckKind::Path);
-    (status, verdict.failures.pop())
+    let within = path.within;
+    stated_paths::judged(&stating(motion, path), within)
 }
 
 /// Asserts that a pen leaves its path by `worst` (m) and no more.
@@ -126,7 +98,7 @@ fn a_diameter_leaves_its_circle_by_the_radius() {
 #[test]
 fn a_turn_of_nearly_half_a_circle_is_followed_to_its_end() {
     for whole in [2.6, -2.6, 3.0, -3.0] {
-        let motion = Motion::new(plotter()).segment(TURN, 0.0, DURATION, vec![0.0, whole]);
+        let motion = Motion::new(plotter()).segment(TURN_Z, 0.0, DURATION, vec![0.0, whole]);
         let stated = |turn: f64| StatedPath {
             turned_within: Some(0.01),
             ..path(Pose::identity(), None, turned(Vec3::z(), turn), 1.0)

@@ -16,9 +16,9 @@ use nalgebra::UnitQuaternion;
 use std::sync::Arc;
 
 /// The joints of the robot of the tests: two slides, along x and y, and turns about z and x.
-const SLIDE_X: usize = 0;
-const SLIDE_Y: usize = 1;
-const TURN_Z: usize = 2;
+pub const SLIDE_X: usize = 0;
+pub const SLIDE_Y: usize = 1;
+pub const TURN_Z: usize = 2;
 const TURN_X: usize = 3;
 
 /// The distance of the port from the axis of the turn about z, m.
@@ -26,7 +26,7 @@ const ARM: f64 = 0.1;
 
 /// Returns a robot whose port two slides, which reach this far to either side (m), and two turns carry; its links are far from
 /// each other.
-fn carrier(reach: f64) -> Assembly {
+pub fn carrier(reach: f64) -> Assembly {
     let links = (0..5).map(|i| {
         let low = Vec3::z() * f64::from(i);
         link(&format!("l{i}"), vec![boxed(low, low + Vec3::repeat(1e-3))], 1.0, Vec3::zeros(), 0.5)
@@ -50,7 +50,7 @@ fn carrier(reach: f64) -> Assembly {
 }
 
 /// Returns the plan of a motion that states one path of the first port.
-fn stating(motion: Motion, path: StatedPath) -> Plan {
+pub fn stating(motion: Motion, path: StatedPath) -> Plan {
     let mut plan = motion.plan(World::FREE);
     plan.paths.push(path);
     // Paths are looked at often enough without that.
@@ -67,7 +67,7 @@ fn line(from: f64, to: f64, start: Vec3, end: Vec3) -> StatedPath {
 }
 
 /// Returns what the judge finds of the path of a plan that is to be kept within a distance.
-fn judged(plan: &Plan, within: f64) -> (Status, Option<Failure>) {
+pub fn judged(plan: &Plan, within: f64) -> (Status, Option<Failure>) {
     let mut plan = plan.clone();
     plan.paths[0].within = within;
     let mut verdict = verify(&plan);

@@ -1,4 +1,4 @@
-//! What a verdict says of one check.
+//! Parts of a verdict: the status and the failures of one check.
 
 use modl::plan::{CheckKind, Failure, Status, Verdict};
 
