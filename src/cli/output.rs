@@ -282,9 +282,12 @@ fn sweep(folder: &Path) {
     for entry in entries.flatten().filter(|entry| entry.file_name().to_string_lossy().starts_with(PREFIX)) {
         let (path, Ok(kind)) = (entry.path(), entry.file_type()) else { continue };
         // Links and pipes are nothing that was begun here.
-        if (kind.is_file() || kind.is_dir()) && locked(&path).is_some() {
-            drop(if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) });
+        if !kind.is_file() && !kind.is_dir() {
+            continue;
         }
+        // The lock is held until it is removed: whoever has just made it would otherwise lock it meanwhile, and keep it.
+        let Some(_lock) = locked(&path) else { continue };
+        drop(if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) });
     }
 }
 

@@ -9,7 +9,7 @@ use std::process::Stdio;
 /// The processes at once.
 const WRITERS: usize = 8;
 /// The times that they start together.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 24;
 
 #[test]
 fn processes_that_write_into_one_folder_at_once_leave_whole_files_and_no_others() {
