@@ -45,19 +45,26 @@ impl Drawn {
 }
 
 /// Returns the bodies at a time in seconds, in the order in which they are drawn: the links of a robot with their fittings, then obstacles; the cells of
-/// a lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings.
-pub(super) fn drawn(input: &RenderInput, time: f64) -> Vec<Drawn> {
+/// a lattice, of a very large one every second or third; the struts of a truss, then its nodes and surroundings. `width`: the
+/// width of the picture in pixels.
+pub(super) fn drawn(input: &RenderInput, time: f64, width: usize) -> Vec<Drawn> {
     let plan = input.plan;
     match &plan.body {
-        Body::Tracks(tracks) => robot(input, tracks, time, &link_poses(input, tracks, time)),
-        Body::Stages(stages) => cells(stages, &plan.library, time),
-        Body::NodePaths(paths) => truss(paths, time),
+        Body::Tracks(tracks) => robot(input, tracks, time, &link_poses(input, tracks, time), width),
+        Body::Stages(stages) => cells(stages, &plan.library, time, width),
+        Body::NodePaths(paths) => truss(paths, time, width),
     }
 }
 
 /// Returns the links of an articulated robot with their world poses at a time in seconds, failed modules in the colour
-/// of failure, and the obstacles around it.
-pub(super) fn robot(input: &RenderInput, tracks: &Tracks, time: f64, poses: &[Pose]) -> Vec<Drawn> {
+/// of failure, and the obstacles around it. `width`: the width of the picture in pixels.
+pub(super) fn robot(
+    input: &RenderInput,
+    tracks: &Tracks,
+    time: f64,
+    poses: &[Pose],
+    width: usize,
+) -> Vec<Drawn> {
     let group = groups(&tracks.robot);
     let failed = findings::failed_modules(input.plan, time);
     let mut drawn = Vec::new();
@@ -67,7 +74,8 @@ pub(super) fn robot(input: &RenderInput, tracks: &Tracks, time: f64, poses: &[Po
         .iter()
         .map(|kind| {
             let of = |link: usize| {
-                (Mesh::rounded(&kind.links[link].shape), Mesh::rounded(&fittings(library, kind, link)))
+                let fittings = fittings(library, kind, link);
+                (Mesh::rounded(&kind.links[link].shape, width), Mesh::rounded(&fittings, width))
             };
             (0..kind.links.len()).map(of).collect()
         })
@@ -84,7 +92,7 @@ pub(super) fn robot(input: &RenderInput, tracks: &Tracks, time: f64, poses: &[Po
         }
     }
     let obstacles = tracks.obstacles.iter();
-    drawn.extend(obstacles.map(|o| Drawn::painted(Mesh::rounded(&o.shapes), AROUND)));
+    drawn.extend(obstacles.map(|o| Drawn::painted(Mesh::rounded(&o.shapes, width), AROUND)));
     drawn
 }
 
@@ -104,7 +112,7 @@ pub(super) fn link_poses(input: &RenderInput, tracks: &Tracks, time: f64) -> Vec
 }
 
 /// Returns the cells of a lattice as cubes.
-fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
+fn cells(stages: &Stages, library: &Library, time: f64, width: usize) -> Vec<Drawn> {
     let size = library.cells.get(stages.cell).map_or(1.0, |cell| cell.size);
     let cells = stages.state(time);
     let low = |cell: &CellBox| cell.center[2] - cell.size[2] / 2.0;
@@ -115,9 +123,9 @@ fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
         let at = shifted((Vec3::from(cell.center) - Vec3::new(0.0, 0.0, floor)) * size);
         let whole = Vec3::from(cell.size) * size;
         let colour = Rgb::ramp(cell.size.iter().product());
-        let mut body = Mesh::default();
+        let mut body = Mesh::for_width(width);
         body.rounded_box(&at, &(whole * 0.97));
-        let mut plates = Mesh::default();
+        let mut plates = Mesh::for_width(width);
         for axis in (0..3).filter(|_| plated) {
             let mut plate = whole * PLATE_WIDTH;
             plate[axis] = whole[axis] * PLATE_HEIGHT;
@@ -129,7 +137,7 @@ fn cells(stages: &Stages, library: &Library, time: f64) -> Vec<Drawn> {
 }
 
 /// Returns the struts of a truss as cylinders and its nodes as balls.
-fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
+fn truss(paths: &NodePaths, time: f64, width: usize) -> Vec<Drawn> {
     let nodes: Vec<Vec3> = paths.state(time).into_iter().map(Vec3::from).collect();
     let lengths = paths.lengths(time);
     let mean = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
@@ -141,7 +149,7 @@ fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
             let place = middle * shifted(Vec3::new(0.0, 0.0, at * length));
             mesh.rounded_tube(&place, radius * thick, of * length);
         };
-        let (mut tube, mut rod) = (Mesh::default(), Mesh::default());
+        let (mut tube, mut rod) = (Mesh::for_width(width), Mesh::for_width(width));
         part(&mut tube, -0.21, 0.5, 0.5);
         part(&mut rod, 0.0, 0.28, 0.96);
         part(&mut rod, 0.03, 0.62, 0.03);
@@ -149,12 +157,12 @@ fn truss(paths: &NodePaths, time: f64) -> Vec<Drawn> {
         drawn.push(Drawn::bare(rod));
     }
     for node in &nodes {
-        let mut mesh = Mesh::default();
+        let mut mesh = Mesh::for_width(width);
         mesh.ball(&shifted(*node), 1.3 * thick);
         drawn.push(Drawn::painted(mesh, NODE));
     }
     for (_, shapes) in surroundings::solids(paths) {
-        drawn.push(Drawn::painted(Mesh::rounded(&shapes), AROUND));
+        drawn.push(Drawn::painted(Mesh::rounded(&shapes, width), AROUND));
     }
     drawn
 }

@@ -8,6 +8,10 @@ use std::f64::consts::{PI, TAU};
 
 /// The number of facets of a full circle.
 const ROUND: usize = 40;
+/// The least number of them in a small picture.
+const ROUND_MIN: usize = 12;
+/// The width of a picture in pixels from which a full circle has [`ROUND`] facets; below, as many fewer.
+const WIDTH_ROUND: usize = 320;
 
 /// Adjacent faces whose normals have a greater cosine than this are shaded smoothly: 32 degrees.
 const SMOOTH: f64 = 0.848;
@@ -16,19 +20,28 @@ const SMOOTH: f64 = 0.848;
 const ROUNDING: f64 = 0.085;
 
 /// A triangle mesh with its sharp edges; lengths in metres.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Mesh {
     /// The triangles as (corners in metres, counter-clockwise as seen from outside; normals at them, of length 1,
     /// outwards), in the frame of the mesh.
     pub triangles: Vec<([Vec3; 3], [Vec3; 3])>,
     /// The sharp edges by their ends, in metres, in the frame of the mesh; they are drawn as lines.
     pub edges: Vec<[Vec3; 2]>,
+    /// The number of facets of a full circle of what is added, an even number.
+    round: usize,
 }
 
 impl Mesh {
+    /// Returns an empty mesh for a picture of a width in pixels: round bodies have fewer facets in a small one, which hardly
+    /// shows a difference.
+    pub(super) fn for_width(width: usize) -> Mesh {
+        let round = (ROUND * width / WIDTH_ROUND / 2 * 2).clamp(ROUND_MIN, ROUND);
+        Mesh { triangles: Vec::new(), edges: Vec::new(), round }
+    }
+
     /// Returns the mesh of the shapes of a link, in the link's frame.
     pub(super) fn of(shapes: &[Placed]) -> Mesh {
-        let mut mesh = Mesh::default();
+        let mut mesh = Mesh::for_width(WIDTH_ROUND);
         primitives(shapes, &mut |X, piece| match piece {
             Primitive::Box { size } => mesh.add_box(X, &size),
             Primitive::Tube { radius, length } => mesh.tube(X, radius, length),
@@ -39,9 +52,9 @@ impl Mesh {
     }
 
     /// Returns the mesh of the shapes of a link, in the link's frame, as pictures show it: the edges of boxes and cylinders
-    /// are rounded.
-    pub(super) fn rounded(shapes: &[Placed]) -> Mesh {
-        let mut mesh = Mesh::default();
+    /// are rounded. `width`: the width of the picture in pixels.
+    pub(super) fn rounded(shapes: &[Placed], width: usize) -> Mesh {
+        let mut mesh = Mesh::for_width(width);
         primitives(shapes, &mut |X, piece| match piece {
             Primitive::Box { size } => mesh.rounded_box(X, &size),
             Primitive::Tube { radius, length } => mesh.rounded_tube(X, radius, length),
@@ -89,15 +102,16 @@ impl Mesh {
 
     /// Adds a cylinder along z with rounded rims, centred at the origin of frame `X`; radius and length in metres.
     pub(super) fn rounded_tube(&mut self, X: &Pose, radius: f64, length: f64) {
-        let round = ROUNDING * f64::min(2.0 * radius, length);
+        let drawn_in = ROUNDING * f64::min(2.0 * radius, length);
+        let round = self.round;
         let out = |i: usize| {
-            let (s, c) = libm::sincos(TAU * (i % ROUND) as f64 / ROUND as f64);
+            let (s, c) = libm::sincos(TAU * (i % round) as f64 / round as f64);
             Vec3::new(c, s, 0.0)
         };
-        let side = |i: usize, z: f64| (out(i) * radius + Vec3::z() * (z * (length / 2.0 - round)), out(i));
+        let side = |i: usize, z: f64| (out(i) * radius + Vec3::z() * (z * (length / 2.0 - drawn_in)), out(i));
         let lid =
-            |i: usize, z: f64| (out(i) * (radius - round) + Vec3::z() * (z * length / 2.0), Vec3::z() * z);
-        for i in 0..ROUND {
+            |i: usize, z: f64| (out(i) * (radius - drawn_in) + Vec3::z() * (z * length / 2.0), Vec3::z() * z);
+        for i in 0..round {
             self.fan(X, &[side(i, -1.0), side(i + 1, -1.0), side(i + 1, 1.0), side(i, 1.0)]);
             for z in [-1.0, 1.0] {
                 let rim = [side(i, z), side(i + 1, z), lid(i + 1, z), lid(i, z)];
@@ -138,13 +152,14 @@ impl Mesh {
 
     /// Adds a cylinder along z, centred at the origin of frame `X`; radius and length in metres.
     pub(super) fn tube(&mut self, X: &Pose, radius: f64, length: f64) {
+        let round = self.round;
         let rim = |i: usize, z: f64| {
-            let (s, c) = libm::sincos(TAU * i as f64 / ROUND as f64);
+            let (s, c) = libm::sincos(TAU * i as f64 / round as f64);
             Vec3::new(radius * c, radius * s, z * length)
         };
         let out = |i: usize| X.rotation * rim(i, 0.0).normalize();
         let at = |p: Vec3| X.transform_point(&p.into()).coords;
-        for i in 0..ROUND {
+        for i in 0..round {
             let [a, b, c, d] = [rim(i, -0.5), rim(i + 1, -0.5), rim(i + 1, 0.5), rim(i, 0.5)].map(at);
             let (n, m) = (out(i), out(i + 1));
             self.triangles.push(([a, b, c], [n, m, m]));
@@ -159,7 +174,7 @@ impl Mesh {
 
     /// Adds a ball around the origin of frame `X`; radius in metres.
     pub(super) fn ball(&mut self, X: &Pose, radius: f64) {
-        let (around, down) = (ROUND, ROUND / 2);
+        let (around, down) = (self.round, self.round / 2);
         let point = |i: usize, j: usize| {
             let (s, c) = libm::sincos(TAU * i as f64 / around as f64);
             let (sin, cos) = libm::sincos(PI * j as f64 / down as f64);
@@ -207,6 +222,7 @@ impl Mesh {
     pub(super) fn moved(&self, X: &Pose) -> Mesh {
         let at = |p: Vec3| X.transform_point(&p.into()).coords;
         let triangles = self.triangles.iter().map(|(p, n)| (p.map(at), n.map(|n| X.rotation * n)));
-        Mesh { triangles: triangles.collect(), edges: self.edges.iter().map(|e| e.map(at)).collect() }
+        let edges = self.edges.iter().map(|e| e.map(at));
+        Mesh { triangles: triangles.collect(), edges: edges.collect(), round: self.round }
     }
 }

@@ -94,8 +94,8 @@ pub fn frames(
     let paths = LinkPaths::of(input.plan);
     let end = findings::end(input.plan);
     let bodies = |time: f64| match (input.plan.body.tracks(), &paths) {
-        (Some(tracks), Some(paths)) => bodies::robot(input, tracks, time, &paths.at(time)),
-        _ => drawn(input, time),
+        (Some(tracks), Some(paths)) => bodies::robot(input, tracks, time, &paths.at(time), options.width),
+        _ => drawn(input, time, options.width),
     };
     let times: Vec<f64> = times.iter().map(|time| time.clamp(0.0, end)).collect();
     let around: Vec<Vec3> = times.iter().flat_map(|time| corners(&bodies(*time))).collect();
@@ -118,7 +118,7 @@ pub(super) fn small_png(input: &RenderInput, options: &StillOptions) -> Vec<u8> 
 fn scene(input: &RenderInput, options: &StillOptions) -> Scene {
     let fineness = if options.width < WIDTH_FINE { Fineness::Quick } else { Fineness::Fine };
     let time = options.time.clamp(0.0, findings::end(input.plan));
-    let bodies = drawn(input, time);
+    let bodies = drawn(input, time, options.width);
     let around = corners(&bodies);
     Scene::new(Content { bodies, around, ground: ground(input) }, options, fineness)
 }
