@@ -119,16 +119,21 @@ fn margins_do_not_depend_on_units() {
 }
 
 /// No motion between two shapes is faster than the bound, which knows nothing of where a shape stands: of two cells that come
-/// apart by two more one moves by one, from rest to rest in 2.
+/// apart by two more each moves by one, from rest to rest in 2. If their speeds differ by 1 at most, they come apart in 2 and in
+/// half a unit to speed up and slow down.
 #[test]
 fn the_lower_bound_is_that_of_shapes_wherever_they_stand() {
     use modl::plan::lattice::lower_bound::lower_bound;
     for shift in [0, 2, -14] {
         let along_x =
             |places: [i64; 2]| move |axis: usize| if axis == 0 { places.to_vec() } else { vec![0, 0] };
-        let found = lower_bound(along_x([0, 2]), along_x([shift, 6 + shift]), 1, None);
-        assert!((found - 2.0).abs() < 1e-12, "{found}");
-        assert_eq!(lower_bound(along_x([0, 2]), along_x([shift, 2 + shift]), 1, None), 0.0);
+        for (speed_squared, least) in [(Ratio(4, 1), 2.0), (Ratio::ONE, 2.5), (Ratio(1, 100), 20.05)] {
+            let bound = |end: i64| {
+                lower_bound(along_x([0, 2]), along_x([shift, end + shift]), 1, speed_squared, None)
+            };
+            assert!((bound(6) - least).abs() < 1e-12, "{}", bound(6));
+            assert_eq!(bound(2), 0.0);
+        }
     }
 }
 

@@ -505,6 +505,18 @@ fn a_bound_on_contact_forces_slows_plans_down_and_holds() {
     assert!(near(found.stages.duration(), libm::sqrt(2.0 * 1024.0)));
 }
 
+/// Two cells in a row become a column in 1.5 by the shear, for their speeds must not differ by more than 1: no motion is faster.
+/// From three on the acceleration alone bounds the time, √(2 (n - 1)).
+#[test]
+fn no_motion_of_few_cells_is_faster_than_the_shear() {
+    for (n, least) in [(2, 1.5), (3, 2.0), (4, libm::sqrt(6.0))] {
+        let (from, to) = (row(n), column(n));
+        let shear = found(&Task { method: Method::Shear, demand: ModelChoice::Paper, ..task(&from, &to) });
+        assert!(near(shear.lower_bound, least), "{n}: {}", shear.lower_bound);
+        assert!(near(shear.stages.duration(), least), "{n}: {}", shear.stages.duration());
+    }
+}
+
 #[test]
 fn limits_of_the_cell_scale_the_plan() {
     let (from, to) = (row(64), column(64));

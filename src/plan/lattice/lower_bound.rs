@@ -9,20 +9,23 @@ const CONTACTS: f64 = 27.0;
 /// Returns a duration, in time units, below which no motion takes the cells from one shape to the other while the
 /// centre of mass stays; 0 if the shapes are the same but for a translation and there is no limit of force. `before`
 /// and `after` give twice the centres of all cells along an axis (0 to 2), in any order, in grid lines; `lines` is
-/// the number of grid lines to a cell; `contact_force` is the greatest force over a contact in units of a cell's
-/// own, `None` if it is not limited.
+/// the number of grid lines to a cell; `speed_squared` is the square of the greatest difference of the speeds of cells in
+/// contact, in cells a unit of time; `contact_force` is the greatest force over a contact in units of a cell's own, `None` if
+/// it is not limited.
 ///
 /// Some cell must move at least as far along an axis as the farthest does if cells are matched in order, and to move
-/// by `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. With contact forces of at most `κ`
+/// by `d` from rest to rest takes `2 √d`; for a row and a column `√(2 (n - 1))`. Contacts join all `n` cells, so the
+/// speed of none differs from their mean, which is 0, by more than `c = v (n - 1) / 2`, and beyond `c²` it takes `c + d / c`. With contact forces of at most `κ`
 /// the moment `S = ½ Σ x²` changes by at least `-c n κ` a unit of time twice, for at most `c` contacts a cell whose
 /// centres are at most 1 apart: so `T² ≥ 2 |ΔS| / (c n κ)`. The derivation is in `docs/planners/squeeze.md`.
 pub fn lower_bound(
     before: impl Fn(usize) -> Vec<i64>,
     after: impl Fn(usize) -> Vec<i64>,
     lines: i64,
+    speed_squared: Ratio,
     contact_force: Option<Ratio>,
 ) -> f64 {
-    let mut square = 0.0_f64;
+    let (mut square, mut distance, mut greatest_speed) = (0.0_f64, 0.0_f64, f64::INFINITY);
     for axis in 0..3 {
         let (mut before, mut after) = (before(axis), after(axis));
         if before == after {
@@ -38,7 +41,8 @@ pub fn lower_bound(
         let apart =
             |(&a, &b): (&i64, &i64)| ((i128::from(a) - i128::from(b)) * count - (start - end)).unsigned_abs();
         let farthest = before.iter().zip(&after).map(apart).max().unwrap_or(0);
-        square = square.max(4.0 * farthest as f64 / scale);
+        distance = distance.max(farthest as f64 / scale);
+        greatest_speed = libm::sqrt(speed_squared.to_f64()) * (count - 1) as f64 / 2.0;
         if let Some(force) = contact_force {
             let about = |x: i64, sum: i128| (i128::from(x) * count - sum) as f64 / scale;
             let moment = |places: &[i64], sum: i128| {
@@ -48,5 +52,8 @@ pub fn lower_bound(
             square = square.max(2.0 * change / (CONTACTS * count as f64 * force.to_f64()));
         }
     }
-    libm::sqrt(square)
+    let ramps = libm::sqrt(distance);
+    let moving =
+        if ramps <= greatest_speed { 2.0 * ramps } else { greatest_speed + distance / greatest_speed };
+    moving.max(libm::sqrt(square))
 }

@@ -64,11 +64,12 @@ pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
 }
 
 /// Returns the lower bound on the duration between two configurations, in seconds: those of `start` and `end`, on
-/// `grid`, under the unit of time and the limit of force of `stages`.
+/// `grid`, under the unit of time and the limits of speed and force of `stages`.
 pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
     let middles = |cubes: &[Cube], axis: usize| cubes.iter().map(|cube| cube.middle(axis)).collect();
     let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
-    lower_bound(before, after, grid.lines, stages.model.contact_force) * stages.time_unit
+    let (speed_squared, contact_force) = (stages.limits.speed_squared, stages.model.contact_force);
+    lower_bound(before, after, grid.lines, speed_squared, contact_force) * stages.time_unit
 }
 
 /// A list of lattice sites by their integer coordinates x, y, z, in cells.
