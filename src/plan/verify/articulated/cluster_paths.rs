@@ -2,7 +2,7 @@
 
 use super::base_path::BasePath;
 use super::clusters::Cluster;
-use super::history::base_at;
+use super::history::{base_at, settings_to_see};
 use super::parted;
 use super::placed_clusters::PlacedClusters;
 use super::rollout::roll_out;
@@ -104,7 +104,9 @@ impl<'a> ClusterPaths<'a> {
             return None;
         }
         let tolerances = Tolerances::default();
-        let rollout = Rollout::of(plan, tracks, &tolerances);
+        let mut rollout = Rollout::of(plan, tracks, &tolerances);
+        let settings = settings_to_see(&rollout);
+        rollout.settings = &settings;
         let mut clusters = parted::clusters(&rollout)?;
         let paths = succession::follow(&rollout, &mut clusters, until, &mut |begun| {
             roll_out_path(begun.rollout(&rollout), until)

@@ -92,6 +92,17 @@ struct PlacedBase {
     whole: bool,
 }
 
+/// Returns the settings under which a plan is rolled out to be seen: its own, or those with fewer samples where the judge would
+/// refuse it for their number.
+pub(super) fn settings_to_see(rollout: &Rollout) -> Settings {
+    let (settings, tracks) = (rollout.settings, rollout.tracks);
+    let least = tracks.duration / MOMENTS_MAX as f64;
+    match sampling::count(&rollout.instants(), tracks, settings, rollout.tolerances) > settings.samples_max {
+        true => Settings { sample: settings.sample.max(least), ..*settings },
+        false => *settings,
+    }
+}
+
 /// Rolls out a valid plan of an articulated robot; of several, the clusters to which the plan's base belongs are seen.
 fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&Sample, PlacedBase)) {
     let Body::Tracks(tracks) = &plan.body else { return };
@@ -99,12 +110,8 @@ fn visit(plan: &Plan, until: f64, tolerances: &Tolerances, see: &mut dyn FnMut(&
         return;
     }
     let mut rollout = Rollout::of(plan, tracks, tolerances);
-    // A plan that the judge would refuse for its samples is still seen at some.
-    let (least, settings) = (tracks.duration / MOMENTS_MAX as f64, rollout.settings);
-    let coarse = Settings { sample: settings.sample.max(least), ..*settings };
-    if sampling::count(&rollout.instants(), tracks, settings, tolerances) > settings.samples_max {
-        rollout.settings = &coarse;
-    }
+    let settings = settings_to_see(&rollout);
+    rollout.settings = &settings;
     let Some(mut clusters) = parted::several(&rollout) else {
         roll_out(rollout, None, until.min(tracks.duration), &mut |sample, _| {
             see(sample, PlacedBase { pose: sample.stance.base_pose(sample.model), whole: true });
