@@ -65,7 +65,7 @@ pub fn check(input: &[u8]) {
 const DRAWN: f64 = 0.1;
 
 /// The width and height of pictures, pixels: small ones have as many ways to go wrong.
-const DRAWN_SIZE: (u16, u16) = (48, 32);
+const DRAWN_SIZE: (u16, u16) = (24, 16);
 
 /// Draws the beginning of a plan as moving pictures.
 pub fn pictures(input: &[u8]) {

@@ -23,6 +23,7 @@ pub(super) const SAMPLES: usize = 9;
 /// quick one. Samples of a pixel see them in turns.
 const SUNS_FINE: (usize, usize) = (SAMPLES, 900);
 const SUNS_QUICK: (usize, usize) = (3, 450);
+const SUNS_TINY: (usize, usize) = (1, 450);
 
 /// The width and height of depth maps of the sky, in texels.
 const SKY_MAP_SIZE: usize = 160;
@@ -32,9 +33,13 @@ const SKY_MAP_SIZE: usize = 160;
 const SUN_TEXELS: usize = 2;
 const SKY_TEXELS: usize = 1;
 
-/// The directions of the sky that each sample sees, in a fine picture and in a quick one.
+/// The directions of the sky that each sample sees, in a fine picture, in a quick one, and in one of few pixels.
 const DIRECTIONS_FINE: usize = 4;
 const DIRECTIONS_QUICK: usize = 2;
+const DIRECTIONS_TINY: usize = 1;
+
+/// The width in pixels below which a quick picture has few pixels: its shadows are smaller than one.
+const WIDTH_TINY: usize = 100;
 
 /// The cosine of its angle from which a direction of the sky counts as faced by a surface.
 const FACING: f64 = 0.1;
@@ -130,6 +135,7 @@ impl Light {
         let triangles: usize = bodies.iter().map(|body| body.mesh.triangles.len()).sum();
         let (each, (suns, size)) = match fineness {
             Fineness::Fine => (DIRECTIONS_FINE, SUNS_FINE),
+            Fineness::Quick if width < WIDTH_TINY => (DIRECTIONS_TINY, SUNS_TINY),
             Fineness::Quick => (DIRECTIONS_QUICK, SUNS_QUICK),
         };
         let count = if triangles < TRIANGLES_MANY { SAMPLES * each } else { SAMPLES };
