@@ -25,8 +25,8 @@ const BELOW: Rgb = Rgb([0.969, 0.965, 0.953]);
 const WHITE: Rgb = Rgb([1.0, 1.0, 1.0]);
 /// The colour of grid lines and shadows on the ground.
 const INK: Rgb = Rgb([0.133, 0.173, 0.212]);
-/// The colours of the axes x and y of the world, on the ground.
-const AXES: [Rgb; 2] = [Rgb([0.706, 0.325, 0.184]), Rgb([0.184, 0.435, 0.624])];
+/// The colours of the axes x and y of the world, on the ground: red and green, as robotics has them.
+const AXES: [Rgb; 2] = [Rgb([0.698, 0.227, 0.118]), Rgb([0.208, 0.537, 0.247])];
 
 /// The part of its brightness that a surface keeps at its sharp edges, in a room and in print.
 const EDGE_ROOM: f32 = 0.84;

@@ -15,6 +15,8 @@ const TURNED_FOR = 160;
 const RESTED_FOR = 200;
 const REFINED_FOR = 5000;
 const ROUNDS_LEAST = 5;
+/** The colours of the ghosts of start and end. */
+const GHOSTS = ["#7d8791", "#3f7fb5"];
 /** Parts in the legend over the picture; all of them stand beside it. */
 const LEGEND_MAX = 8;
 
@@ -58,7 +60,7 @@ function main() {
       options[name] = on === undefined ? !options[name] : on;
       document.querySelectorAll(`[data-toggle="${name}"]`).forEach(box => (box.checked = options[name]));
       if (name === "follow") camera.follow = options.follow;
-      //: showLegend(colouring);
+      showLegend(colouring);
       touch();
     },
   };
@@ -118,7 +120,7 @@ function main() {
     ghosts[i] = true;
     const ghost = new Float32Array(POSE * motion.bodies);
     motion.place(i ? plan.end : 0, ghost);
-    paint(plan, motion, { colour: () => rgb(i ? "#3f7fb5" : "#7d8791") }, ghost, 0, null, null, false);
+    paint(plan, motion, { colour: () => rgb(GHOSTS[i]) }, ghost, 0, null, null, false);
     renderer.ghosts[i] = ghost;
   }
 
@@ -177,8 +179,10 @@ function main() {
   function showLegend({ legend }) {
     const box = $("legend");
     const shown = legend.slice(0, LEGEND_MAX);
-    box.replaceChildren(...legendOf(shown), ...(legend.length > shown.length ? [el("span", {}, "and " + (legend.length - shown.length) + " more, in View")] : []));
-    box.hidden = legend.length < 2 && legend[0][0] !== "ramp";
+    const ghosts = [[options.start, GHOSTS[0], "ghost of the start"], [options.goal, GHOSTS[1], plan.goal ? "ghost of the goal" : "ghost of the end"], [motion.target && options.target, AROUND, "the target"]]
+      .filter(([is]) => is).map(([, colour, name]) => [colour, name]);
+    box.replaceChildren(...legendOf([...shown, ...ghosts]), ...(legend.length > shown.length ? [el("span", {}, "and " + (legend.length - shown.length) + " more, in View")] : []));
+    box.hidden = legend.length < 2 && legend[0][0] !== "ramp" && !ghosts.length;
     $("parts").replaceChildren(...legendOf(legend));
     //: showScale(plan, options, box);
   }
@@ -217,12 +221,13 @@ function main() {
     const floor = floorOf(plan);
     const lines = [];
     const marks = [];
+    const grain = framing.thread ? 5 * framing.thread.wide : framing.radius;
     //: if (options.trail) lines.push(...measuredTrail(plan, motion, plan.floor, lineTheme, options.nominal));
     //: if (options.paths) lines.push(...runLines(plan, plan.floor, lineTheme));
     //: lines.push(...surroundingLines(plan, lineTheme));
     //: if (options.forces) marks.push(...forceArrows(plan, motion, state.t, framing.radius, camera.eye, lineTheme));
     //: if (!plan.simulation)
-    if (options.trail) lines.push(...trailLines(plan, floor, lineTheme));
+    if (options.trail) lines.push(...trailLines(plan, floor, lineTheme, grain));
     if (options.mass && stand) {
       if (plan.ground) lines.push(...supportLines(stand, floor, lineTheme));
       marks.push(...centreMarks(stand, floor, framing.thread ? framing.thread.wide : framing.radius, plan.ground, lineTheme));
@@ -231,7 +236,6 @@ function main() {
     if (failure && failure.point) marks.push(...spotOf(failure.point, 11, [...lineTheme.bad, 1], lineTheme));
     if (failure && failure.kind === "stability" && stand) marks.push(...nearestEdge(stand, floor, lineTheme));
     marks.push(...measure.marks(lineTheme, onScreen));
-    const grain = framing.thread ? 5 * framing.thread.wide : framing.radius;
     const scene = {
       camera, theme: state.theme, solids: options.collides && motion.collides ? motion.collides : motion.solids,
       middle: now.middle, radius: now.radius, grain, floor: plan.floor, lowest: framing.lowest, floorAt: floor, slope: plan.slope || [0, 0], ground: plan.ground,

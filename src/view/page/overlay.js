@@ -41,7 +41,7 @@ function cubeOf(choose) {
         const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         bars[i].style.transform = `translate(${a[0]}px, ${a[1]}px) rotate(${Math.atan2(dy, dx)}rad) scaleX(${Math.hypot(dx, dy) / 100})`;
         letters[i].style.transform = `translate(${b[0] + dx * 0.1}px, ${b[1] + dy * 0.1}px) translate(-50%, -50%)`;
-        bars[i].style.zIndex = letters[i].style.zIndex = b[2] > a[2] ? 2 : 0;
+        bars[i].style.zIndex = b[2] > a[2] ? 2 : 0;
       });
     },
   };

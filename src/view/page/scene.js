@@ -10,7 +10,7 @@ const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
 
 /** The colours of the picture: light or dark, or a figure for a paper. */
 function themeOf(dark, figure) {
-  const axes = dark ? { axisX: rgb("#e07a5f"), axisY: rgb("#7fb8d8"), accent: rgb("#6cb6ee") } : { axisX: rgb("#b4532f"), axisY: rgb("#2f6f9f"), accent: rgb("#0b63a5") };
+  const axes = dark ? { axisX: rgb("#ee8f73"), axisY: rgb("#8fd08f"), accent: rgb("#6cb6ee") } : { axisX: rgb("#b23a1e"), axisY: rgb("#35893f"), accent: rgb("#0b63a5") };
   return {
     dark, figure, ...axes,
     ...(dark
@@ -181,9 +181,10 @@ function nearestEdge(stand, floor, theme) {
   return best ? [{ a: [...best.a, floor(best.a)], b: [...best.b, floor(best.b)], width: 6, colour: [...theme.bad, 1] }] : [];
 }
 
-/** Where the base goes, on the ground. */
-function trailLines(plan, floor, theme) {
+/** Where the base goes, on the ground; nothing if that is not seen from where a scene of size `grain` is. */
+function trailLines(plan, floor, theme, grain) {
   const keys = plan.body.base || [];
+  if (!keys.some(key => Math.hypot(key[1] - keys[0][1], key[2] - keys[0][2]) > grain / 100)) return [];
   const stride = Math.max(Math.floor(keys.length / 600), 1);
   const lines = [];
   for (let i = stride; i < keys.length && keys[i][0] <= plan.end; i += stride) {
