@@ -2307,11 +2307,13 @@ extern type Folding is Plan {
 /// Finds the flat pattern of panels for a shape that folds for the least energy, the order in which to
 /// fold it without collisions, and the motion.
 ///
-/// The target is a mesh of triangles, each edge of which joins two faces at most; panel `i` becomes face `i`.
-/// Its sides are those of the panels; a module with a parameter `sides`, as `Panel` of `std.mori`, is made to
-/// measure for each face, so that its sides may be any. It may come from a file: `load_mesh`, or `mesh` where it
-/// is closed. The module is a triangular panel with a hinge at each of
-/// its three edges. `root` is the face that stays where it is; without it, the best is found.
+/// The target is a mesh whose faces are flat and convex, each edge of which joins two of them at most; panel `i`
+/// becomes face `i`. It may come from a file: `load_mesh`, or `mesh` where it is closed.
+///
+/// The module is a panel with a hinge at each of its edges. A regular one is for faces that are as it is; of a list of
+/// modules each face takes the first that is as the face. One with a parameter `sides`, as the triangle `Panel` of
+/// `std.mori`, or `corners`, as its `Polygon`, is made to measure for each face. `root` is the face that stays where it is;
+/// without it, the best is found.
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
 /// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
@@ -2319,7 +2321,7 @@ extern type Folding is Plan {
 ///
 /// `minimise` says what is to be small: the `energy`, over layouts and orders of folding together; or, with the
 /// leaves folded first, the greatest torque, or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are
-/// even triangles without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
+/// even polygons without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
 /// or the root lies on the ground with its outside down, which is then the plan's world. `count`: the
 /// torques of the joints that move, while the others are locked, or of `all`. Only with what stands
 /// first is there a closed form and a proof for large shapes; else every layout is simulated where they
@@ -2345,7 +2347,7 @@ extern type Folding is Plan {
 /// ```
 extern fn fold(
   target: Mesh | Shape,
-  module: Module,
+  module: Module | List<Module>,
   root: auto | Int = auto,
   method: exact | heuristic | enumerate = exact,
   step: auto | Time = auto,

@@ -6,7 +6,6 @@ use super::fold_supply::{self, Passive, Sheet, Supply};
 use super::folding::{LayoutComparison, OrderSample, pair};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
-use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
@@ -47,7 +46,7 @@ arguments! {
     /// The arguments of `fold`.
     struct Arguments<'c> {
         target: &'c Value,
-        module: &'c Rc<Instance>,
+        module: &'c Value,
         root: WordOr<Auto, usize> as "a face",
         method: Method,
         step: WordOr<Auto, Positive> as "the time of a step",
@@ -59,7 +58,7 @@ arguments! {
         count: Count,
         sequence: Sequence,
         passive: &'c [Value],
-        passive_module: Option<&'c Rc<Instance>>,
+        passive_module: &'c Value,
         hinge_radius: Option<Positive> as "the radius of the hinges",
         hinges: Option<&'c [Value]>,
     }

@@ -5,7 +5,6 @@ use super::fold_refusal::too_short;
 use super::fold_supply::{Sheet, Supply};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Positive, WordOr, arguments};
-use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
@@ -30,7 +29,7 @@ arguments! {
     struct Arguments<'c> {
         from: &'c Value,
         to: &'c Value,
-        module: &'c Rc<Instance>,
+        module: &'c Value,
         step: WordOr<Auto, Positive> as "the time of a step",
         seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
@@ -59,9 +58,12 @@ fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let from = fold_surface::target(call, FROM, arguments.from)?;
     let to = fold_surface::target(call, TO, arguments.to)?;
     let panel = supply.panel(interpreter, FROM, &from, 0)?;
+    if panel.panel.sides.len() != 3 {
+        return Err(call.refuse(MODULE, "panels change places on a lattice of triangles: these are none"));
+    }
     for (shape, target) in [(FROM, &from), (TO, &to)] {
         let faces = 0..target.faces.len();
-        faces.into_iter().try_for_each(|face| supply.check_side(shape, target, face, &panel.panel))?;
+        faces.into_iter().try_for_each(|face| supply.check_face(shape, target, face, &panel.panel))?;
     }
     let designs = vec![panel.design.clone(); from.faces.len()];
     let sheet = Sheet::of(interpreter, call, MODULE, designs)?;

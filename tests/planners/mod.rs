@@ -10,6 +10,7 @@ pub mod fold_files;
 pub mod fold_layouts;
 pub mod fold_objective;
 pub mod fold_orders;
+mod fold_panels;
 pub mod fold_random;
 pub mod goals;
 pub mod locomotion;

@@ -65,7 +65,12 @@ pub fn plan(
     } else {
         task.best_accepted(&mut candidates, &found)?
     };
-    if let Some(chosen) = accepted {
+    if let Some(mut chosen) = accepted {
+        // Where panels meet with the leaves first, what is sought for that takes less than another order sometimes.
+        if candidates.is_barred {
+            let others = task.lesser(task.of_strips(&found)?, Reordering::new(&task).first(&found)?);
+            chosen.outcome = task.lesser(Some(chosen.outcome), others).expect("one is given");
+        }
         return Ok(answer(&task, chosen, &found));
     }
     if problem.hinges.is_some() {
