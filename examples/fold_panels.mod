@@ -7,7 +7,9 @@ let box = fold(cube(edge: 80mm), module: Polygon)
 let dodeca = fold(dodecahedron(edge: 80mm), module: Polygon)
 let ball = fold(truncated_icosahedron(edge: 80mm), module: Polygon)
 for folding in [box, dodeca, ball] {
-  print("{folding.layout.panels} panels, {folding.layouts} flat patterns; the best takes {folding.energy}, gap {folding.gap}")
+  print(
+    "{folding.layout.panels} panels, {folding.layouts} flat patterns; the best takes {folding.energy}, gap {folding.gap}"
+  )
 }
 emit(ball, "ball.plan.json")
 show(ball, "ball.html")        // watch it fold
@@ -17,7 +19,9 @@ save(ball, "ball.fold")        // for programs that read FOLD
 // Panels from a stock of a few kinds: each face takes the one that is as it is.
 let mixed = fold(truncated_tetrahedron(edge: 80mm), module: [Mori, Regular(6)])
 let squared = fold(cuboctahedron(edge: 80mm), module: [Mori, Regular(4)])
-print("{mixed.layouts} and {squared.layouts} flat patterns; with {mass(mixed.robot)} and {mass(squared.robot)} of panels")
+print(
+  "{mixed.layouts} and {squared.layouts} flat patterns; with {mass(mixed.robot)} and {mass(squared.robot)} of panels"
+)
 emit(mixed, "truncated_tetrahedron.plan.json")
 emit(squared, "cuboctahedron.plan.json")
 
@@ -35,5 +39,7 @@ test "a cube folds from a cross for what its squares weigh" {
   expect box.optimal
   expect len(box.layout.hinges) == 5
   expect verify(box).ok and verify(dodeca).ok and verify(mixed).ok and verify(squared).ok
-  expect abs(fold(cube(edge: 80mm), module: Polygon, step: 2s).energy / (3.75 * (90deg / 1rad) * moment / (2s)^2) - 1) < 1e-9
+  expect abs(
+    fold(cube(edge: 80mm), module: Polygon, step: 2s).energy / (3.75 * (90deg / 1rad) * moment / (2s)^2) - 1
+  ) < 1e-9
 }

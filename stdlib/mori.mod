@@ -121,7 +121,7 @@ fn _shortest(corners: List<Vec3<Length>>, of: List<Vec3<Length>>) -> Length = {
   let along = [(of[(k + 1) % n] - of[k]) / norm(of[(k + 1) % n] - of[k]) for k in 0..n]
   min([
     (corners[(k + 1) % n] - corners[k])[0] * along[k][0] + (corners[(k + 1) % n] - corners[k])[1] * along[k][1]
-      for k in 0..n])
+    for k in 0..n])
 }
 
 /// The corners of a regular polygon about the origin, counterclockwise, the first side towards -y.
@@ -135,7 +135,7 @@ fn regular(sides: Int, side: Length) -> List<Vec3<Length>> = {
   let radius = side / (2 * sin(180deg / sides))
   [
     [radius * cos(360deg * (k - 0.5) / sides - 90deg), radius * sin(360deg * (k - 0.5) / sides - 90deg), 0mm]
-      for k in 0..sides]
+    for k in 0..sides]
 }
 
 /// A panel that is a convex polygon, with corners of one's own, drawn with its front up; otherwise as Mori.

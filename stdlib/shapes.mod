@@ -354,6 +354,30 @@ fn truncated_icosahedron(edge: Length) -> Mesh = polyhedron(
   ],
 )
 
+/// A Miura-ori, partly folded: rows times columns equal parallelograms, one border in the xy plane.
+///
+/// `along` and `across` are their sides, `sector` the acute angle between these. At a `fold` of zero it is flat, at 90
+/// degrees all panels lie on each other. The formulas are those of Schenk and Guest, *Geometry of Miura-folded
+/// metamaterials* (2013).
+///
+/// Example:
+/// ```modl
+/// use std.shapes.miura
+/// print(faces(miura(rows: 3, columns: 4, along: 80mm, across: 80mm, sector: 60deg, fold: 45deg)))
+/// ```
+fn miura(rows: Int, columns: Int, along: Length, across: Length, sector: Angle, fold: Angle) -> Mesh = {
+  let slope = sqrt(1 + (cos(fold) * tan(sector))^2)
+  let height = along * sin(fold) * sin(sector)
+  let pace = along * sqrt(1 - (sin(fold) * sin(sector))^2)
+  let width = across * cos(fold) * tan(sector) / slope
+  polyhedron(
+    [[width * j, pace * i + (j % 2) * across / slope, (i % 2) * height] for i in 0..rows + 1 for j in 0..columns + 1],
+    [
+      [i * (columns + 1) + j, i * (columns + 1) + j + 1, (i + 1) * (columns + 1) + j + 1, (i + 1) * (columns + 1) + j]
+      for i in 0..rows for j in 0..columns],
+  )
+}
+
 /// An L: two square bars of the given length and width that share a corner, lying in the xy plane.
 ///
 /// The corner of the L is at the origin; the bars are as high as wide, from z = 0 up.

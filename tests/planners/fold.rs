@@ -11,7 +11,7 @@ use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::shortest_paths::ShortestPaths;
 use modl::planners::fold::{
-    Layout, Proof, Target, Unfoldable, Weights, energy_order, spanning_trees, steps, work_order,
+    Layout, Proof, SIDES_MAX, Target, Unfoldable, Weights, energy_order, spanning_trees, steps, work_order,
 };
 use modl::planners::fold::{Observer, TOLERANCES};
 use proptest::prelude::*;

@@ -66,7 +66,7 @@ fn icosahedron() -> Target {
     Target::new(vertices, &faces).expect("it folds")
 }
 
-/// What each isometry of the solid makes of its hinges: the first face and its first side go to any face and side, or to
+/// Returns by isometry of the solid the image of each hinge: the first face and its first side go to any face and side, or to
 /// their mirror images, and the middles of all hinges along with them.
 fn isometries(target: &Target) -> Vec<Vec<usize>> {
     let middle = |hinge: usize| {
@@ -366,7 +366,7 @@ fn polygons_come_from_files_and_go_into_them() {
         for (k, ending) in ["obj", "off", "ply", "fold"].iter().enumerate() {
             let scale = "80mm";
             program += &format!(
-                "let f{k} = fold(load_mesh(\"solid.{ending}\", scale: {scale}), module: Polygon(thickness: 2mm), step: 2s)\n\
+                "let f{k} = fold(load_mesh(\"solid.{ending}\", scale: {scale}), module: Polygon(thickness: 2mm), step: 2s, sequence: leaves_first)\n\
                  print(f{k}.layouts, f{k}.optimal, f{k}.layout.overlaps, verify(f{k}).ok, abs(f{k}.energy / f0.energy - 1) < 1e-9)\n"
             );
         }

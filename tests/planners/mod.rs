@@ -12,6 +12,7 @@ pub mod fold_objective;
 pub mod fold_orders;
 mod fold_panels;
 pub mod fold_random;
+mod fold_sheet;
 pub mod goals;
 pub mod locomotion;
 pub mod morphing;

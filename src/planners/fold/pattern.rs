@@ -28,7 +28,8 @@ pub fn has_equal_triangles(target: &Target) -> bool {
 
 impl Pattern {
     /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if the faces are triangles
-    /// whose sides are all equal (up to `TOLERANCES.equal_sides`); else laid out face by face from the root on, in floating point.
+    /// whose sides are all equal (up to `TOLERANCES.equal_sides`); else laid out face by face from the root on, in
+    /// floating point.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
         if has_equal_triangles(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }

@@ -66,7 +66,7 @@ pub fn plan(
         task.best_accepted(&mut candidates, &found)?
     };
     if let Some(mut chosen) = accepted {
-        // Where panels meet with the leaves first, what is sought for that takes less than another order sometimes.
+        // Strips and other orders, which take less at times than what was accepted where the leaves can not fold first.
         if candidates.is_barred {
             let others = task.lesser(task.of_strips(&found)?, Reordering::new(&task).first(&found)?);
             chosen.outcome = task.lesser(Some(chosen.outcome), others).expect("one is given");

@@ -1,5 +1,6 @@
 //! Sampled sweep collision check of panels in motion: it spares the judge plans that it would reject. Panels
-//! are polygons without thickness (separating axes of the triangles of their fans), or solids. A layout that passes is not proved.
+//! are polygons without thickness (separating axes of the triangles of their fans), or solids. A layout that passes is
+//! not proved.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;

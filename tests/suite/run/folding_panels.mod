@@ -18,7 +18,7 @@ print(abs(norm(box.end.com) - 40mm) < 1um)
 --- pentagons, and triangles with hexagons or squares, from a stock of a few kinds
 use std.mori.{Mori, Polygon, Regular}
 use std.shapes.{cuboctahedron, dodecahedron, truncated_tetrahedron}
-let dodeca = fold(dodecahedron(edge: 80mm), module: Regular(5))
+let dodeca = fold(dodecahedron(edge: 80mm), module: Regular(5), sequence: leaves_first)
 print(dodeca.layouts, dodeca.optimal, dodeca.layout.overlaps, verify(dodeca).ok)
 //> 5184000 true [] true
 let mixed = fold(truncated_tetrahedron(edge: 80mm), module: [Mori, Regular(6)], sequence: leaves_first)
@@ -109,5 +109,9 @@ print(refold(cube(edge: 80mm), cube(edge: 80mm), module: Regular).changes)
 --- a panel says what is wrong with its corners
 use std.mori.{Polygon, Regular}
 let s = 80mm
-print(mass(Polygon(corners: [[0m, 0m, 0m], [s, 0m, 0m]])))
-//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ at least three corners
+print(mass(Polygon(corners: [[0m, 0m, 0m], [0m, s, 0m], [s, s, 0m], [s, 0m, 0m]])))
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0308 counterclockwise from above
+print(mass(Polygon(corners: [[0m, 0m, 0m], [s, 0m, 0m], [s, s, 1mm], [0m, s, 0m]])))
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0308 in the plane z = 0
+print(mass(Regular(4, side: 10mm)))
+//         ^^^^^^^^^^^^^^^^^^^^^^ E0308 the bevels meet
