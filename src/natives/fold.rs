@@ -6,6 +6,7 @@ use super::fold_supply::{self, Passive, Sheet, Supply};
 use super::folding::{LayoutComparison, OrderSample, pair};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments, parameters};
+use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::PlanValue;
@@ -58,7 +59,7 @@ arguments! {
         count: Count,
         sequence: Sequence,
         passive: &'c [Value],
-        passive_module: &'c Value,
+        passive_module: Option<&'c Rc<Instance>>,
         hinge_radius: Option<Positive> as "the radius of the hinges",
         hinges: Option<&'c [Value]>,
     }

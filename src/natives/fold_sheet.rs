@@ -69,7 +69,7 @@ fn run(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = Arguments::read(call)?;
     let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
     let target = fold_surface::target(call, TARGET, arguments.target)?;
-    let passive = Passive { faces: &[], module: &Value::Missing };
+    let passive = Passive { faces: &[], module: None };
     let (sheet, target) = fold_supply::panels(interpreter, &mut supply, &passive, target)?;
     let time = match arguments.time {
         WordOr::Word(Auto) => None,

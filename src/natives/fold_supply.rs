@@ -342,8 +342,8 @@ fn unjoined(designs: &[Rc<Design>]) -> Rc<Design> {
 pub(super) struct Passive<'c> {
     /// The indices of the faces, from 0: the argument `passive`.
     pub(super) faces: &'c [Value],
-    /// The module, the argument `passive_module`; missing if it is left out.
-    pub(super) module: &'c Value,
+    /// The module, the argument `passive_module`; `None` if it is left out.
+    pub(super) module: Option<&'c Rc<Instance>>,
 }
 
 /// Returns (panels, shape): the panels of the shape in argument `target`, and that shape with the hinges that its
@@ -365,10 +365,11 @@ pub(super) fn panels(
         faces.map(|face| supply.panel(interpreter, SHAPE, &target, face)).collect::<Eval<Vec<_>>>()?;
     let mut target = target;
     if !passive.faces.is_empty() {
-        if matches!(passive.module, Value::Missing) {
+        let Some(module) = passive.module else {
             return Err(call.refuse(LISTED, "of what are they? `passive_module` says it"));
-        }
-        let mut light = Supply::of(interpreter, call, "passive_module", passive.module)?;
+        };
+        let module = Value::Instance(module.clone());
+        let mut light = Supply::of(interpreter, call, "passive_module", &module)?;
         let mut driven = vec![true; panels.len()];
         for value in passive.faces {
             let Value::Int(face) = value else { continue };

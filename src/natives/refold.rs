@@ -5,6 +5,7 @@ use super::fold_refusal::too_short;
 use super::fold_supply::{Sheet, Supply};
 use super::{Native, fold_surface};
 use crate::interpret::argument::{Auto, Positive, WordOr, arguments};
+use crate::interpret::design::Instance;
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
 use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
@@ -29,7 +30,7 @@ arguments! {
     struct Arguments<'c> {
         from: &'c Value,
         to: &'c Value,
-        module: &'c Value,
+        module: &'c Rc<Instance>,
         step: WordOr<Auto, Positive> as "the time of a step",
         seed: WordOr<Auto, usize> as "a seed",
         budget: usize as "a budget",
@@ -54,7 +55,8 @@ impl ReportFields for Report {
 /// verdict.
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = Arguments::read(call)?;
-    let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
+    let module = Value::Instance(arguments.module.clone());
+    let mut supply = Supply::of(interpreter, call, MODULE, &module)?;
     let from = fold_surface::target(call, FROM, arguments.from)?;
     let to = fold_surface::target(call, TO, arguments.to)?;
     let panel = supply.panel(interpreter, FROM, &from, 0)?;

@@ -161,9 +161,10 @@ fn outline(ports: &[Port]) -> Option<Vec<Vec3>> {
     let corners: Vec<Vec3> = (0..n).map(corner).collect();
     let longest = polygon::sides(&corners).into_iter().fold(0.0, f64::max);
     for (k, port) in ports.iter().enumerate() {
-        let half = (corners[k] + corners[(k + 1) % n]) / 2.0;
-        let off = (half - middle(k)).norm() / longest;
-        let turned = (port.pose.rotation * Vec3::z() - front).norm().max(out(k).dot(&front).abs());
+        let (from, to) = (corners[k], corners[(k + 1) % n]);
+        let off = ((from + to) / 2.0 - middle(k)).norm() / longest;
+        let outwards = (to - from).cross(&front).normalize();
+        let turned = (port.pose.rotation * Vec3::z() - front).norm().max((out(k) - outwards).norm());
         if !(off.max(turned) <= TOLERANCES.side) {
             return None;
         }

@@ -61,9 +61,9 @@ print(folding.layouts, folding.optimal, folding.layout.overlaps, verify(folding)
 use std.mori.Polygon
 let s = 80mm
 print(fold(polyhedron([[0m, 0m, 0m], [s, 0m, 0m], [s, s, s / 10], [0m, s, 0m]], [[0, 1, 2, 3]]), module: Polygon).layouts)
-//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 is not flat | cut the face into triangles
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 is not flat | cut the face into triangles
 print(fold(polyhedron([[0m, 0m, 0m], [s, 0m, 0m], [s / 3, s / 3, 0m], [0m, s, 0m]], [[0, 1, 2, 3]]), module: Polygon).layouts)
-//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 is not convex at its corner 2 | cut the face into convex ones
+//         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 is not convex at its corner 2 | cut the face into convex ones
 let round: List<Vec3<Length>> = [[1m * cos(k * 10deg), 1m * sin(k * 10deg), 0m] for k in 0..36]
 print(fold(polyhedron(round, [[k for k in 0..36]]), module: Polygon).layouts)
 //         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0803 face 0 has 36 corners; 3 to 32 can be planned | into several
@@ -84,7 +84,7 @@ print(fold(truncated_tetrahedron(edge: 80mm), module: [Mori, Regular]).layouts)
 print(fold(cube(edge: 80mm), module: []).layouts)
 //                                   ^^ E0506 at least one module
 print(fold(cube(edge: 80mm), module: Polygon(corners: regular(4, side: 80mm))).layouts, fold(cube(edge: 80mm), module: Polygon(corners: regular(5, side: 80mm))).layouts)
-//                                                                                                                   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0506 `corners` can't be stated
+//                                                                                                                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0506 `corners` can't be stated
 print(fold(cube(edge: 10mm), module: Polygon).layouts)
 //         ^^^^^^^^^^^^^^^^ E0803 the bevels meet | thinner panels
 

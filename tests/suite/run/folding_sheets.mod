@@ -35,4 +35,4 @@ print(fold_sheet(ori, module: Polygon, root: 4).panels)
 print(fold_sheet(ori, module: Regular).panels)
 //               ^^^ E0803 a diagonal of
 print(fold_sheet(miura(rows: 2, columns: 2, along: 80mm, across: 80mm, sector: 60deg, fold: 85deg), module: Polygon).panels)
-//               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0801 the judge refuses the motion | smaller angles
+//               ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0801 the judge refuses the motion | smaller angles
