@@ -1240,6 +1240,30 @@ extern fn faces(of: Mesh) -> Int
 /// ```
 extern fn load_mesh(file: Text, scale: Length = 1mm) -> Mesh
 
+/// The folded form of a crease pattern in a FOLD file of this project: a flat sheet whose edges fold by the file's
+/// `edges_foldAngle`, negative at mountains. `scale` is the length of one of the file's units. The path is relative to the
+/// program's.
+///
+/// Faces that the file does not state are those that its edges enclose. Round each vertex inside, the angles have to close;
+/// those that do not by what is rounded are mended, by a degree at most.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Polygon
+/// let vertex = load_creases("vertex.fold", scale: 80mm)
+/// print(faces(vertex), fold_sheet(vertex, module: Polygon).loops)
+/// ```
+/// ```modl vertex.fold
+/// {
+///   "file_spec": 1.2,
+///   "vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]],
+///   "edges_vertices": [[0, 1], [0, 3], [0, 5], [0, 7], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7], [7, 8], [8, 1]],
+///   "edges_assignment": ["V", "F", "V", "F", "B", "B", "B", "B", "B", "B", "B", "B"],
+///   "edges_foldAngle": [60, 0, 60, 0, null, null, null, null, null, null, null, null]
+/// }
+/// ```
+extern fn load_creases(file: Text, scale: Length = 1mm) -> Mesh
+
 /// Every triangle of a mesh as `parts` times `parts` triangles of the same shape, which follow each other
 /// in the place of the one.
 ///
@@ -2307,11 +2331,13 @@ extern type Folding is Plan {
 /// Finds the flat pattern of panels for a shape that folds for the least energy, the order in which to
 /// fold it without collisions, and the motion.
 ///
-/// The target is a mesh of triangles, each edge of which joins two faces at most; panel `i` becomes face `i`.
-/// Its sides are those of the panels; a module with a parameter `sides`, as `Panel` of `std.mori`, is made to
-/// measure for each face, so that its sides may be any. It may come from a file: `load_mesh`, or `mesh` where it
-/// is closed. The module is a triangular panel with a hinge at each of
-/// its three edges. `root` is the face that stays where it is; without it, the best is found.
+/// The target is a mesh whose faces are flat and convex, each edge of which joins two of them at most; panel `i`
+/// becomes face `i`. It may come from a file: `load_mesh`, or `mesh` where it is closed.
+///
+/// The module is a panel with a hinge at each of its edges. A regular one is for faces that are as it is; of a list of
+/// modules each face takes the first that is as the face. One with a parameter `sides`, as the triangle `Panel` of
+/// `std.mori`, or `corners`, as its `Polygon`, is made to measure for each face. `root` is the face that stays where it is;
+/// without it, the best is found.
 ///
 /// `exact` proves its answer without looking at every layout, where it can; `enumerate` looks at every
 /// one; `heuristic` takes the one that the paper's own measure prefers. Where panels meet on the way, the
@@ -2319,7 +2345,7 @@ extern type Folding is Plan {
 ///
 /// `minimise` says what is to be small: the `energy`, over layouts and orders of folding together; or, with the
 /// leaves folded first, the greatest torque, or the steps, and then the energy. It is measured under stated conventions. `inertia`: panels are
-/// even triangles without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
+/// even polygons without thickness, with the module's thickness (`prism`), or points. `gravity`: none,
 /// or the root lies on the ground with its outside down, which is then the plan's world. `count`: the
 /// torques of the joints that move, while the others are locked, or of `all`. Only with what stands
 /// first is there a closed form and a proof for large shapes; else every layout is simulated where they
@@ -2345,7 +2371,7 @@ extern type Folding is Plan {
 /// ```
 extern fn fold(
   target: Mesh | Shape,
-  module: Module,
+  module: Module | List<Module>,
   root: auto | Int = auto,
   method: exact | heuristic | enumerate = exact,
   step: auto | Time = auto,
@@ -2426,6 +2452,49 @@ extern type LayoutComparison {
 /// print(all.layouts, all.rank, all.median > all.least, len(all.hinges(all.best)))
 /// ```
 extern fn compare_layouts(of: Folding, most: Int = 10_000, seed: Int = 0) -> LayoutComparison
+
+/// What `fold_sheet` found: the motion of a sheet whose creases fold together.
+extern type SheetFolding is Plan {
+  /// How many panels.
+  panels: Int
+  /// How many creases, which all are hinges.
+  creases: Int
+  /// How many vertices are inside, each with a loop of creases.
+  loops: Int
+  /// How many angles could be chosen freely at the folded form: 1 where one hinge moves all others.
+  freedom: Int
+  /// The greatest rotation that is left over round a vertex on the planned way.
+  opening: Angle
+  /// How far each crease folds: positive where it is convex as seen from outside.
+  angles: List<Angle>
+  /// The folded robot.
+  robot: Config
+}
+
+/// Folds a flat sheet of panels along all its creases at once, without a cut.
+///
+/// The target is the folded form: an open mesh of flat convex faces that come to a full turn round each vertex inside, as
+/// `load_creases` gives it, or `miura` of `std.shapes`. Every edge between two faces is a hinge. The creases round a
+/// vertex close a loop, so their angles go together; the way from flat to the folded form on which all loops stay closed
+/// is found by continuation, backwards, and the verifier judges the motion with the loops. The face `root` stays where it
+/// is. `time` is how long the motion takes, by default as long as the fastest hinge needs. Nothing weighs, as in `fold`
+/// without gravity.
+///
+/// The module is a panel as for `fold`.
+///
+/// Example:
+/// ```modl
+/// use std.mori.Polygon
+/// use std.shapes.miura
+/// let sheet = fold_sheet(miura(rows: 2, columns: 2, along: 80mm, across: 80mm, sector: 60deg, fold: 40deg), module: Polygon)
+/// print(sheet.panels, sheet.creases, sheet.loops, sheet.freedom, verify(sheet).ok)
+/// ```
+extern fn fold_sheet(
+  target: Mesh | Shape,
+  module: Module | List<Module>,
+  root: Int = 0,
+  time: auto | Time = auto,
+) -> SheetFolding
 
 /// What `refold` found: the motion from shape to shape, and what it takes.
 extern type Refolding is Plan {

@@ -268,6 +268,116 @@ fn cube(edge: Length) -> Mesh = polyhedron(
   [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]],
 )
 
+// The points that follow from one by all signs of its coordinates, for each of its three cyclic orders.
+fn _round(p: Vec3<Number>) -> List<Vec3<Number>> = {
+  let signs: List<List<Number>> = [if p[k] == 0 { [1] } else { [1, -1] } for k in 0..3]
+  [[a * p[-r % 3], b * p[(1 - r) % 3], c * p[(2 - r) % 3]]
+    for r in 0..3 for a in signs[-r % 3] for b in signs[(1 - r) % 3] for c in signs[(2 - r) % 3]]
+}
+
+/// Twelve regular pentagons.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.dodecahedron
+/// print(faces(dodecahedron(edge: 80mm)))
+/// ```
+fn dodecahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled(
+    _round([0, 1 / _golden, _golden]) ++ [[a, b, c] for a in [1, -1] for b in [1, -1] for c in [1, -1]],
+    edge * _golden / 2,
+  ),
+  [
+    [0, 2, 14, 4, 12], [0, 12, 8, 10, 16], [0, 16, 6, 18, 2], [1, 3, 19, 7, 17], [1, 13, 5, 15, 3],
+    [1, 17, 10, 8, 13], [2, 18, 11, 9, 14], [3, 15, 9, 11, 19], [4, 5, 13, 8, 12],
+    [4, 14, 9, 15, 5], [6, 7, 19, 11, 18], [6, 16, 10, 17, 7],
+  ],
+)
+
+/// Four triangles and four regular hexagons: a tetrahedron whose corners are cut off.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.truncated_tetrahedron
+/// print(faces(truncated_tetrahedron(edge: 80mm)))
+/// ```
+fn truncated_tetrahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled(
+    [[s[0] * p[0], s[1] * p[1], s[2] * p[2]]
+      for p in [[3, 1, 1], [1, 3, 1], [1, 1, 3]] for s in [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]],
+    edge / sqrt(8),
+  ),
+  [
+    [0, 1, 9, 10, 6, 4], [0, 4, 8], [0, 8, 11, 7, 5, 1], [1, 5, 9], [2, 3, 11, 8, 4, 6], [2, 6, 10],
+    [2, 10, 9, 5, 7, 3], [3, 7, 11],
+  ],
+)
+
+/// Eight triangles and six squares: a cube whose corners are cut off at the middles of its edges.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.cuboctahedron
+/// print(faces(cuboctahedron(edge: 80mm)))
+/// ```
+fn cuboctahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled(_round([0, 1, 1]), edge / sqrt(2)),
+  [
+    [0, 4, 8], [0, 6, 2, 4], [0, 8, 1, 10], [0, 10, 6], [1, 5, 3, 7], [1, 7, 10], [1, 8, 5],
+    [2, 6, 11], [2, 9, 4], [2, 11, 3, 9], [3, 5, 9], [3, 11, 7], [4, 9, 5, 8], [6, 10, 7, 11],
+  ],
+)
+
+/// Twelve regular pentagons and twenty regular hexagons: a soccer ball.
+///
+/// Example:
+/// ```modl
+/// use std.shapes.truncated_icosahedron
+/// print(faces(truncated_icosahedron(edge: 80mm)))
+/// ```
+fn truncated_icosahedron(edge: Length) -> Mesh = polyhedron(
+  _scaled(
+    _round([0, 1, 3 * _golden]) ++ _round([1, 2 + _golden, 2 * _golden])
+      ++ _round([_golden, 2, 2 * _golden + 1]),
+    edge / 2,
+  ),
+  [
+    [0, 2, 38, 22, 20, 36], [0, 36, 12, 16, 40], [0, 40, 24, 26, 42, 2], [1, 3, 43, 27, 25, 41],
+    [1, 37, 21, 23, 39, 3], [1, 41, 17, 13, 37], [2, 42, 18, 14, 38], [3, 39, 15, 19, 43],
+    [4, 5, 45, 29, 28, 44], [4, 44, 20, 22, 46], [4, 46, 30, 31, 47, 5], [5, 47, 23, 21, 45],
+    [6, 7, 51, 35, 34, 50], [6, 48, 32, 33, 49, 7], [6, 50, 26, 24, 48], [7, 49, 25, 27, 51],
+    [8, 10, 56, 16, 12, 52], [8, 52, 28, 29, 53], [8, 53, 13, 17, 57, 10], [9, 11, 59, 19, 15, 55],
+    [9, 54, 14, 18, 58, 11], [9, 55, 31, 30, 54], [10, 57, 33, 32, 56], [11, 58, 34, 35, 59],
+    [12, 36, 20, 44, 28, 52], [13, 53, 29, 45, 21, 37], [14, 54, 30, 46, 22, 38],
+    [15, 39, 23, 47, 31, 55], [16, 56, 32, 48, 24, 40], [17, 41, 25, 49, 33, 57],
+    [18, 42, 26, 50, 34, 58], [19, 59, 35, 51, 27, 43],
+  ],
+)
+
+/// A Miura-ori, partly folded: rows times columns equal parallelograms, one border in the xy plane.
+///
+/// `along` and `across` are their sides, `sector` the acute angle between these. At a `fold` of zero it is flat, at 90
+/// degrees all panels lie on each other. The formulas are those of Schenk and Guest, *Geometry of Miura-folded
+/// metamaterials* (2013).
+///
+/// Example:
+/// ```modl
+/// use std.shapes.miura
+/// print(faces(miura(rows: 3, columns: 4, along: 80mm, across: 80mm, sector: 60deg, fold: 45deg)))
+/// ```
+fn miura(rows: Int, columns: Int, along: Length, across: Length, sector: Angle, fold: Angle) -> Mesh = {
+  let slope = sqrt(1 + (cos(fold) * tan(sector))^2)
+  let height = along * sin(fold) * sin(sector)
+  let pace = along * sqrt(1 - (sin(fold) * sin(sector))^2)
+  let width = across * cos(fold) * tan(sector) / slope
+  polyhedron(
+    [[width * j, pace * i + (j % 2) * across / slope, (i % 2) * height] for i in 0..rows + 1 for j in 0..columns + 1],
+    [
+      [i * (columns + 1) + j, i * (columns + 1) + j + 1, (i + 1) * (columns + 1) + j + 1, (i + 1) * (columns + 1) + j]
+      for i in 0..rows for j in 0..columns],
+  )
+}
+
 /// An L: two square bars of the given length and width that share a corner, lying in the xy plane.
 ///
 /// The corner of the L is at the origin; the bars are as high as wide, from z = 0 up.

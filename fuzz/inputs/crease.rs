@@ -1,4 +1,4 @@
-//! Crease patterns, as a seed states them: any triangles, creases and steps whose indices are those of the pattern.
+//! Crease patterns, as a seed states them: any polygons, creases and steps whose indices are those of the pattern.
 
 use super::dice::Dice;
 use modl::formats::{Crease, CreasePattern};
@@ -7,7 +7,8 @@ use modl::formats::{Crease, CreasePattern};
 pub fn pattern(dice: &mut Dice) -> CreasePattern {
     let many = 3 + dice.below(9);
     let vertices: Vec<[f64; 2]> = (0..many).map(|_| [0; 2].map(|_| number(dice))).collect();
-    let faces: Vec<[usize; 3]> = (0..1 + dice.below(6)).map(|_| [0; 3].map(|_| dice.below(many))).collect();
+    let face = |dice: &mut Dice| (0..3 + dice.below(3)).map(|_| dice.below(many)).collect();
+    let faces: Vec<Vec<usize>> = (0..1 + dice.below(6)).map(|_| face(dice)).collect();
     let steps = dice.below(3);
     let edge = |dice: &mut Dice| {
         let hinge = dice.below(2) == 1;

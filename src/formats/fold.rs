@@ -9,7 +9,7 @@ const MILLIMETRES: f64 = 1e3;
 /// Angles smaller than this are flat creases, in radians.
 const ANGLE_MIN: f64 = 1e-9;
 
-/// A crease pattern, as a FOLD file (Demaine, Ku and Lang 2016) holds it: a triangulated sheet with its creases and its
+/// A crease pattern, as a FOLD file (Demaine, Ku and Lang 2016) holds it: a sheet of polygons with its creases and its
 /// folded states.
 #[derive(Clone, Debug, Default)]
 pub struct CreasePattern {
@@ -17,8 +17,8 @@ pub struct CreasePattern {
     pub title: String,
     /// The vertices in the plane of the sheet, in metres, seen from the side that becomes the outside.
     pub vertices: Vec<[f64; 2]>,
-    /// The triangles as indices into `vertices`, from 0, counterclockwise.
-    pub faces: Vec<[usize; 3]>,
+    /// The faces as indices into `vertices`, from 0, counterclockwise.
+    pub faces: Vec<Vec<usize>>,
     /// The name of the module of each face, one for each of `faces`.
     pub modules: Vec<String>,
     /// The hinges that fold and the edges of the outline, in any order.

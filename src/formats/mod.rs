@@ -1,5 +1,7 @@
 //! Readers of mesh and point cloud files: Wavefront OBJ, OFF, PLY, STL and FOLD; PLY and XYZ for clouds.
 //!
+//! A reader of crease patterns in FOLD.
+//!
 //! Writers of foldings (FOLD), of robots of RoFI modules, and of robots with their plans as models of MuJoCo.
 //!
 //! A reader turns bytes into a [`Content`] or says what is wrong. To add one, write its file and add its
@@ -8,6 +10,7 @@
 //! of plans are those of the room `exchange`.
 
 mod content;
+mod crease_reader;
 mod fault;
 mod fold;
 mod fold_reader;
@@ -25,6 +28,7 @@ mod xyz;
 use crate::robot::{rofi, rofi_json};
 
 pub use content::{Content, triangles};
+pub use crease_reader::{CreaseSheet, read_creases};
 pub use fault::FormatFault;
 pub use fold::{Crease, CreasePattern};
 pub use npy::npy;

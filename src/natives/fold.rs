@@ -47,7 +47,7 @@ arguments! {
     /// The arguments of `fold`.
     struct Arguments<'c> {
         target: &'c Value,
-        module: &'c Rc<Instance>,
+        module: &'c Value,
         root: WordOr<Auto, usize> as "a face",
         method: Method,
         step: WordOr<Auto, Positive> as "the time of a step",

@@ -7,17 +7,34 @@ use crate::interpret::native::Call;
 use crate::interpret::routines::Args;
 use crate::interpret::stop::{Eval, Stop};
 use crate::interpret::value::Value;
-use crate::planners::fold::{Panel, Panels, TOLERANCES, Target, equal_sides};
+use crate::plan::listed;
+use crate::planners::fold::{Panel, Panels, TOLERANCES, Target, Unfoldable, polygon};
 use crate::source::{Diagnostic, code};
 use crate::units::{Dimension, quantity};
 use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The parameter that states a panel's sides.
+/// The parameter that states the sides of a panel that is a triangle.
 const SIDES: &str = "sides";
 
-/// A module design that is a triangular panel, with its geometry in numbers.
+/// The advice to have panels made to measure.
+const MADE: &str =
+    "`fold` makes `Panel` of `std.mori` to measure for each triangle, and `Polygon` for any face";
+
+/// The parameter that states the corners of a panel.
+const CORNERS: &str = "corners";
+
+/// A parameter by which panels are made to measure.
+#[derive(Clone, Copy)]
+struct Measure {
+    /// The index of the parameter.
+    index: usize,
+    /// The name of the parameter: [`SIDES`] or [`CORNERS`].
+    name: &'static str,
+}
+
+/// A module design that is a panel, with its geometry in numbers.
 #[derive(Clone)]
 pub(super) struct PanelDesign {
     /// The design of the module of which the panels are made.
@@ -26,29 +43,53 @@ pub(super) struct PanelDesign {
     pub panel: Panel,
 }
 
-/// The source of panels: the module in an argument, and the panels that were made of it so far.
+/// The source of panels: the modules in an argument, and the panels that were made of them so far.
 pub(super) struct Supply<'c> {
     call: &'c Call<'c>,
     /// The argument.
     module: &'static str,
+    kinds: Vec<PanelKind>,
+}
+
+/// A module of which panels are made.
+struct PanelKind {
     design: Rc<Design>,
-    /// The index of the parameter that states the sides; `None` where all panels are alike.
-    sides: Option<usize>,
+    /// The parameter that states what a face measures; `None` where all panels are alike.
+    measure: Option<Measure>,
     made: Vec<Rc<PanelDesign>>,
 }
 
 impl<'c> Supply<'c> {
-    /// Returns the source of panels for the module `instance`, given in the argument `module`. A module with a
-    /// parameter `sides` is made for each face by its sides; any other must have three equal sides.
+    /// Returns the source of panels for the modules in the argument `module`: an instance, or a list of such. A module
+    /// with a parameter `sides` or `corners` is made to measure for each face; any other must be a regular polygon.
     ///
     /// # Errors
-    /// A fault where the module is no such panel, or `sides` is stated.
+    /// A fault where a module is no such panel, or states what it measures, or there is none.
     pub(super) fn of(
         interpreter: &mut Interpreter,
         call: &'c Call<'c>,
         module: &'static str,
-        instance: &Instance,
+        modules: &Value,
     ) -> Eval<Supply<'c>> {
+        let listed = match modules {
+            Value::List(listed) => &listed[..],
+            one => std::slice::from_ref(one),
+        };
+        let mut supply = Supply { call, module, kinds: Vec::new() };
+        for value in listed {
+            let Value::Instance(instance) = value else { continue };
+            let kind = supply.kind(interpreter, instance)?;
+            supply.kinds.push(kind);
+        }
+        if supply.kinds.is_empty() {
+            return Err(call.refuse(module, "no panel: at least one module is wanted"));
+        }
+        Ok(supply)
+    }
+
+    /// Returns the kind of panels that are made of a module.
+    fn kind(&self, interpreter: &mut Interpreter, instance: &Instance) -> Eval<PanelKind> {
+        let (call, module) = (self.call, self.module);
         let design = instance.design.clone();
         let panel = panel_of(interpreter, call, module, &design)?;
         let params = interpreter
@@ -58,37 +99,47 @@ impl<'c> Supply<'c> {
             .kind
             .instantiable()
             .map_or(&[][..], |body| body.params);
-        let sides = params.iter().position(|param| param.name.as_str() == SIDES);
-        let mut supply = Supply { call, module, design, sides, made: Vec::new() };
-        match sides {
-            Some(sides) => supply.check_unstated(interpreter, sides)?,
-            None if panel.panel.is_equilateral() => supply.made.push(Rc::new(panel)),
+        let measure = [SIDES, CORNERS].into_iter().find_map(|name| {
+            let index = params.iter().position(|param| param.name.as_str() == name)?;
+            Some(Measure { index, name })
+        });
+        match measure {
+            Some(measure) => {
+                self.check_unstated(interpreter, &design, measure)?;
+                Ok(PanelKind { design, measure: Some(measure), made: Vec::new() })
+            }
+            None if panel.panel.is_regular() => {
+                Ok(PanelKind { design, measure: None, made: vec![Rc::new(panel)] })
+            }
             None => {
-                let why = "no triangular panel: its edges are of unequal lengths, and it has no parameter \
-                           `sides` that says them";
-                return Err(call.refuse(module, why));
+                let why = "no panel for any face: its edges or angles are unequal, and it has no parameter \
+                           `corners`, or `sides` of a triangle, that says them";
+                Err(call.refuse(module, why))
             }
         }
-        Ok(supply)
     }
 
-    /// Refuses stated sides: a panel gets those of its face. `sides`: the index of the parameter.
-    fn check_unstated(&self, interpreter: &mut Interpreter, sides: usize) -> Eval<()> {
-        let usual = interpreter.default_design(self.design.def)?;
-        let stated =
-            usual.is_some_and(|usual| usual.args[sides].same(&self.design.args[sides]) != Some(true));
+    /// Refuses stated measures: a panel gets those of its face.
+    fn check_unstated(
+        &self,
+        interpreter: &mut Interpreter,
+        design: &Design,
+        Measure { index, name }: Measure,
+    ) -> Eval<()> {
+        let usual = interpreter.default_design(design.def)?;
+        let stated = usual.is_some_and(|usual| usual.args[index].same(&design.args[index]) != Some(true));
         if !stated {
             return Ok(());
         }
-        let why = "a panel gets the sides of its face: `sides` can't be stated here";
+        let why = format!("a panel gets the {name} of its face: `{name}` can't be stated here");
         Err(self.call.refuse(self.module, why))
     }
 
-    /// Returns the panel of the face of this index of the target, the shape in argument `shape`; faces of equal sides
-    /// share one.
+    /// Returns the panel of the face of this index of the target, the shape in argument `shape`: of the first module that
+    /// is congruent with the face, else of the first that is made to measure. Congruent faces share one.
     ///
     /// # Errors
-    /// A fault where the module can't be made with the sides of the face, or has other ones.
+    /// A fault where no module is as the face, and none can be made so.
     pub(super) fn panel(
         &mut self,
         interpreter: &mut Interpreter,
@@ -96,67 +147,91 @@ impl<'c> Supply<'c> {
         target: &Target,
         face: usize,
     ) -> Eval<Rc<PanelDesign>> {
-        let Some(sides) = self.sides else {
-            let panel = self.made[0].clone();
-            self.check_side(shape, target, face, &panel.panel)?;
-            return Ok(panel);
+        let alike = self.kinds.iter().filter(|kind| kind.measure.is_none()).map(|kind| &kind.made[0]);
+        let mut alike =
+            alike.filter(|made| target.check_panel(face, &made.panel.measures, TOLERANCES.side).is_ok());
+        if let Some(panel) = alike.next() {
+            return Ok(panel.clone());
+        }
+        drop(alike);
+        let Some(at) = self.kinds.iter().position(|kind| kind.measure.is_some()) else {
+            return Err(self.misfit(shape, target, face));
         };
-        let wanted = target.side_lengths(face);
-        let same = |made: &&Rc<PanelDesign>| equal_sides(made.panel.sides, wanted, TOLERANCES.same_panel);
-        if let Some(made) = self.made.iter().find(same) {
+        let wanted = target.measures(face);
+        let same =
+            |made: &&Rc<PanelDesign>| polygon::equal(&made.panel.measures, &wanted, TOLERANCES.same_panel);
+        if let Some(made) = self.kinds[at].made.iter().find(same) {
             return Ok(made.clone());
         }
-        let panel = Rc::new(self.to_measure(interpreter, shape, sides, face, wanted)?);
-        self.made.push(panel.clone());
+        let panel = Rc::new(self.to_measure(interpreter, shape, &self.kinds[at], target, face)?);
+        self.kinds[at].made.push(panel.clone());
         Ok(panel)
     }
 
-    /// Checks that the sides of a face (an index in the target's faces) are as long as those of `panel`, which are
-    /// equal. `shape`: the argument with the target.
+    /// Returns the fault for a face with which no module is congruent.
+    fn misfit(&self, shape: &'static str, target: &Target, face: usize) -> Stop {
+        if let [kind] = &self.kinds[..]
+            && let Err(fault) = self.check_face(shape, target, face, &kind.made[0].panel)
+        {
+            return fault;
+        }
+        let why = Unfoldable::NoPanel { face, sides: target.side_lengths(face) };
+        unfoldable(self.call, shape, &why).label(self.call.at(self.module), "these panels").hint(MADE).into()
+    }
+
+    /// Checks that a face (an index in the target's faces) is congruent with `panel`, which is a regular polygon.
+    /// `shape`: the argument with the target.
     ///
     /// # Errors
     /// A fault where they differ.
-    pub(super) fn check_side(
+    pub(super) fn check_face(
         &self,
         shape: &'static str,
         target: &Target,
         face: usize,
         panel: &Panel,
     ) -> Eval<()> {
-        let wanted = panel.sides[0];
-        target.check_sides_of(face, wanted, TOLERANCES.side * wanted).map_err(|why| {
+        target.check_panel(face, &panel.measures, TOLERANCES.side).map_err(|why| {
             let said = unfoldable(self.call, shape, &why).label(self.call.at(self.module), "these panels");
-            let other = match self.sides {
-                None => "`fold` makes `Panel` of `std.mori` to measure for each face",
-                Some(_) => "panels change places on a lattice of equal triangles: all sides of both shapes have to be equal",
+            let other = match self.kinds.iter().all(|kind| kind.measure.is_none()) {
+                true => MADE,
+                false => "panels change places on a lattice of equal triangles: all sides of both shapes have to be equal",
             };
             said.hint(other).into()
         })
     }
 
-    /// Returns the module made with the sides `wanted` (m) of a face; `sides`: the index of the parameter.
+    /// Returns the module made to measure for a face (an index in the target's faces).
     ///
     /// # Errors
-    /// A fault where the module refuses these sides, or has others in the end.
+    /// A fault where the module refuses these measures, or has others in the end.
     fn to_measure(
         &self,
         interpreter: &mut Interpreter,
         shape: &'static str,
-        sides: usize,
+        kind: &PanelKind,
+        target: &Target,
         face: usize,
-        wanted: [f64; 3],
     ) -> Eval<PanelDesign> {
-        let mut values: Vec<Option<Value>> = self.design.args.iter().cloned().map(Some).collect();
-        let lengths = wanted.map(|side| Value::Quantity(side, Dimension::LENGTH));
-        values[sides] = Some(Value::list(lengths.to_vec()));
+        let measure = kind.measure.expect("it is made to measure");
+        let sides = target.side_lengths(face);
+        let mut values: Vec<Option<Value>> = kind.design.args.iter().cloned().map(Some).collect();
+        let stated = match measure.name {
+            SIDES if sides.len() == 3 => {
+                sides.iter().map(|side| Value::Quantity(*side, Dimension::LENGTH)).collect()
+            }
+            SIDES => return Err(self.no_triangle(shape, face, sides.len())),
+            _ => target.outline(face).into_iter().map(|at| Value::Vec3(at, Dimension::LENGTH)).collect(),
+        };
+        values[measure.index] = Some(Value::list(stated));
         let args = Args { values, spans: Vec::new() };
         let call = self.call;
         let (made, found) = interpreter.capture_diagnostics(|interpreter| {
-            interpreter.design_of(self.design.def, args, call.at(self.module))
+            interpreter.design_of(kind.design.def, args, call.at(self.module))
         });
         let refuse = |why: String| -> Stop {
-            let [a, b, c] = wanted.map(|side| quantity(side, Dimension::LENGTH));
-            let message = format!("face {face}, with sides of {a}, {b} and {c}, can't be made: {why}");
+            let lengths: Vec<String> = sides.iter().map(|side| quantity(*side, Dimension::LENGTH)).collect();
+            let message = format!("face {face}, with sides of {}, can't be made: {why}", listed(&lengths));
             Diagnostic::error(code::UNFOLDABLE, message)
                 .label(call.at(shape), "does not fold")
                 .label(call.at(self.module), "made to measure of this")
@@ -167,7 +242,7 @@ impl<'c> Supply<'c> {
         };
         let said = |found: Vec<Diagnostic>| match found.into_iter().next() {
             Some(said) => said.message,
-            None => "the module refuses these sides".into(),
+            None => format!("the module refuses these {}", measure.name),
         };
         let design = match made {
             Ok(Some(design)) if !design.broken.get() && found.is_empty() => design,
@@ -180,24 +255,35 @@ impl<'c> Supply<'c> {
             Err(halt) => return Err(halt),
         };
         let panel = panel_of(interpreter, call, self.module, &design)?;
-        if !equal_sides(panel.panel.sides, wanted, TOLERANCES.side) {
-            return Err(refuse("the module does not keep to its parameter `sides`".into()));
+        if !polygon::equal(&panel.panel.measures, &target.measures(face), TOLERANCES.side) {
+            return Err(refuse(format!("the module does not keep to its parameter `{}`", measure.name)));
         }
         Ok(panel)
+    }
+
+    /// Returns the fault for a face that is no triangle where the module has the parameter `sides`.
+    fn no_triangle(&self, shape: &'static str, face: usize, sides: usize) -> Stop {
+        let message =
+            format!("face {face} has {sides} sides, and sides alone give only triangles their form");
+        Diagnostic::error(code::UNFOLDABLE, message)
+            .label(self.call.at(shape), "does not fold")
+            .label(self.call.at(self.module), "made to measure by `sides`")
+            .hint("`Polygon` of `std.mori` is made to measure by its `corners`; or cut such faces into triangles")
+            .into()
     }
 }
 
 /// Returns a design as a panel; `key`: the argument that it came from.
 ///
 /// # Errors
-/// A fault where it is not a module, or not a triangular panel.
+/// A fault where it is not a module, or not a panel.
 fn panel_of(
     interpreter: &mut Interpreter,
     call: &Call,
     key: &'static str,
     design: &Rc<Design>,
 ) -> Eval<PanelDesign> {
-    let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
+    let no_panel = |why: &str| call.refuse(key, format!("no panel: {why}"));
     if design.module().is_none() {
         return Err(no_panel("a module is wanted"));
     }
@@ -228,7 +314,7 @@ impl Sheet {
         key: &'static str,
         designs: Vec<Rc<Design>>,
     ) -> Eval<Sheet> {
-        let no_panel = |why: &str| call.refuse(key, format!("no triangular panel: {why}"));
+        let no_panel = |why: &str| call.refuse(key, format!("no panel: {why}"));
         let all = unjoined(&designs);
         let Some((library, kinds)) = interpreter.library_of(&all)? else {
             return Err(no_panel("its module is not sound"));
@@ -282,7 +368,8 @@ pub(super) fn panels(
         let Some(module) = passive.module else {
             return Err(call.refuse(LISTED, "of what are they? `passive_module` says it"));
         };
-        let mut light = Supply::of(interpreter, call, "passive_module", module)?;
+        let module = Value::Instance(module.clone());
+        let mut light = Supply::of(interpreter, call, "passive_module", &module)?;
         let mut driven = vec![true; panels.len()];
         for value in passive.faces {
             let Value::Int(face) = value else { continue };

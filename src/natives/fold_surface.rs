@@ -10,7 +10,7 @@ use crate::source::{Diagnostic, code};
 /// Returns the shape in argument `key`, a mesh, as the target of a folding; lengths in m.
 ///
 /// # Errors
-/// A fault where it is not a surface of triangles, or one that does not fold.
+/// A fault where it is not a surface of polygons, or one that does not fold.
 pub(super) fn target(call: &Call, key: &'static str, shape: &Value) -> Eval<Target> {
     let (vertices, faces) = surface(call, key, shape)?;
     Target::new(vertices, &faces).map_err(|why| unfoldable(call, key, &why).into())
@@ -39,5 +39,5 @@ fn surface(call: &Call, key: &'static str, shape: &Value) -> Eval<(Vec<Vec3>, Ve
         }
         _ => {}
     }
-    Err(call.refuse(key, "a surface of triangles is wanted: a mesh, or a shape from a mesh file"))
+    Err(call.refuse(key, "a surface of polygons is wanted: a mesh, or a shape from a mesh file"))
 }

@@ -28,6 +28,7 @@ mod fastest;
 mod fold;
 mod fold_design;
 mod fold_refusal;
+pub mod fold_sheet;
 mod fold_supply;
 mod fold_surface;
 pub mod folding;
@@ -103,6 +104,10 @@ const SUBJECTS: &[Subject] = &[
     Subject { natives: plot::TABLE, records: plot::records },
     natives(rofi::TABLE),
     Subject { natives: fold::TABLE, records: folding::records },
+    Subject {
+        natives: fold_sheet::TABLE,
+        records: || vec![("SheetFolding", <crate::planners::fold_sheet::Report as ReportFields>::names())],
+    },
     Subject {
         natives: refold::TABLE,
         records: || vec![("Refolding", <crate::planners::refold::Report as ReportFields>::names())],

@@ -55,13 +55,17 @@ impl ReportFields for Report {
 /// verdict.
 fn refold(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let arguments = Arguments::read(call)?;
-    let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
+    let module = Value::Instance(arguments.module.clone());
+    let mut supply = Supply::of(interpreter, call, MODULE, &module)?;
     let from = fold_surface::target(call, FROM, arguments.from)?;
     let to = fold_surface::target(call, TO, arguments.to)?;
     let panel = supply.panel(interpreter, FROM, &from, 0)?;
+    if panel.panel.sides.len() != 3 {
+        return Err(call.refuse(MODULE, "panels change places on a lattice of triangles: these are none"));
+    }
     for (shape, target) in [(FROM, &from), (TO, &to)] {
         let faces = 0..target.faces.len();
-        faces.into_iter().try_for_each(|face| supply.check_side(shape, target, face, &panel.panel))?;
+        faces.into_iter().try_for_each(|face| supply.check_face(shape, target, face, &panel.panel))?;
     }
     let designs = vec![panel.design.clone(); from.faces.len()];
     let sheet = Sheet::of(interpreter, call, MODULE, designs)?;

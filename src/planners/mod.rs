@@ -8,6 +8,7 @@
 
 pub mod fastest;
 pub mod fold;
+pub mod fold_sheet;
 pub mod goals;
 pub mod locomote;
 pub mod morph;

@@ -11,7 +11,7 @@ use modl::planners::fold::inertia::Inertia;
 use modl::planners::fold::pattern::Pattern;
 use modl::planners::fold::shortest_paths::ShortestPaths;
 use modl::planners::fold::{
-    Layout, Proof, Target, Unfoldable, Weights, energy_order, spanning_trees, steps, work_order,
+    Layout, Proof, SIDES_MAX, Target, Unfoldable, Weights, energy_order, spanning_trees, steps, work_order,
 };
 use modl::planners::fold::{Observer, TOLERANCES};
 use proptest::prelude::*;
@@ -50,6 +50,11 @@ pub fn mesh(shape: &Value) -> (Vec<Vec3>, Vec<Vec<usize>>) {
     });
     let faces = list("faces_ccw").map(|f| f.as_array().expect("a list").iter().map(index).collect());
     (vertices.collect(), faces.collect())
+}
+
+/// Returns the corners of a face that is a triangle, m.
+pub fn triangle(target: &Target, face: usize) -> [Vec3; 3] {
+    target.corners(face).try_into().expect("a triangle has three corners")
 }
 
 pub fn target(name: &str) -> Target {
@@ -368,7 +373,12 @@ fn meshes_that_do_not_fold_name_their_faces() {
         Target::new(points.clone(), &faces).expect_err("it does not fold")
     };
     assert_eq!(refused(&[]), Unfoldable::Empty);
-    assert_eq!(refused(&[&[0, 1, 2, 3]]), Unfoldable::NotTriangle { face: 0, corners: 4 });
+    assert_eq!(refused(&[&[0, 1]]), Unfoldable::Corners { face: 0, corners: 2, limit: SIDES_MAX });
+    // All four corners are as far from the plane through their mean, which is level with y and slanted by 45 degrees.
+    let Unfoldable::NotPlanar { face: 0, off, .. } = refused(&[&[0, 1, 2, 3]]) else {
+        panic!("it is not flat")
+    };
+    assert!((off - 1.0 / 8f64.sqrt()).abs() < 1e-12);
     assert_eq!(refused(&[&[0, 1, 2], &[1, 1, 2]]), Unfoldable::Degenerate { face: 1 });
     assert_eq!(refused(&[&[0, 1, 9]]), Unfoldable::Degenerate { face: 0 });
     assert_eq!(

@@ -235,7 +235,7 @@ proptest! {
         let weights = Weights::uniform(&target, 0.026);
         let best = optimum(&target, &weights, &branch_and_bound::Settings { root: Some(root), ..settings(20_000_000) });
         let best = best.expect("it has layouts");
-        let mut allowed: Vec<u8> = target.sides.iter().map(|sides| {
+        let mut allowed: Vec<u32> = target.sides.iter().map(|sides| {
             (0..3).filter(|k| sides[*k].is_some()).map(|k| 1 << k).sum()
         }).collect();
         allowed[root] = 0;

@@ -47,8 +47,8 @@ fn panels(target: &Target, thickness: f64) -> Solids {
             let half = up * (thickness / 2.0);
             [scaled(inside), scaled(outside) + half, scaled(outside) - half]
         };
-        let points: Vec<Vec3> = corners.into_iter().flat_map(of_corner).collect();
-        vec![Part::points(&points).moved(&panel_pose(&corners, &up).inverse())]
+        let points: Vec<Vec3> = corners.iter().copied().flat_map(of_corner).collect();
+        vec![Part::points(&points).moved(&panel_pose(corners, &up).inverse())]
     };
     Solids { parts: (0..target.faces.len()).map(panel).collect(), touch: 1e-5 }
 }

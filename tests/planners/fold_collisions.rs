@@ -2,7 +2,7 @@
 //! by samples, and the judge's word on panels with thickness.
 
 use crate::language::interpret::run_text;
-use crate::planners::fold::{SIDE, TRUTH, index, mesh, pairs, target};
+use crate::planners::fold::{SIDE, TRUTH, index, mesh, pairs, target, triangle};
 use modl::geometry::{Part, Vec3};
 use modl::interpret::Mode;
 use modl::planners::fold::collision_free_order::OrderSearch;
@@ -47,7 +47,7 @@ fn pierces(target: &Target, layout: &Layout, steps: &[Vec<usize>]) -> bool {
             let poses = poses_at(target, layout, |face| angles[face]);
             let placed = |face: usize| {
                 let middle = target.centroid(face);
-                let small = target.corners(face).map(|c| middle + (c - middle) * (1.0 - SHRUNK));
+                let small = triangle(target, face).map(|c| middle + (c - middle) * (1.0 - SHRUNK));
                 small.map(|p| poses[face].transform_point(&p.into()).coords)
             };
             let placed: Vec<[Vec3; 3]> = faces.clone().map(placed).collect();

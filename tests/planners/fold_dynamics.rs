@@ -1,7 +1,7 @@
 //! The simulation of folding: against the closed form, against mass points whose motion is
 //! differentiated, and against another program's numbers under gravity.
 
-use crate::planners::fold::{MASS, SIDE, TRUTH, near, number, shaken, target};
+use crate::planners::fold::{MASS, SIDE, TRUTH, near, number, shaken, target, triangle};
 use modl::geometry::Vec3;
 use modl::geometry::pose::turned;
 use modl::planners::fold::dynamics::{Dynamics, Hinging};
@@ -36,7 +36,7 @@ fn grown(target: &Target, priorities: &[u32], root: usize) -> Layout {
 
 /// Every panel as three points in the middles of its sides: as heavy, and as hard to turn.
 fn points(target: &Target, face: usize) -> [Vec3; 3] {
-    let [a, b, c] = target.corners(face);
+    let [a, b, c] = triangle(target, face);
     [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0]
 }
 

@@ -1,7 +1,7 @@
 //! Bounds of foldings over layouts and orders, against brute force: every layout, every root and every order of small
 //! meshes, measured by arithmetic that is not the planner's.
 
-use crate::planners::fold::{MASS, TRUTH, mesh};
+use crate::planners::fold::{MASS, TRUTH, mesh, triangle};
 use crate::support::properties::whole;
 use modl::geometry::Vec3;
 use modl::planners::NoProgress;
@@ -112,7 +112,7 @@ impl Moments {
                     },
                 )
             };
-            let [a, b, c] = target.corners(face).map(opened);
+            let [a, b, c] = triangle(target, face).map(opened);
             let (point, axis, _) = line(path[place]);
             let distances = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0]
                 .map(|p| (p - point).cross(&axis).norm_squared());

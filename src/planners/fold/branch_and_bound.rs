@@ -19,10 +19,10 @@ use super::layout::Layout;
 use super::observer::Observer;
 use super::open_node::{Node, NodePaths};
 use super::pattern::Pattern;
-use super::shortest_paths::{self, Allowed, Arc, ShortestPaths};
+use super::shortest_paths::{self, Allowed, ShortestPaths, bits};
 use super::symmetry;
 use super::tabu_unfolding;
-use super::target::Target;
+use super::target::{Arc, Target};
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 use std::collections::BinaryHeap;
@@ -296,7 +296,7 @@ impl<'s> Search<'s, '_, '_> {
             let bound = bound.max(ways.costs.iter().sum());
             return self.push(Node { root, bound, number: 0, ways: Some(ways) });
         };
-        match shortest_paths::disputed(root, &shortest_paths::uses(self.target, &ways.paths)) {
+        match shortest_paths::disputed(self.target, root, &shortest_paths::uses(self.target, &ways.paths)) {
             None => self.settle(bounds, root, bound, ways),
             Some(_) if ways.rising => {
                 let better = self.ascend(bounds, root, bound, &mut ways);
@@ -305,7 +305,7 @@ impl<'s> Search<'s, '_, '_> {
                 }
             }
             Some(by_paths) => {
-                let face = shortest_paths::disputed(root, &ways.uses)
+                let face = shortest_paths::disputed(self.target, root, &ways.uses)
                     .filter(|face| ways.allowed[*face].count_ones() > 1);
                 self.enter_across_each(bounds, root, bound, &ways, face.unwrap_or(by_paths));
             }
@@ -378,9 +378,9 @@ impl<'s> Search<'s, '_, '_> {
         face: usize,
     ) {
         self.nodes += 1;
-        for side in (0..3).filter(|side| ways.allowed[face] & (1 << side) != 0) {
+        for side in bits(ways.allowed[face]) {
             let mut allowed = ways.allowed.clone();
-            shortest_paths::keep(self.target, &mut allowed, shortest_paths::arc(face, side));
+            shortest_paths::keep(self.target, &mut allowed, self.target.arc(face, side));
             self.child(bounds, root, bound, ways, allowed);
         }
     }
@@ -398,7 +398,7 @@ impl<'s> Search<'s, '_, '_> {
         let mut allowed = ways.allowed.clone();
         for &an_arc in path {
             let mut left_out = allowed.clone();
-            let (face, side) = shortest_paths::head(an_arc);
+            let (face, side) = self.target.head(an_arc);
             left_out[face] &= !(1 << side);
             self.child(bounds, root, bound, ways, left_out);
             shortest_paths::keep(self.target, &mut allowed, an_arc);
@@ -440,7 +440,7 @@ impl<'s> Search<'s, '_, '_> {
     ) -> bool {
         for face in 0..ways.paths.len() {
             let lost = ways.paths[face].iter().any(|&a| {
-                let (entered, side) = shortest_paths::head(a);
+                let (entered, side) = self.target.head(a);
                 allowed[entered] & (1 << side) == 0
             });
             if lost {
@@ -539,7 +539,7 @@ impl<'s> Search<'s, '_, '_> {
         let n = self.target.faces.len();
         let mut allowed: Allowed = vec![0; n];
         for (face, sides) in self.target.sides.iter().enumerate().filter(|(face, _)| *face != root) {
-            allowed[face] = (0..3).filter(|&k| sides[k].is_some()).map(|k| 1 << k).sum();
+            allowed[face] = (0..sides.len()).filter(|&k| sides[k].is_some()).map(|k| 1 << k).sum();
         }
         let mut ways = NodePaths {
             allowed,
@@ -594,7 +594,7 @@ fn overlapping_path(target: &Target, layout: &Layout) -> Option<Vec<Arc>> {
     let arc_of = |&index: &usize| {
         let [a, b] = target.hinges[index].faces;
         let below = if layout.hinge[b] == Some(index) { b } else { a };
-        shortest_paths::arc(below, layout.across(target, below).side)
+        target.arc(below, layout.across(target, below).side)
     };
     Some(shortest.iter().map(arc_of).collect())
 }

@@ -5,12 +5,12 @@
 //! on the order of m's own path. Going down the tree, each face is put at every index of its ancestors'
 //! order; orders that agree on their common ancestors can always be merged.
 
-use super::inertia::{Inertia, moment_about};
+use super::inertia::{Inertia, moment_in};
 use super::kinematics::about;
 use super::layout::Layout;
 use super::target::Target;
 use super::weights::QUINTIC;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::Pose;
 
 /// The greatest number of hinges on a path from the root of a layout that [`least_energy`] searches: the work grows
 /// with its factorial.
@@ -72,8 +72,8 @@ pub fn means(
         let point = parent.transform_point(&hinge.point.into()).coords;
         let axis = parent.rotation * hinge.axis;
         for below in (0..folded.len()).filter(|&below| layout.is_above(face, below)) {
-            let corners = target.corners(below).map(|c| poses[below].transform_point(&c.into()).coords);
-            let moment = moment_about(&corners, masses[below], inertia, &point, &axis);
+            let corners = target.corners(below);
+            let moment = moment_in(&poses[below], corners, masses[below], inertia, &point, &axis);
             means[face] += QUINTIC * hinge.angle.abs() * moment;
         }
         folded[face] = true;
@@ -105,9 +105,8 @@ impl Costs {
             let hinge = &target.hinges[layout.hinge[above].expect("the root is not on the path")];
             let axis = hinge.axis_from(layout.parent[above]);
             let cost = |place: &Pose| {
-                let corners: [Vec3; 3] =
-                    target.corners(face).map(|c| place.transform_point(&c.into()).coords);
-                let moment = moment_about(&corners, masses[face], inertia, &hinge.point, &axis);
+                let corners = target.corners(face);
+                let moment = moment_in(place, corners, masses[face], inertia, &hinge.point, &axis);
                 QUINTIC * hinge.angle.abs() * moment
             };
             tables.push(places.iter().map(cost).collect());

@@ -314,8 +314,8 @@ struct Tree<'t> {
     order: Vec<(usize, usize, usize)>,
     /// The faces at and below each face.
     below: [u64; FACES_MAX],
-    /// The kept hinges of each face and the faces across them.
-    around: [[(u32, u32); 3]; FACES_MAX],
+    /// The kept hinges of each face and the faces across them: as many places for each face as it has sides.
+    around: Vec<(u32, u32)>,
     degree: [usize; FACES_MAX],
 }
 
@@ -325,7 +325,7 @@ impl<'t> Tree<'t> {
             target,
             order: Vec::with_capacity(FACES_MAX),
             below: [0; FACES_MAX],
-            around: [[(0, 0); 3]; FACES_MAX],
+            around: vec![(0, 0); target.arc_count()],
             degree: [0; FACES_MAX],
         }
     }
@@ -336,7 +336,7 @@ impl<'t> Tree<'t> {
         for &index in hinges {
             let [a, b] = self.target.hinges[index].faces;
             for (face, other) in [(a, b), (b, a)] {
-                self.around[face][self.degree[face]] = (index as u32, other as u32);
+                self.around[self.target.arcs(face).start + self.degree[face]] = (index as u32, other as u32);
                 self.degree[face] += 1;
             }
         }
@@ -347,7 +347,7 @@ impl<'t> Tree<'t> {
             let (face, parent, _) = self.order[next];
             next += 1;
             self.below[face] = 1 << face;
-            for &(hinge, other) in &self.around[face][..self.degree[face]] {
+            for &(hinge, other) in &self.around[self.target.arcs(face).start..][..self.degree[face]] {
                 let (hinge, other) = (hinge as usize, other as usize);
                 // Two faces may share two hinges, but a tree has only one of them.
                 if other != parent || face == parent {

@@ -39,7 +39,9 @@ pub(super) struct Candidates {
     /// not less folds without a collision in samples.
     cutoff: f64,
     /// True once a layout has ended the evaluation in that way.
-    is_cut_off: bool,
+    pub is_cut_off: bool,
+    /// True where no layout was let through with the leaves first, so that panels are in each other's way so.
+    pub is_barred: bool,
     /// Those that the judge let through.
     accepted: Vec<Outcome>,
     /// The reason for which the first layout that the judge refused was refused; `None` while none was.
@@ -58,6 +60,7 @@ impl Candidates {
             sequence,
             cutoff,
             is_cut_off: false,
+            is_barred: false,
             accepted: Vec::new(),
             first: None,
             sampled: 0,

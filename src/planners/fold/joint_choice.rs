@@ -10,7 +10,7 @@ use super::layout::Layout;
 use super::objective::Minimise;
 use super::order_bounds::{self, Orders};
 use super::order_descent;
-use super::pattern::has_equal_sides;
+use super::pattern::has_equal_triangles;
 use super::proposals::Proposals;
 use super::refusal::{Refusal, Rejection};
 use super::settings::Sequence;
@@ -83,7 +83,10 @@ impl Task<'_> {
             let mut of_sequence = Candidates::new(sequence, cutoff);
             match self.best_accepted(&mut of_sequence, found) {
                 Ok(Some(chosen)) => best = self.lesser(best, Some(chosen.outcome)),
-                Ok(None) | Err(Refusal::SequenceTooHigh) => {}
+                Ok(None) => {
+                    candidates.is_barred |= sequence == Sequence::LeavesFirst && !of_sequence.is_cut_off;
+                }
+                Err(Refusal::SequenceTooHigh) => {}
                 Err(refusal) => return Err(refusal),
             }
         }
@@ -137,7 +140,7 @@ impl Task<'_> {
         let are_few =
             spanning_trees::layouts(self.target).to_u64().is_some_and(|n| n <= HEURISTIC_LAYOUTS_MAX);
         let are_equal = masses.iter().all(|mass| (mass - masses[0]).abs() <= TOLERANCES.mass * masses[0]);
-        if !(are_few && are_equal && has_equal_sides(self.target)) {
+        if !(are_few && are_equal && has_equal_triangles(self.target)) {
             return None;
         }
         let panel = &self.panels.weakest;

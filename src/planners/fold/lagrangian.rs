@@ -19,8 +19,8 @@
 //! flows.
 
 use super::frontier::Frontier;
-use super::shortest_paths::{self, Allowed, Arc};
-use super::target::Target;
+use super::shortest_paths::{self, Allowed, bits};
+use super::target::{Arc, Target};
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
 
@@ -33,8 +33,8 @@ const SHORTER: f64 = 0.7;
 /// The number of sums over the table of multipliers that take about as long as settling a face on a path.
 const SUMS: usize = 64;
 
-/// The multipliers λ that are not zero, each with its index in the table by goal face j and arc a ([`Arc`]: 3 · face +
-/// side), `3 * faces * j + a`; N·m for steps of one second.
+/// The multipliers λ that are not zero, each with its index in the table by goal face j and [`Arc`] a,
+/// `arcs * j + a`; N·m for steps of one second.
 pub type Multipliers = [(u32, f64)];
 
 /// The result of a subgradient ascent ([`Lagrangian::ascend`]).
@@ -44,9 +44,8 @@ pub struct Ascent {
     pub bound: f64,
     /// The multipliers of that bound, as [`Multipliers`]; those given if no layout is left.
     pub multipliers: Vec<(u32, f64)>,
-    /// For each face and each of its sides 0 to 2, the number of paths of the last round that enter there; all 0 if no
-    /// layout is left.
-    pub uses: Vec<[u32; 3]>,
+    /// The number of paths of the last round that use each arc; all 0 if no layout is left.
+    pub uses: Vec<u32>,
     /// The length of the last step, without unit: the factor of Polyak's step, which is made of the gap between bound
     /// and estimated optimum.
     pub length: f64,
@@ -74,7 +73,7 @@ struct Exit {
     into: u32,
     arc: Arc,
     /// The bit of its side in [`Allowed`]; 0 of a side without a hinge, which is never allowed.
-    bit: u8,
+    bit: u32,
 }
 
 /// The Lagrangian relaxation of one target under its weights, with its working memory.
@@ -82,15 +81,15 @@ pub struct Lagrangian<'t> {
     target: &'t Target,
     faces: usize,
     arcs: usize,
-    /// The arcs that leave each face.
-    out: Vec<[Exit; 3]>,
+    /// The arcs that leave the faces, face after face, as many places for each as it has sides.
+    out: Vec<Exit>,
     /// The face from which each arc comes.
     tail: Vec<usize>,
     /// The cost with the multiplier, by face, then by arc.
     costs: Vec<f64>,
     multipliers: Vec<f64>,
-    /// The cost of the cheapest path to each face across each of its sides, multipliers included.
-    reached: Vec<[f64; 3]>,
+    /// The cost of the cheapest path by each arc to the face that it enters, multipliers included.
+    reached: Vec<f64>,
     /// The arc by which a goal's path enters a face, by goal, then by face.
     entered: Vec<Arc>,
     distance: Vec<f64>,
@@ -103,16 +102,16 @@ impl<'t> Lagrangian<'t> {
     /// Returns the relaxation of a target under its weights, with all multipliers zero.
     pub fn new(target: &'t Target, weights: &Weights) -> Lagrangian<'t> {
         let faces = target.faces.len();
-        let arcs = 3 * faces;
-        let mut out = vec![[Exit::default(); 3]; faces];
+        let arcs = target.arc_count();
+        let mut out = vec![Exit::default(); arcs];
         let mut tail = vec![usize::MAX; arcs];
         let mut costs = vec![f64::INFINITY; faces * arcs];
         for (index, hinge) in target.hinges.iter().enumerate() {
             for end in 0..2 {
                 let (into, from) = (hinge.faces[end], hinge.faces[1 - end]);
-                let arc = shortest_paths::arc(into, hinge.sides[end]);
-                let free = out[from].iter_mut().find(|exit: &&mut Exit| exit.bit == 0);
-                *free.expect("a face has three sides") =
+                let arc = target.arc(into, hinge.sides[end]);
+                let free = out[target.arcs(from)].iter_mut().find(|exit: &&mut Exit| exit.bit == 0);
+                *free.expect("a face has a place for each side") =
                     Exit { into: into as u32, arc, bit: 1 << hinge.sides[end] };
                 let arc = arc as usize;
                 tail[arc] = from;
@@ -129,7 +128,7 @@ impl<'t> Lagrangian<'t> {
             tail,
             costs,
             multipliers: vec![0.0; faces * arcs],
-            reached: vec![[f64::INFINITY; 3]; faces],
+            reached: vec![f64::INFINITY; arcs],
             entered: vec![Arc::MAX; faces * faces],
             distance: vec![0.0; faces],
             queue: Frontier::default(),
@@ -142,8 +141,8 @@ impl<'t> Lagrangian<'t> {
     /// the cutoff uses are removed from `allowed` (fixing by reduced costs). `steps` counts down the faces settled on
     /// paths and the sums over multipliers; at zero the ascent ends. `limits`: the limits at which the ascent ends.
     ///
-    /// In the first round and in every `LAYOUTS_EVERY`-th one `layouts` is called with the arc (3 · face + side)
-    /// chosen into each face, by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no
+    /// In the first round and in every `LAYOUTS_EVERY`-th one `layouts` is called with the arc chosen
+    /// into each face, by face, and with `steps`. These arcs are nearly a layout; the entry of the root has no
     /// meaning. If it returns an energy below the cutoff, that is the cutoff from then on.
     pub fn ascend(
         &mut self,
@@ -218,12 +217,12 @@ impl<'t> Lagrangian<'t> {
     }
 
     /// Computes the paths from the root to the sides of a face by Dijkstra's algorithm, multipliers included.
-    fn reach(&mut self, root: usize, goal: usize, allowed: &[u8], steps: &mut u64) {
+    fn reach(&mut self, root: usize, goal: usize, allowed: &[u32], steps: &mut u64) {
         let costs = &self.costs[goal * self.arcs..][..self.arcs];
         let multipliers = &self.multipliers[goal * self.arcs..][..self.arcs];
         let entered = &mut self.entered[goal * self.faces..][..self.faces];
         let distance = &mut self.distance[..self.faces];
-        let mut found = [f64::INFINITY; 3];
+        self.reached[self.target.arcs(goal)].fill(f64::INFINITY);
         let mut sides_left = allowed[goal].count_ones();
         let mut settled = 0;
         distance.fill(f64::INFINITY);
@@ -234,13 +233,13 @@ impl<'t> Lagrangian<'t> {
                 continue;
             }
             settled += 1;
-            for &Exit { into, arc, bit } in &self.out[face] {
+            for &Exit { into, arc, bit } in &self.out[self.target.arcs(face)] {
                 let (into, arc) = (into as usize, arc as usize);
                 if allowed[into] & bit == 0 {
                     continue;
                 }
                 if into == goal {
-                    found[arc % 3] = cost + costs[arc];
+                    self.reached[arc] = cost + costs[arc];
                     sides_left -= 1;
                     continue;
                 }
@@ -256,7 +255,6 @@ impl<'t> Lagrangian<'t> {
             }
         }
         *steps = steps.saturating_sub(settled);
-        self.reached[goal] = found;
     }
 
     /// Returns the sum of its users' multipliers by arc.
@@ -271,15 +269,16 @@ impl<'t> Lagrangian<'t> {
     /// Returns the reduced cost of entering a face across an arc.
     #[inline]
     fn value(&self, arc: usize, paid: &[f64]) -> f64 {
-        self.reached[arc / 3][arc % 3] - paid[arc]
+        self.reached[arc] - paid[arc]
     }
 
     /// Lets every face choose the arc of least reduced cost. Returns the bound, or `None` where a face can't be
     /// entered.
-    fn choose(&mut self, root: usize, allowed: &[u8], paid: &[f64]) -> Option<f64> {
+    fn choose(&mut self, root: usize, allowed: &[u32], paid: &[f64]) -> Option<f64> {
         let mut sum = 0.0;
         for face in (0..self.faces).filter(|face| *face != root) {
-            let arcs = (0..3).filter(|side| allowed[face] & (1 << side) != 0).map(|side| 3 * face + side);
+            let first = self.target.arcs(face).start;
+            let arcs = bits(allowed[face]).map(|side| first + side);
             let chosen = arcs.min_by(|a, b| self.value(*a, paid).total_cmp(&self.value(*b, paid)))?;
             self.chosen[face] = chosen;
             sum += self.value(chosen, paid);
@@ -294,15 +293,16 @@ impl<'t> Lagrangian<'t> {
         let mut any = false;
         for face in (0..self.faces).filter(|face| *face != root) {
             let least = self.value(self.chosen[face], paid);
-            for side in (0..3).filter(|side| allowed[face] & (1 << side) != 0).collect::<Vec<_>>() {
-                if bound - least + self.value(3 * face + side, paid) > limit {
+            let first = self.target.arcs(face).start;
+            for side in bits(allowed[face]) {
+                if bound - least + self.value(first + side, paid) > limit {
                     allowed[face] &= !(1 << side);
                     any = true;
                 }
             }
             if allowed[face].count_ones() == 1 {
-                let only = shortest_paths::arc(face, allowed[face].trailing_zeros() as usize);
-                let (from, side) = shortest_paths::head(shortest_paths::reversed(self.target, only));
+                let only = self.target.arc(face, allowed[face].trailing_zeros() as usize);
+                let (from, side) = self.target.head(shortest_paths::reversed(self.target, only));
                 if from != root && allowed[from] & (1 << side) != 0 {
                     allowed[from] &= !(1 << side);
                     any = true;
@@ -332,7 +332,7 @@ impl<'t> Lagrangian<'t> {
             let row = goal * self.arcs;
             self.along(root, goal, |arc| {
                 used[arc] = goal;
-                if self.chosen[arc / 3] != arc {
+                if self.chosen[self.target.entered(arc as Arc)] != arc {
                     up.push((goal, row + arc));
                 }
             });
@@ -357,16 +357,15 @@ impl<'t> Lagrangian<'t> {
         count > 0 && by > 0.0
     }
 
-    /// Returns the number of paths that enter by each face and side.
-    fn uses(&self, root: usize) -> Vec<[u32; 3]> {
-        let mut uses = vec![[0; 3]; self.faces];
+    /// Returns the number of paths that use each arc.
+    fn uses(&self, root: usize) -> Vec<u32> {
+        let mut uses = vec![0; self.arcs];
         if self.chosen.iter().enumerate().any(|(face, arc)| face != root && *arc == usize::MAX) {
             return uses;
         }
         for goal in (0..self.faces).filter(|goal| *goal != root) {
-            let last = self.chosen[goal];
-            uses[goal][last % 3] += 1;
-            self.along(root, goal, |arc| uses[arc / 3][arc % 3] += 1);
+            uses[self.chosen[goal]] += 1;
+            self.along(root, goal, |arc| uses[arc] += 1);
         }
         uses
     }
@@ -377,14 +376,14 @@ const LAYOUTS_EVERY: usize = 20;
 
 /// Returns the hinges (indices in [`Target::hinges`], in no certain order) of a layout made of one arc into each face
 /// (Lagrangian heuristic). `root`: an index in [`Target::faces`]. `chosen`: for each face in their order, the arc by
-/// which it is entered, 3 · face + side with the side 0 to 2 of that face; the root's entry is not read.
+/// which it is entered; the root's entry is not read.
 ///
 /// Faces whose arcs lead back to the root keep them. Arcs that form a cycle do not: the faces of the cycle and those
 /// that follow it are joined to the rest across the hinge of least index that leads there, and the arc back into the
 /// cycle's first face is given up. Panics if a chosen side has no hinge or the target is not connected.
 pub fn repaired(target: &Target, root: usize, chosen: &[usize]) -> Vec<usize> {
     let n = target.faces.len();
-    let hinge_of = |arc: usize| target.sides[arc / 3][arc % 3].expect("arcs lead across hinges");
+    let hinge_of = |arc: usize| target.hinge_at(arc as Arc).expect("arcs lead across hinges");
     let mut followers: Vec<Vec<usize>> = vec![Vec::new(); n];
     for face in (0..n).filter(|face| *face != root) {
         followers[target.hinges[hinge_of(chosen[face])].other(face)].push(face);

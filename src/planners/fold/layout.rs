@@ -18,14 +18,14 @@ pub struct Layout {
     pub order: Vec<usize>,
 }
 
-/// The sides of their triangles at which a face and its parent are joined.
+/// The sides at which a face and its parent are joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Across {
     /// The index in [`Target::faces`] of the parent of the face.
     pub parent: usize,
-    /// The parent's side at the hinge, 0 to 2.
+    /// The parent's side at the hinge, from 0.
     pub parent_side: usize,
-    /// The face's side at the hinge, 0 to 2.
+    /// The face's side at the hinge, from 0.
     pub side: usize,
 }
 

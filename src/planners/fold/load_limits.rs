@@ -78,8 +78,10 @@ impl LoadLimits {
         let place = |face: usize, p: Vec3| poses[face].transform_point(&p.into()).coords;
         let height = |p: &Vec3| up.dot(p) - level;
         let faces = 0..poses.len();
-        let corners: Vec<[Vec3; 3]> =
-            faces.clone().map(|face| target.corners(face).map(|p| place(face, p))).collect();
+        let corners: Vec<Vec<Vec3>> = faces
+            .clone()
+            .map(|face| target.corners(face).iter().map(|p| place(face, *p)).collect())
+            .collect();
         for face in faces.clone() {
             let lowest = corners[face].iter().map(height).fold(f64::INFINITY, f64::min);
             if lowest < -self.depth {

@@ -1,4 +1,4 @@
-//! Folding: from a triangle mesh to the flat pattern that folds into it for the least energy, with
+//! Folding: from a mesh of flat convex faces to the flat pattern that folds into it for the least energy, with
 //! proof, and the order of folding. After "A Reconfiguration Strategy for Modular Robots using
 //! Origami Folding" (Yao, Belke, Cui, Paik, IJRR); where it differs, the files say so.
 //!
@@ -31,6 +31,7 @@ pub mod inertia;
 mod layout;
 mod layout_sample;
 mod objective;
+pub mod polygon;
 pub mod spanning_trees;
 pub mod symmetry;
 mod target;
@@ -95,7 +96,7 @@ pub use net::{Edge, Net};
 pub use objective::{Conventions, Effort, Minimise, Objective};
 pub use observer::Observer;
 pub use order_bounds::Orders;
-pub use panel::{NotAPanel, Panel, Panels, equal_sides};
+pub use panel::{NotAPanel, Panel, Panels};
 pub use plan::plan;
 pub use plate::Plate;
 pub use random_orders::Sample;
@@ -105,7 +106,7 @@ pub use settings::{MassModel, Method, Problem, Sequence, Settings};
 pub use sheet::{NoHinge, Sheet};
 pub use simulation::Count;
 pub use spectrum::Spectrum;
-pub use target::{FACES_MAX, Hinge, Target};
+pub use target::{Arc, FACES_MAX, Hinge, SIDES_MAX, Target};
 pub use tolerances::{TOLERANCES, Tolerances};
 pub use unfoldable::Unfoldable;
 pub use weights::Weights;

@@ -1,7 +1,7 @@
 //! The cut net of a layout: one sheet in the plane whose edges are hinges or outline.
 //!
 //! Along a cut the corners of both faces are kept apart, so the net is a disk even where faces of it
-//! touch: two vertices more than faces.
+//! touch.
 
 use super::kinematics::poses_at;
 use super::layout::{Across, Layout};
@@ -9,7 +9,7 @@ use super::pattern::{Pattern, Point};
 use super::target::Target;
 use crate::geometry::{Pose, Vec3};
 
-/// A cut net of a layout in the plane: a topological disk of triangles, each a face of the target.
+/// A cut net of a layout in the plane: a topological disk of polygons, each a face of the target.
 #[derive(Clone, Debug)]
 pub struct Net {
     /// The positions of the vertices in the plane, m; the root's first corner is the origin, its first side goes
@@ -18,7 +18,7 @@ pub struct Net {
     /// A face with which each vertex moves, and the face's corner that it is.
     owners: Vec<(usize, usize)>,
     /// The corners of each face of the target, in the order of [`Target::faces`], as indices in `vertices`.
-    pub faces: Vec<[usize; 3]>,
+    pub faces: Vec<Vec<usize>>,
     /// The edges: first the hinges that fold, in the order of the layout's faces without the root, then the outline,
     /// face by face.
     pub edges: Vec<Edge>,
@@ -45,21 +45,24 @@ impl Net {
         let pattern = Pattern::of(target, layout);
         let n = target.faces.len();
         let mut net = Net {
-            vertices: pattern.corners[layout.root].to_vec(),
-            owners: (0..3).map(|corner| (layout.root, corner)).collect(),
-            faces: vec![[0; 3]; n],
+            vertices: pattern.corners[layout.root].clone(),
+            owners: (0..target.side_count(layout.root)).map(|corner| (layout.root, corner)).collect(),
+            faces: vec![Vec::new(); n],
             edges: Vec::new(),
         };
-        net.faces[layout.root] = [0, 1, 2];
+        net.faces[layout.root] = (0..target.side_count(layout.root)).collect();
         for &face in &layout.order[1..] {
             let Across { parent, parent_side: k, side: m } = layout.across(target, face);
-            let (from, to) = (net.faces[parent][k], net.faces[parent][(k + 1) % 3]);
-            let free = (m + 2) % 3;
-            net.faces[face][m] = to;
-            net.faces[face][(m + 1) % 3] = from;
-            net.faces[face][free] = net.vertices.len();
-            net.vertices.push(pattern.corners[face][free]);
-            net.owners.push((face, free));
+            let (from, to) = (net.faces[parent][k], net.faces[parent][(k + 1) % net.faces[parent].len()]);
+            let sides = target.side_count(face);
+            let mut corners = vec![0; sides];
+            (corners[m], corners[(m + 1) % sides]) = (to, from);
+            for free in (2..sides).map(|k| (m + k) % sides) {
+                corners[free] = net.vertices.len();
+                net.vertices.push(pattern.corners[face][free]);
+                net.owners.push((face, free));
+            }
+            net.faces[face] = corners;
             let hinge = layout.hinge[face].expect("only the root has none");
             let angle = Some(target.hinges[hinge].angle);
             net.edges.push(Edge { vertices: [from, to], faces: vec![parent, face], angle, glued: None });
@@ -72,7 +75,7 @@ impl Net {
     fn outline(&mut self, target: &Target, layout: &Layout) {
         let mut first: Vec<Option<usize>> = vec![None; target.hinges.len()];
         for face in 0..target.faces.len() {
-            for side in 0..3 {
+            for side in 0..target.side_count(face) {
                 let hinge = target.sides[face][side];
                 let folds =
                     |hinge: usize| target.hinges[hinge].faces.iter().any(|f| layout.hinge[*f] == Some(hinge));
@@ -80,12 +83,12 @@ impl Net {
                     continue;
                 }
                 let number = self.edges.len();
-                let corners = self.faces[face];
+                let corners = &self.faces[face];
                 let glued = hinge.and_then(|hinge| first[hinge].replace(number));
                 if let Some(other) = glued {
                     self.edges[other].glued = Some(number);
                 }
-                let vertices = [corners[side], corners[(side + 1) % 3]];
+                let vertices = [corners[side], corners[(side + 1) % corners.len()]];
                 self.edges.push(Edge { vertices, faces: vec![face], angle: None, glued });
             }
         }
@@ -96,7 +99,7 @@ impl Net {
     /// its outside up. `target` and `layout`: those that the net was cut from.
     pub fn vertices_at(&self, target: &Target, layout: &Layout, angle: impl Fn(usize) -> f64) -> Vec<Vec3> {
         let X_TF = poses_at(target, layout, angle);
-        let [a, b, _] = target.corners(layout.root);
+        let (a, b) = (target.corners(layout.root)[0], target.corners(layout.root)[1]);
         let z = target.normal(layout.root);
         let x = (b - a).normalize();
         let axes = nalgebra::Matrix3::from_columns(&[x, z.cross(&x), z]);

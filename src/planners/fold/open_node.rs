@@ -1,7 +1,8 @@
 //! Nodes of branch and bound that are open, in the order of best-first search.
 
 use super::lagrangian::Multipliers;
-use super::shortest_paths::{Allowed, Arc};
+use super::shortest_paths::Allowed;
+use super::target::Arc;
 use std::cmp::Ordering;
 use std::rc::Rc;
 
@@ -34,9 +35,8 @@ pub(super) struct NodePaths {
     pub(super) length: f64,
     /// True while another ascent may raise the bound further.
     pub(super) rising: bool,
-    /// For each face and each of its sides 0 to 2, the number of paths that entered there at the end of the last
-    /// ascent.
-    pub(super) uses: Vec<[u32; 3]>,
+    /// The number of paths that used each arc at the end of the last ascent; empty before the first.
+    pub(super) uses: Vec<u32>,
 }
 
 /// The node of least bound is the greatest; of equal ones the newest, then that of the first root.

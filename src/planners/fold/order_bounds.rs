@@ -10,7 +10,7 @@
 //! there on a hinge spends no less than the least moment of inertia of the face about any line, so the rest of a
 //! path costs no less than that by the least sum of angles on the way to the root.
 
-use super::inertia::{Body, Inertia, moment_about};
+use super::inertia::{Body, Inertia, moment_in};
 use super::kinematics::about;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
@@ -56,6 +56,7 @@ impl Orders {
 pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders: Orders) -> Vec<f64> {
     let faces = masses.len();
     let angles = least_angles(target);
+    let depth = depth(target, orders);
     let mut sums = vec![0.0; faces];
     for (goal, &mass) in masses.iter().enumerate() {
         crate::interrupt::checkpoint();
@@ -65,7 +66,7 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
             mass,
             inertia,
             orders,
-            depth: depth(faces, orders),
+            depth,
             on_path: vec![false; faces],
             least: vec![f64::INFINITY; faces],
             cut: vec![f64::INFINITY; faces],
@@ -82,11 +83,17 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
 }
 
 /// Returns the number of hinges up to which paths are enumerated, at least one.
-fn depth(faces: usize, orders: Orders) -> usize {
-    // A face has three neighbours, and every face after it two that the path has not passed.
-    let growth = 2 * orders.growth();
-    let within = |depth: &usize| growth.checked_pow(*depth as u32).is_some_and(|n| n <= POSES_MAX / faces);
-    (1..faces.max(2)).take_while(within).last().unwrap_or(1)
+fn depth(target: &Target, orders: Orders) -> usize {
+    // The mean number of neighbours of the face that a hinge leads to, without the one that it comes from: two where all
+    // faces are triangles.
+    let counts = || (0..target.faces.len()).map(|face| target.around(face).count() as f64);
+    let ways = counts().map(|n| n * (n - 1.0)).sum::<f64>() / counts().sum::<f64>().max(1.0);
+    let growth = ways.max(2.0) * orders.growth() as f64;
+    let most = (POSES_MAX / target.faces.len()) as f64;
+    (1..target.faces.len().max(2))
+        .take_while(|depth| libm::pow(growth, *depth as f64) <= most)
+        .last()
+        .unwrap_or(1)
 }
 
 /// Returns by pair of faces the least sum of absolute fold angles on a path between them, rad (Floyd-Warshall).
@@ -111,7 +118,7 @@ fn least_angles(target: &Target) -> Vec<Vec<f64>> {
 }
 
 /// Returns the least moment of inertia of a panel about any line, kg·m².
-fn least_moment(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> f64 {
+fn least_moment(corners: &[Vec3], mass: f64, inertia: Inertia) -> f64 {
     let moments = Body::of_panel(corners, mass, inertia).inertia.symmetric_eigenvalues();
     moments.min().max(0.0) * (1.0 - TOLERANCES.moment)
 }
@@ -119,7 +126,7 @@ fn least_moment(corners: &[Vec3; 3], mass: f64, inertia: Inertia) -> f64 {
 /// The enumeration of the paths from one face upwards.
 struct PathSearch<'t> {
     target: &'t Target,
-    corners: [Vec3; 3],
+    corners: &'t [Vec3],
     mass: f64,
     inertia: Inertia,
     orders: Orders,
@@ -149,10 +156,8 @@ impl PathSearch<'_> {
             }
             let hinge = &target.hinges[index];
             let axis = hinge.axis_from(parent);
-            let moment = |pose: &Pose| {
-                let corners = self.corners.map(|corner| pose.transform_point(&corner.into()).coords);
-                moment_about(&corners, self.mass, self.inertia, &hinge.point, &axis)
-            };
+            let moment =
+                |pose: &Pose| moment_in(pose, self.corners, self.mass, self.inertia, &hinge.point, &axis);
             let least = poses.iter().map(moment).fold(f64::INFINITY, f64::min);
             let next = self.orders.next(poses, &about(&hinge.point, axis, -hinge.angle));
             self.extend_path(parent, hinges + 1, &next, cost + QUINTIC * hinge.angle.abs() * least);

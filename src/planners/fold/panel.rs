@@ -1,12 +1,14 @@
-//! Panels: triangular modules with a hinge at each edge, in numbers.
+//! Panels: modules that are flat convex polygons with a hinge at each edge, in numbers.
 
-use super::sweep_collision::Solids;
+use super::polygon;
+use super::sweep_collision::{Solids, panel_pose};
+use super::target::SIDES_MAX;
 use super::tolerances::TOLERANCES;
 use crate::behavior::law;
-use crate::geometry::{Part, Pose, Solid, Vec3};
+use crate::geometry::{Part, Solid, Vec3};
 use crate::plan::Profile;
 use crate::robot::{Library, Link, Port};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use nalgebra::Matrix3;
 use std::fmt;
 use std::sync::Arc;
 
@@ -16,13 +18,15 @@ const STEP_GRAIN: f64 = 0.01;
 /// The time of a step whose hinges have no limits of speed and acceleration, s.
 const STEP_UNLIMITED: f64 = 1.0;
 
-/// A triangular panel module in numbers: geometry, mass, and the limits of the hinges at its edges.
+/// A panel module in numbers: geometry, mass, and the limits of the hinges at its edges.
 #[derive(Clone, Debug)]
 pub struct Panel {
     /// The mass of the panel, kg.
     pub mass: f64,
     /// The lengths of the sides in the order of the module's ports, counterclockwise seen from the front, m.
-    pub sides: [f64; 3],
+    pub sides: Vec<f64>,
+    /// The lengths that tell the panel from others, m: [`measures`](polygon::measures) of its outline.
+    pub measures: Vec<f64>,
     /// The thickness of a uniform plate of the same mass with the same second moment along its normal, m.
     pub thickness: f64,
     /// The greatest speed and acceleration of the hinges at the panel's edges, rad/s and rad/s²; each `None` where no
@@ -41,11 +45,11 @@ pub struct Panel {
 /// The reason why a module type is not a panel: the first property of a panel that it lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotAPanel {
-    /// The module type has another number of ports than three.
+    /// The module type has fewer than three ports, or more than [`SIDES_MAX`].
     Ports,
     /// The module type has another number of links than one.
     Links,
-    /// The ports of the module type are not at the middles of the edges of a triangle, facing outwards.
+    /// The ports of the module type are not at the middles of the edges of a convex polygon, facing outwards.
     PortPoses,
     /// The connector of the ports of the module type has no hinge.
     NoHinge,
@@ -56,7 +60,7 @@ pub enum NotAPanel {
 impl fmt::Display for NotAPanel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            NotAPanel::Ports => "it needs one port for each edge",
+            NotAPanel::Ports => "it needs one port for each edge, of which there are at least three",
             NotAPanel::Links => "it has more than one link",
             NotAPanel::PortPoses => {
                 "its ports are not at the middles of its edges, facing outwards, counterclockwise, \
@@ -78,16 +82,21 @@ impl Panel {
     /// The first property of a panel that this module type lacks, as [`NotAPanel`].
     pub fn of(library: &Library, kind: usize) -> Result<Panel, NotAPanel> {
         let module = &library.modules[kind];
-        let [a, b, c] = &module.ports[..] else { return Err(NotAPanel::Ports) };
+        if module.ports.len() < 3 || module.ports.len() > SIDES_MAX {
+            return Err(NotAPanel::Ports);
+        }
         let [link] = &module.links[..] else { return Err(NotAPanel::Links) };
-        let sides = sides(&[a, b, c]).ok_or(NotAPanel::PortPoses)?;
-        let hinge = library.connectors[a.connector].hinge.as_ref().ok_or(NotAPanel::NoHinge)?;
+        let outline = outline(&module.ports).ok_or(NotAPanel::PortPoses)?;
+        let first = &module.ports[0];
+        let hinge = library.connectors[first.connector].hinge.as_ref().ok_or(NotAPanel::NoHinge)?;
         let solid = Solid::new(&link.collides).map_err(|_| NotAPanel::Shape)?;
-        let panel_of_link = frame(a, b, c).inverse();
+        let front = first.pose.rotation * Vec3::z();
+        let panel_of_link = panel_pose(&outline, &front).inverse();
         Ok(Panel {
             mass: link.mass,
-            sides,
-            thickness: thickness(link, a.pose.rotation * Vec3::z()),
+            sides: polygon::sides(&outline),
+            measures: polygon::measures(&outline),
+            thickness: thickness(link, front),
             able: law::MotionLimits { speed: hinge.limits.speed, acceleration: hinge.limits.acceleration },
             torque: hinge.limits.effort,
             touch: module.touch,
@@ -96,10 +105,14 @@ impl Panel {
         })
     }
 
-    /// Returns true if the second and the third side of the panel each differ from the first by at most
-    /// `TOLERANCES.side` of the longest.
-    pub fn is_equilateral(&self) -> bool {
-        equal_sides(self.sides, [self.sides[0]; 3], TOLERANCES.side)
+    /// Returns true if the panel is a regular polygon: its sides are equal, and its angles, up to `TOLERANCES.side`.
+    pub fn is_regular(&self) -> bool {
+        let (sides, diagonals) = self.measures.split_at(self.sides.len());
+        let alike = |lengths: &[f64]| {
+            let longest = lengths.iter().copied().fold(0.0, f64::max);
+            lengths.iter().all(|length| (length - lengths[0]).abs() <= TOLERANCES.side * longest)
+        };
+        alike(sides) && alike(diagonals)
     }
 
     /// Returns this panel with the lesser limits of the hinges and the greater thickness and `touch` of the two; a
@@ -129,41 +142,35 @@ impl Panel {
     }
 }
 
-/// Returns true if each side of a triangle differs from that of the same index of another by at most `tol` times the
-/// longest side of the first.
-pub fn equal_sides(a: [f64; 3], b: [f64; 3], tol: f64) -> bool {
-    let longest = a.into_iter().fold(0.0, f64::max);
-    a.iter().zip(b).all(|(x, y)| (x - y).abs() <= tol * longest)
-}
-
-/// Returns the side lengths of a triangle with these ports at the middles of its sides, facing outwards with
-/// their z axes to the front, counterclockwise from there; `None` where the ports are not so.
-fn sides(ports: &[&Port; 3]) -> Option<[f64; 3]> {
-    let middle = ports.map(|port| port.pose.translation.vector);
+/// Returns the corners (m) of a convex polygon with these ports, at least three, at the middles of its sides, facing
+/// outwards with their z axes to the front, counterclockwise from there; corner k is where side k begins. `None` where
+/// the ports are not so.
+fn outline(ports: &[Port]) -> Option<Vec<Vec3>> {
+    let n = ports.len();
     let front = ports[0].pose.rotation * Vec3::z();
-    let mut sides = [0.0; 3];
-    for k in 0..3 {
-        // The segment between the middles of two sides is half the third side, in its direction.
-        let half = middle[(k + 2) % 3] - middle[(k + 1) % 3];
-        sides[k] = 2.0 * half.norm();
-        let out = -half.cross(&front) / half.norm();
-        let turn = &ports[k].pose.rotation;
-        let off = (turn * Vec3::x() - out).norm().max((turn * Vec3::z() - front).norm());
-        if off.is_nan() || off > TOLERANCES.side {
+    let middle = |k: usize| ports[k % n].pose.translation.vector;
+    let out = |k: usize| ports[k % n].pose.rotation * Vec3::x();
+    // A corner is where the lines of two sides cross: seen from the middle of the second side, along it.
+    let corner = |k: usize| {
+        let (before, after) = (k + n - 1, k);
+        let along = front.cross(&out(after));
+        let apart = out(before).dot(&along);
+        let away = out(before).dot(&(middle(before) - middle(after))) / apart;
+        middle(after) + along * away
+    };
+    let corners: Vec<Vec3> = (0..n).map(corner).collect();
+    let longest = polygon::sides(&corners).into_iter().fold(0.0, f64::max);
+    for (k, port) in ports.iter().enumerate() {
+        let (from, to) = (corners[k], corners[(k + 1) % n]);
+        let off = ((from + to) / 2.0 - middle(k)).norm() / longest;
+        let outwards = (to - from).cross(&front).normalize();
+        let turned = (port.pose.rotation * Vec3::z() - front).norm().max((out(k) - outwards).norm());
+        if !(off.max(turned) <= TOLERANCES.side) {
             return None;
         }
     }
-    Some(sides)
-}
-
-/// Returns the panel frame in the frame of its link: the origin is the centroid, x points to the middle of
-/// side 0, z along the normal.
-fn frame(a: &Port, b: &Port, c: &Port) -> Pose {
-    let [p, q, r] = [a, b, c].map(|port| port.pose.translation.vector);
-    let middle = (p + q + r) / 3.0;
-    let (x, z) = ((p - middle).normalize(), a.pose.rotation * Vec3::z());
-    let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]));
-    Pose::from_parts(middle.into(), UnitQuaternion::from_rotation_matrix(&turn))
+    let is_facing_front = polygon::check(&corners).is_ok() && polygon::normal(&corners).dot(&front) > 0.0;
+    is_facing_front.then_some(corners)
 }
 
 /// Returns the thickness d of a uniform plate whose second moment along `normal` is that of the link: d²/12 of

@@ -13,24 +13,25 @@ pub type Point = [f64; 2];
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// The corners of each face of the target in the plane, m: faces and corners in the order of [`Target::faces`].
-    pub corners: Vec<[Point; 3]>,
+    pub corners: Vec<Vec<Point>>,
     /// The cell of each face on the triangular lattice, as the sum of its three [`lattice_corners`], which no two
-    /// cells share; `None` if the sides are not all equal.
+    /// cells share; `None` if the faces are not equilateral triangles of one size.
     pub cells: Option<Vec<[i64; 2]>>,
 }
 
-/// Returns true if all sides of a target are of one length, to `TOLERANCES.equal_sides` of it.
-pub fn has_equal_sides(target: &Target) -> bool {
-    let [a, b, _] = target.corners(0);
-    let side = (b - a).norm();
-    target.check_sides(side, TOLERANCES.equal_sides * side).is_ok()
+/// Returns true if all faces of a target are triangles and their sides of one length, to `TOLERANCES.equal_sides` of it.
+pub fn has_equal_triangles(target: &Target) -> bool {
+    let side = target.side_lengths(0)[0];
+    target.faces.iter().all(|face| face.len() == 3)
+        && target.check_sides(side, TOLERANCES.equal_sides * side).is_ok()
 }
 
 impl Pattern {
-    /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if all sides are equal (up
-    /// to `TOLERANCES.equal_sides`); else laid out face by face from the root on, in floating point.
+    /// Returns the flat pattern of a layout of a target: on the triangular lattice, exactly, if the faces are triangles
+    /// whose sides are all equal (up to `TOLERANCES.equal_sides`); else laid out face by face from the root on, in
+    /// floating point.
     pub fn of(target: &Target, layout: &Layout) -> Pattern {
-        if has_equal_sides(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
+        if has_equal_triangles(target) { on_lattice(target, layout) } else { in_plane(target, layout) }
     }
 
     /// Returns the pairs of faces (indices in [`Target::faces`]) whose interiors overlap, each with the lesser face
@@ -42,10 +43,10 @@ impl Pattern {
         }
     }
 
-    /// Returns the pairs of triangles that overlap, by tests of all pairs whose circles do.
+    /// Returns the pairs of polygons that overlap, by tests of all pairs whose circles do.
     fn crossing(&self) -> Vec<[usize; 2]> {
         let mut found = Vec::new();
-        let circles: Vec<(Point, f64)> = self.corners.iter().map(circle).collect();
+        let circles: Vec<(Point, f64)> = self.corners.iter().map(|corners| circle(corners)).collect();
         let apart = |a: usize, b: usize| {
             let (([x, y], r), ([u, v], s)) = (circles[a], circles[b]);
             (x - u) * (x - u) + (y - v) * (y - v) > (r + s) * (r + s)
@@ -63,9 +64,9 @@ impl Pattern {
     }
 }
 
-/// Returns the circle around the centroid with all corners in it.
-fn circle(corners: &[Point; 3]) -> (Point, f64) {
-    let [x, y] = [0, 1].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / 3.0);
+/// Returns the circle around the mean of the corners with all of them in it.
+fn circle(corners: &[Point]) -> (Point, f64) {
+    let [x, y] = [0, 1].map(|k| corners.iter().map(|c| c[k]).sum::<f64>() / corners.len() as f64);
     let far = corners.iter().map(|[u, v]| (u - x) * (u - x) + (v - y) * (v - y)).fold(0.0, f64::max);
     ([x, y], libm::sqrt(far))
 }
@@ -84,7 +85,7 @@ fn same_cells(cells: &[[i64; 2]]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Returns the corners of all faces of a target whose sides are all equal, in the order of [`Target::faces`], as
+/// Returns the corners of all faces of a target of triangles whose sides are all equal, in the order of [`Target::faces`], as
 /// whole numbers of the triangular lattice's two steps, which enclose 60°; the root's are (0, 0), (1, 0) and (0, 1).
 /// They are exact: a face's free corner is the mirror image of its parent's, `a + b - c`. `layout`: the tree of
 /// hinges across which faces are laid side by side.
@@ -105,50 +106,53 @@ pub fn lattice_corners(target: &Target, layout: &Layout) -> Vec<[[i64; 2]; 3]> {
 /// Lays out a layout of equal sides on the triangular lattice.
 fn on_lattice(target: &Target, layout: &Layout) -> Pattern {
     let lattice = lattice_corners(target, layout);
-    let [a, b, _] = target.corners(layout.root);
-    let side = (b - a).norm();
+    let side = target.side_lengths(layout.root)[0];
     let height = libm::sqrt(0.75);
     let point = |[i, j]: [i64; 2]| [side * (i as f64 + 0.5 * j as f64), side * height * j as f64];
     let cells = lattice.iter().map(|c| [c[0][0] + c[1][0] + c[2][0], c[0][1] + c[1][1] + c[2][1]]);
-    Pattern { cells: Some(cells.collect()), corners: lattice.iter().map(|c| c.map(point)).collect() }
+    Pattern { cells: Some(cells.collect()), corners: lattice.iter().map(|c| c.map(point).to_vec()).collect() }
 }
 
 /// Lays out a layout of any sides, face by face from the root on.
 fn in_plane(target: &Target, layout: &Layout) -> Pattern {
-    let mut corners = vec![[[0.0; 2]; 3]; target.faces.len()];
+    let mut corners: Vec<Vec<Point>> = target.faces.iter().map(|face| vec![[0.0; 2]; face.len()]).collect();
     for &face in &layout.order {
         // Along the side at the hinge from `from` to `to`, which the face has on its left.
         let (m, from, to) = if face == layout.root {
-            let [a, b, _] = target.corners(face);
-            (0, [0.0, 0.0], [(b - a).norm(), 0.0])
+            (0, [0.0, 0.0], [target.side_lengths(face)[0], 0.0])
         } else {
             let Across { parent, parent_side: k, side: m } = layout.across(target, face);
-            (m, corners[parent][(k + 1) % 3], corners[parent][k])
+            (m, corners[parent][(k + 1) % target.side_count(parent)], corners[parent][k])
         };
         let own = target.corners(face);
-        let (a, b, c) = (own[m], own[(m + 1) % 3], own[(m + 2) % 3]);
+        let sides = own.len();
+        let (a, b) = (own[m], own[(m + 1) % sides]);
         let along = (b - a).normalize();
-        let (x, y) = ((c - a).dot(&along), (c - a).cross(&along).norm());
         let length = (b - a).norm();
         let u = [(to[0] - from[0]) / length, (to[1] - from[1]) / length];
         corners[face][m] = from;
-        corners[face][(m + 1) % 3] = to;
-        corners[face][(m + 2) % 3] = [from[0] + u[0] * x - u[1] * y, from[1] + u[1] * x + u[0] * y];
+        corners[face][(m + 1) % sides] = to;
+        for k in (2..sides).map(|k| (m + k) % sides) {
+            // All of a convex face is to the left of each of its sides.
+            let c = own[k];
+            let (x, y) = ((c - a).dot(&along), (c - a).cross(&along).norm());
+            corners[face][k] = [from[0] + u[0] * x - u[1] * y, from[1] + u[1] * x + u[0] * y];
+        }
     }
     Pattern { corners, cells: None }
 }
 
-/// Returns true if the interiors of two counterclockwise triangles meet: no side of either separates them.
-fn overlap(a: &[Point; 3], b: &[Point; 3]) -> bool {
+/// Returns true if the interiors of two counterclockwise convex polygons meet: no side of either separates them.
+fn overlap(a: &[Point], b: &[Point]) -> bool {
     !parts(a, b) && !parts(b, a)
 }
 
 /// Returns true if the line through a side of `a` has all of `b` on its outer side. The side on which a
 /// corner lies is computed without rounding; the tolerance is for the rounding of the corners themselves.
-fn parts(a: &[Point; 3], b: &[Point; 3]) -> bool {
+fn parts(a: &[Point], b: &[Point]) -> bool {
     let coordinate = |[x, y]: Point| Coord { x, y };
-    (0..3).any(|k| {
-        let (p, q) = (a[k], a[(k + 1) % 3]);
+    (0..a.len()).any(|k| {
+        let (p, q) = (a[k], a[(k + 1) % a.len()]);
         let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
         let tol = TOLERANCES.overlap * (dx * dx + dy * dy);
         b.iter().all(|&x| orient2d(coordinate(p), coordinate(q), coordinate(x)) <= tol)

@@ -65,7 +65,12 @@ pub fn plan(
     } else {
         task.best_accepted(&mut candidates, &found)?
     };
-    if let Some(chosen) = accepted {
+    if let Some(mut chosen) = accepted {
+        // Strips and other orders, which take less at times than what was accepted where the leaves can not fold first.
+        if candidates.is_barred {
+            let others = task.lesser(task.of_strips(&found)?, Reordering::new(&task).first(&found)?);
+            chosen.outcome = task.lesser(Some(chosen.outcome), others).expect("one is given");
+        }
         return Ok(answer(&task, chosen, &found));
     }
     if problem.hinges.is_some() {

@@ -1,7 +1,8 @@
 //! Panels for callers without a module library: bevelled plates made to measure for each face.
 
 use super::inertia::{Body, Inertia};
-use super::panel::{NotAPanel, Panels, equal_sides};
+use super::panel::{NotAPanel, Panels};
+use super::polygon;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use crate::geometry::{Placed, Pose, Shape, Vec3};
@@ -14,7 +15,7 @@ use std::sync::Arc;
 /// whose radius is the thickness.
 const FOLD_MAX: f64 = 2.0 * PI / 3.0;
 
-/// A uniform triangular plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
+/// A uniform plate with motors in its edges. The edges are bevelled by 30° on both sides, so that two plates
 /// close up to 60° between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate {
@@ -23,7 +24,8 @@ pub struct Plate {
     /// The distance by which the plate ends inside the sides of its face, so that plates side by side do not meet, m.
     /// Default 0.1 mm.
     pub gap: f64,
-    /// The mass of the motors of one plate, whatever its size, spread evenly over the plate, kg. Default 18 g.
+    /// The mass of the motors of a plate of three sides, whatever its size, spread evenly over the plate, kg: a third of it
+    /// for each side. Default 18 g.
     pub motors: f64,
     /// The mass of the plate per area, without its motors, kg/m². Default some 2.887: 8 g for an equilateral triangle
     /// with sides of 80 mm.
@@ -48,22 +50,25 @@ impl Default for Plate {
 }
 
 impl Plate {
-    /// Returns a panel made to measure for each face of a target; faces with equal sides share a module type.
+    /// Returns a panel made to measure for each face of a target; congruent faces share a module type.
     ///
     /// # Errors
     /// [`NotAPanel::Shape`] if a face is too small for the thickness, so that the bevels meet.
     pub fn panels(&self, target: &Target) -> Result<Panels, NotAPanel> {
-        let mut sides: Vec<[f64; 3]> = Vec::new();
+        let mut made: Vec<(Vec<f64>, usize)> = Vec::new();
         let mut kinds = Vec::with_capacity(target.faces.len());
         for face in 0..target.faces.len() {
-            let wanted = target.side_lengths(face);
-            let known = sides.iter().position(|made| equal_sides(*made, wanted, TOLERANCES.same_panel));
+            let wanted = target.measures(face);
+            let known = made
+                .iter()
+                .position(|(measures, _)| polygon::equal(measures, &wanted, TOLERANCES.same_panel));
             kinds.push(known.unwrap_or_else(|| {
-                sides.push(wanted);
-                sides.len() - 1
+                made.push((wanted, face));
+                made.len() - 1
             }));
         }
-        let modules = sides.iter().map(|sides| self.module(*sides)).collect::<Result<Vec<_>, _>>()?;
+        let module = |(_, face): &(Vec<f64>, usize)| self.module(&target.outline(*face));
+        let modules = made.iter().map(module).collect::<Result<Vec<_>, _>>()?;
         let edge = Connector {
             name: "Edge".into(),
             mates: vec![0],
@@ -78,31 +83,20 @@ impl Plate {
         Panels::new(Arc::new(library), kinds)
     }
 
-    /// Makes the module type of a plate with these sides (m), drawn about the centroid with its front up.
-    fn module(&self, [a, b, c]: [f64; 3]) -> Result<ModuleType, NotAPanel> {
-        // The first side along x, the third corner above it.
-        let foot = (a * a + c * c - b * b) / (2.0 * a);
-        let top = libm::sqrt((c * c - foot * foot).max(0.0));
-        let middle = Vec3::new((a + foot) / 3.0, top / 3.0, 0.0);
-        let corners = [Vec3::zeros(), Vec3::new(a, 0.0, 0.0), Vec3::new(foot, top, 0.0)].map(|p| p - middle);
-        // The incircle, about which the outline is shrunk; the bevel ends at half the thickness.
-        let radius = a * top / (a + b + c);
-        let centre = (corners[0] * b + corners[1] * c + corners[2] * a) / (a + b + c);
-        let inside = radius - self.gap;
-        let outside = inside - self.thickness / 2.0 * libm::sqrt(3.0);
-        if outside.is_nan() || outside <= 0.0 {
-            return Err(NotAPanel::Shape);
-        }
-        let shrunk = |to: f64| corners.map(|corner| centre + (corner - centre) * (to / radius));
-        let level = |z: f64| shrunk(outside).map(|corner| corner + Vec3::new(0.0, 0.0, z));
+    /// Makes the module type of a plate with these corners (m), drawn about the centroid with its front up.
+    fn module(&self, corners: &[Vec3]) -> Result<ModuleType, NotAPanel> {
+        let sides = corners.len();
+        // The bevel ends at half the thickness.
+        let bevel = self.thickness / 2.0 * libm::sqrt(3.0);
+        let inside = polygon::inset(corners, self.gap).ok_or(NotAPanel::Shape)?;
+        let outside = polygon::inset(corners, self.gap + bevel).ok_or(NotAPanel::Shape)?;
+        let level = |z: f64| outside.iter().map(|corner| corner + Vec3::new(0.0, 0.0, z)).collect::<Vec<_>>();
         let half = self.thickness / 2.0;
-        let points = [shrunk(inside), level(-half), level(half)].concat();
+        let points = [inside, level(-half), level(half)].concat();
         let shape = vec![Placed { pose: Pose::identity(), shape: Shape::Hull { points } }];
-        let body = Body::of_panel(
-            &corners,
-            self.motors + self.density * a * top / 2.0,
-            Inertia::Prism(self.thickness),
-        );
+        let motors = self.motors * sides as f64 / 3.0;
+        let mass = motors + self.density * polygon::area(corners);
+        let body = Body::of_panel(corners, mass, Inertia::Prism(self.thickness));
         let i = &body.inertia;
         let link = Link {
             name: "panel".into(),
@@ -117,7 +111,7 @@ impl Plate {
             surface: Surface::default(),
         };
         let port = |k: usize| {
-            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            let (from, to) = (corners[k], corners[(k + 1) % sides]);
             let along = (to - from).normalize();
             let out = Vec3::new(along.y, -along.x, 0.0);
             let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
@@ -133,7 +127,7 @@ impl Plate {
             name: "Plate".into(),
             links: vec![link],
             joints: Vec::new(),
-            ports: (0..3).map(port).collect(),
+            ports: (0..sides).map(port).collect(),
             motors: Vec::new(),
             touching: Vec::new(),
             touch: ModuleType::TOUCH_DEFAULT,

@@ -207,7 +207,7 @@ impl fmt::Display for Refusal {
             Refusal::NotSpanning { hinges, faces } => {
                 write!(f, "{hinges} hinges that join not all {faces} faces")
             }
-            Refusal::NoHinge => f.write_str("no triangular panel: its edges have no hinge"),
+            Refusal::NoHinge => f.write_str("no panel: its edges have no hinge"),
             Refusal::StepTooShort { .. } => f.write_str("the hinges can't fold as fast as that"),
             Refusal::Schedule(refusal) => refusal.reason.fmt(f),
             Refusal::GivenLayout(why) => write!(f, "this layout does not fold so: {why}"),

@@ -5,58 +5,51 @@
 
 use super::frontier::Frontier;
 use super::layout::Layout;
-use super::target::Target;
+use super::target::{Arc, Target};
 use super::weights::Weights;
 use std::rc::Rc;
 
-/// An arc into a face across one of its sides (0 to 2): `3 * face + side`.
-pub type Arc = u32;
-
 /// The sides across which each face may be entered, by face: bit k stands for side k.
-pub type Allowed = Vec<u8>;
+pub type Allowed = Vec<u32>;
 
-/// Returns the arc into a face (an index in [`Target::faces`]) across a side (0 to 2).
+/// Returns the sides in a set of sides, ascending.
 #[inline]
-pub fn arc(face: usize, side: usize) -> Arc {
-    (3 * face + side) as Arc
-}
-
-/// Returns (face, side): the face (an index in [`Target::faces`]) that an arc enters, and the side (0 to 2) of that
-/// face.
-#[inline]
-pub fn head(arc: Arc) -> (usize, usize) {
-    (arc as usize / 3, arc as usize % 3)
+pub fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let side = (set != 0).then(|| set.trailing_zeros() as usize)?;
+        set &= set - 1;
+        Some(side)
+    })
 }
 
 /// Restricts `allowed` to layouts with an arc: its face is entered by it alone, and the opposite arc is removed.
 /// `target`: the surface; `an_arc`: the arc. Panics if the side has no hinge.
 pub fn keep(target: &Target, allowed: &mut Allowed, an_arc: Arc) {
-    let (face, side) = head(an_arc);
+    let (face, side) = target.head(an_arc);
     allowed[face] = 1 << side;
-    let (back, side) = head(reversed(target, an_arc));
+    let (back, side) = target.head(reversed(target, an_arc));
     allowed[back] &= !(1 << side);
 }
 
-/// Returns for each face and each of its sides 0 to 2 the number of paths that enter there; a path is a list of arcs.
-/// `target`: the surface that the paths are on.
-pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<[u32; 3]> {
-    let mut uses = vec![[0u32; 3]; target.faces.len()];
-    for &an_arc in paths.iter().flat_map(|path| path.iter()) {
-        let (face, side) = head(an_arc);
-        uses[face][side] += 1;
-    }
+/// Returns the number of paths that use each arc; a path is a list of arcs. `target`: the surface that the paths are on.
+pub fn uses(target: &Target, paths: &[Rc<[Arc]>]) -> Vec<u32> {
+    let mut uses = vec![0; target.arc_count()];
+    paths.iter().flat_map(|path| path.iter()).for_each(|arc| uses[*arc as usize] += 1);
     uses
 }
 
 /// Returns the face to branch on: the one other than the root with the most paths that enter by another arc than the
 /// commonest, of equal ones that of least index; `None` if all paths into each face agree. `uses`: as [`uses`] returns
-/// them.
-pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
+/// them, or empty, where none is disputed. `target`: the surface that the paths are on.
+pub fn disputed(target: &Target, root: usize, uses: &[u32]) -> Option<usize> {
+    if uses.is_empty() {
+        return None;
+    }
     let dissent = |face: &usize| {
-        let u = uses[*face];
-        u.iter().sum::<u32>() - u.iter().max().expect("there are three")
+        let u = &uses[target.arcs(*face)];
+        u.iter().sum::<u32>() - u.iter().max().expect("a face has sides")
     };
-    let faces = (0..uses.len()).filter(|face| *face != root);
+    let faces = (0..target.faces.len()).filter(|face| *face != root);
     // Of equal ones the first.
     faces.rev().max_by_key(dissent).filter(|face| dissent(face) > 0)
 }
@@ -66,10 +59,7 @@ pub fn disputed(root: usize, uses: &[[u32; 3]]) -> Option<usize> {
 /// Panics if they form no tree.
 pub fn tree(target: &Target, root: usize, paths: &[Rc<[Arc]>]) -> Layout {
     let arcs = paths.iter().filter_map(|path| path.first());
-    let hinge = |a: &Arc| {
-        let (face, side) = head(*a);
-        target.sides[face][side].expect("arcs lead across hinges")
-    };
+    let hinge = |a: &Arc| target.hinge_at(*a).expect("arcs lead across hinges");
     let hinges: Vec<usize> = arcs.map(hinge).collect();
     Layout::of_hinges(target, &hinges, root).expect("paths that agree form a tree")
 }
@@ -144,7 +134,7 @@ impl<'t> ShortestPaths<'t> {
     /// allowed arcs with at most `longest` hinges: the cost in N·m for steps of one second, and the arcs from the goal
     /// back to the root; `None` if there is none. The method is A*, whose heuristic is the cost over all arcs, or the
     /// Bellman-Ford algorithm where `longest` is less than the number of faces. Panics if there is no such face.
-    pub fn route(&mut self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
+    pub fn route(&mut self, root: usize, goal: usize, allowed: &[u32]) -> Option<(f64, Rc<[Arc]>)> {
         if self.longest < self.toward.len() {
             return self.route_in_layers(root, goal, allowed);
         }
@@ -170,7 +160,7 @@ impl<'t> ShortestPaths<'t> {
                 let further = here + self.weights.at(index, goal);
                 if further < self.distance[other] {
                     self.distance[other] = further;
-                    self.entered[other] = arc(other, side);
+                    self.entered[other] = self.target.arc(other, side);
                     self.queue.push(further + ahead[other], other);
                 }
             }
@@ -180,7 +170,7 @@ impl<'t> ShortestPaths<'t> {
 
     /// Returns the cheapest path with at most `longest` hinges by the Bellman-Ford algorithm, one more hinge
     /// in each round; `None` if there is none.
-    fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u8]) -> Option<(f64, Rc<[Arc]>)> {
+    fn route_in_layers(&self, root: usize, goal: usize, allowed: &[u32]) -> Option<(f64, Rc<[Arc]>)> {
         let mut costs = vec![f64::INFINITY; self.toward.len()];
         costs[root] = 0.0;
         // For each round, then for each face: the arc by which it is entered where that became cheaper.
@@ -194,7 +184,7 @@ impl<'t> ShortestPaths<'t> {
                     let side = hinge.side_of(other);
                     let further = costs[face] + self.weights.at(index, goal);
                     if allowed[other] & (1 << side) != 0 && further < next[other] {
-                        (next[other], arcs[other]) = (further, arc(other, side));
+                        (next[other], arcs[other]) = (further, self.target.arc(other, side));
                     }
                 }
             }
@@ -231,17 +221,15 @@ impl<'t> ShortestPaths<'t> {
 /// on. Panics if its side has no hinge.
 #[inline]
 pub fn tail(target: &Target, arc: Arc) -> usize {
-    let (face, side) = head(arc);
-    let hinge = target.sides[face][side].expect("arcs lead across hinges");
-    target.hinges[hinge].other(face)
+    let hinge = target.hinge_at(arc).expect("arcs lead across hinges");
+    target.hinges[hinge].other(target.entered(arc))
 }
 
 /// Returns the arc across the same hinge in the opposite direction. `target`: the surface that the arc is on;
 /// `an_arc`: the arc. Panics if the arc's side has no hinge.
 #[inline]
 pub fn reversed(target: &Target, an_arc: Arc) -> Arc {
-    let (face, side) = head(an_arc);
-    let hinge = &target.hinges[target.sides[face][side].expect("arcs lead across hinges")];
-    let end = usize::from(hinge.faces[0] == face);
-    arc(hinge.faces[end], hinge.sides[end])
+    let hinge = &target.hinges[target.hinge_at(an_arc).expect("arcs lead across hinges")];
+    let end = usize::from(hinge.faces[0] == target.entered(an_arc));
+    target.arc(hinge.faces[end], hinge.sides[end])
 }

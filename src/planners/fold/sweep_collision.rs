@@ -1,8 +1,10 @@
 //! Sampled sweep collision check of panels in motion: it spares the judge plans that it would reject. Panels
-//! are triangles without thickness (separating axes), or solids. A layout that passes is not proved.
+//! are polygons without thickness (separating axes of the triangles of their fans), or solids. A layout that passes is
+//! not proved.
 
 use super::kinematics::poses_at;
 use super::layout::Layout;
+use super::polygon;
 use super::simulation::quintic;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
@@ -27,7 +29,7 @@ pub struct Collision {
 
 /// Returns the first collision of panels without thickness in the samples of a layout that folds in steps, each a
 /// list of faces (indices in [`Target::faces`]) whose hinges fold at the same time; `None` if no sample shows one.
-/// `shrunk`: the part, 0 to 1, by which triangles are shrunk towards their centroids, so that neighbours do not
+/// `shrunk`: the part, 0 to 1, by which faces are shrunk towards their centroids, so that neighbours do not
 /// collide. `target`: the surface that the layout is of.
 pub fn first_collision(
     target: &Target,
@@ -45,7 +47,7 @@ pub fn first_collision(
 }
 
 /// The panels of a target with thickness, by face: convex parts in the panel frame, whose origin is the centroid of the
-/// triangle, with x towards the middle of its side 0 and z along its outward normal.
+/// face, with x towards the middle of its side 0 and z along its outward normal.
 #[derive(Clone, Debug)]
 pub struct Solids {
     /// The convex parts of each face's panel, in the order of the target's faces, in the panel frame.
@@ -97,25 +99,28 @@ pub struct SweepCheck<'t> {
 
 /// The panels in their poses in the target.
 enum Form {
-    Triangles(Vec<Triangle>),
+    /// The fan of each face, shrunk.
+    Fans(Vec<Vec<Triangle>>),
     Solids(Solids),
 }
 
 impl<'t> SweepCheck<'t> {
-    /// Returns the check for panels without thickness: triangles shrunk towards their centroids by the fraction
+    /// Returns the check for panels without thickness: faces shrunk towards their centroids by the fraction
     /// `shrunk` (0 to 1), so that neighbours do not collide. `target` and `layout`: the surface and how it is
     /// unfolded.
     pub fn thin(target: &'t Target, layout: &'t Layout, shrunk: f64) -> SweepCheck<'t> {
         let smaller = |face: usize| {
             let middle = target.centroid(face);
-            target.corners(face).map(|corner| middle + (corner - middle) * (1.0 - shrunk))
+            let smaller = |corner: Vec3| middle + (corner - middle) * (1.0 - shrunk);
+            polygon::fan(target.corners(face)).map(|triangle| triangle.map(smaller)).collect()
         };
-        let small: Vec<Triangle> = (0..target.faces.len()).map(smaller).collect();
-        let reach = |(face, corners): (usize, &Triangle)| {
-            corners.iter().map(|p| (p - target.centroid(face)).norm()).fold(0.0, f64::max)
+        let small: Vec<Vec<Triangle>> = (0..target.faces.len()).map(smaller).collect();
+        let reach = |(face, fan): (usize, &Vec<Triangle>)| {
+            let corners = fan.iter().flatten();
+            corners.map(|p| (p - target.centroid(face)).norm()).fold(0.0, f64::max)
         };
         let reach = small.iter().enumerate().map(reach).collect();
-        SweepCheck { target, layout, form: Form::Triangles(small), reach }
+        SweepCheck { target, layout, form: Form::Fans(small), reach }
     }
 
     /// Returns the check for panels with thickness; panels that a hinge of the layout joins are built to touch, and
@@ -185,9 +190,14 @@ impl<'t> SweepCheck<'t> {
             return false;
         }
         match &self.form {
-            Form::Triangles(small) => {
-                let placed = |face: usize| small[face].map(|p| poses[face].transform_point(&p.into()).coords);
-                !separated(&placed(a), &placed(b))
+            Form::Fans(small) => {
+                let placed = |face: usize, triangle: &Triangle| {
+                    triangle.map(|p| poses[face].transform_point(&p.into()).coords)
+                };
+                small[a].iter().any(|p| {
+                    let p = placed(a, p);
+                    small[b].iter().any(|q| !separated(&p, &placed(b, q)))
+                })
             }
             // Those on a common hinge are built to touch.
             Form::Solids(solids) => {
@@ -218,13 +228,13 @@ impl Solids {
 
 /// Returns the frame of a panel at a face of the target.
 fn place(target: &Target, face: usize) -> Pose {
-    panel_pose(&target.corners(face), &target.normal(face))
+    panel_pose(target.corners(face), &target.normal(face))
 }
 
-/// Returns the pose of the panel frame ([`Solids`]) of a triangle with these corners (m) and this outward unit
-/// normal, in the frame of the corners. `z`: the normal.
-pub fn panel_pose(corners: &Triangle, z: &Vec3) -> Pose {
-    let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+/// Returns the pose of the panel frame ([`Solids`]) of a face with these corners (m), at least three, and this
+/// outward unit normal, in the frame of the corners. `z`: the normal.
+pub fn panel_pose(corners: &[Vec3], z: &Vec3) -> Pose {
+    let middle = polygon::centroid(corners);
     let x = ((corners[0] + corners[1]) / 2.0 - middle).normalize();
     let turn = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), *z]));
     let turn = Pose::from_parts(Vec3::zeros().into(), UnitQuaternion::from_rotation_matrix(&turn));

@@ -1,27 +1,33 @@
 //! Orbits of faces under the isometries of a target: what holds for one root holds for all of its orbit.
 
+use super::polygon;
 use super::target::Target;
 use super::tolerances::TOLERANCES;
 use super::weights::Weights;
+use crate::geometry::Vec3;
 
 /// Returns for each face of the target, in their order, the least index of a face of its orbit under the isometries
 /// of the target, mirrors included, that keep every weight up to `TOLERANCES.symmetry`; two faces with the same one
 /// are equal as roots. `weights`: the costs of the target's hinges for the faces that they carry.
 pub fn orbits(target: &Target, weights: &Weights) -> Vec<usize> {
     let n = target.faces.len();
-    let lengths: Vec<[f64; 3]> = (0..n).map(|face| lengths(target, face)).collect();
+    let outlines: Vec<Outline> = (0..n).map(|face| Outline::of(target.corners(face))).collect();
     let mut first: Vec<usize> = (0..n).collect();
     let scale = weights.greatest();
     // The isometries that map face 0 to itself, and one for each face to which another carries it, generate
     // all.
     for face in 0..n {
         crate::interrupt::checkpoint();
-        for (turn, mirrored) in (0..6).map(|i| (i % 3, i >= 3)) {
+        let sides = target.side_count(face);
+        if sides != target.side_count(0) {
+            continue;
+        }
+        for (turn, mirrored) in (0..2 * sides).map(|i| (i % sides, i >= sides)) {
             if face > 0 && find(&mut first, face) == find(&mut first, 0) {
                 break;
             }
             let image = (face, turn, mirrored);
-            let Some((faces, hinges)) = isometry(target, &lengths, image) else { continue };
+            let Some((faces, hinges)) = isometry(target, &outlines, image) else { continue };
             if keeps(weights, &faces, &hinges, scale) {
                 for (from, &to) in faces.iter().enumerate() {
                     let (a, b) = (find(&mut first, from), find(&mut first, to));
@@ -44,10 +50,17 @@ fn find(first: &mut [usize], face: usize) -> usize {
     at
 }
 
-/// Returns the lengths of a face's sides, m.
-fn lengths(target: &Target, face: usize) -> [f64; 3] {
-    let corners = target.corners(face);
-    [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).norm())
+/// The lengths that tell a face from others, m.
+struct Outline {
+    sides: Vec<f64>,
+    /// The diagonal across side k and the next; of a triangle, its third side.
+    diagonals: Vec<f64>,
+}
+
+impl Outline {
+    fn of(corners: &[Vec3]) -> Outline {
+        Outline { sides: polygon::sides(corners), diagonals: polygon::diagonals(corners) }
+    }
 }
 
 fn equal(a: f64, b: f64) -> bool {
@@ -58,14 +71,14 @@ fn equal(a: f64, b: f64) -> bool {
 /// from there.
 type Image = (usize, usize, bool);
 
-/// Returns the side that is the image of side `k`.
-fn side(image: Image, k: usize) -> usize {
+/// Returns the side that is the image of side `k` of a face with so many sides.
+fn side(image: Image, k: usize, sides: usize) -> usize {
     let (_, turn, mirrored) = image;
-    if mirrored { (turn + 3 - k) % 3 } else { (turn + k) % 3 }
+    if mirrored { (turn + sides - k) % sides } else { (turn + k) % sides }
 }
 
 /// Returns the images of faces and hinges when face 0 goes to the given image; `None` where that is no isometry.
-fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<usize>, Vec<usize>)> {
+fn isometry(target: &Target, outlines: &[Outline], image: Image) -> Option<(Vec<usize>, Vec<usize>)> {
     let n = target.faces.len();
     let mut images: Vec<Option<Image>> = vec![None; n];
     images[0] = Some(image);
@@ -73,9 +86,18 @@ fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<
     let mut waiting = vec![0];
     while let Some(face) = waiting.pop() {
         let to = images[face].expect("it was given one");
-        for k in 0..3 {
-            let there = side(to, k);
-            if !equal(lengths[face][k], lengths[to.0][there]) {
+        let (from, goal) = (&outlines[face], &outlines[to.0]);
+        let sides = from.sides.len();
+        if sides != goal.sides.len() {
+            return None;
+        }
+        for k in 0..sides {
+            let there = side(to, k, sides);
+            // Seen in a mirror, the diagonal across a side and the next is that across it and the one before.
+            let across_two = side(to, if to.2 { k + 1 } else { k }, sides);
+            if !(equal(from.sides[k], goal.sides[there])
+                && equal(from.diagonals[k], goal.diagonals[across_two]))
+            {
                 return None;
             }
             let (from, goal) = match (target.sides[face][k], target.sides[to.0][there]) {
@@ -91,7 +113,8 @@ fn isometry(target: &Target, lengths: &[[f64; 3]], image: Image) -> Option<(Vec<
             let (next, m) = across(target, from, face, k);
             let (other, there) = across(target, goal, to.0, there);
             // Side `m` of the next face is to become side `there` of the other.
-            let turn = if to.2 { (there + m) % 3 } else { (there + 3 - m) % 3 };
+            let sides = target.side_count(other);
+            let turn = if to.2 { (there + m) % sides } else { (there + sides - m % sides) % sides };
             let wanted = (other, turn, to.2);
             match images[next] {
                 Some(known) if known != wanted => return None,

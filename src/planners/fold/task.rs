@@ -8,7 +8,7 @@ use super::layout::Layout;
 use super::objective::{Conventions, Minimise, Objective};
 use super::observer::Observer;
 use super::panel::Panels;
-use super::pattern::has_equal_sides;
+use super::pattern::has_equal_triangles;
 use super::refusal::Refusal;
 use super::settings::{Method, Problem, Sequence, Settings};
 use super::sheet::Sheet;
@@ -204,7 +204,7 @@ fn compatible(problem: &Problem, settings: &Settings, conventions: &Conventions)
         if masses.iter().any(|mass| (mass - masses[0]).abs() > TOLERANCES.mass * masses[0]) {
             return Err(Refusal::HeuristicMasses);
         }
-        if !has_equal_sides(&problem.target) {
+        if !has_equal_triangles(&problem.target) {
             return Err(Refusal::HeuristicSides);
         }
     }

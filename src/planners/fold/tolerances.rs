@@ -14,6 +14,12 @@ pub struct Tolerances {
     pub mass: f64,
     /// The least height of a face as a fraction of its longest side; lower ones have no area.
     pub flat_face: f64,
+    /// The distance of a corner from the mean plane of its face, as a fraction of the longest side, up to which the face is
+    /// flat: rounding of coordinates with six digits.
+    pub planar: f64,
+    /// The angle by which an outline of more than three corners turns at each of them at least, rad; less is a straight
+    /// corner, or one that turns back.
+    pub corner: f64,
     /// The difference of a fold angle from π, rad, below which two faces lie on each other.
     pub back_to_back: f64,
     /// The difference of lengths, weights (as a fraction) and angles (rad) below which they are equal by symmetry:
@@ -22,7 +28,7 @@ pub struct Tolerances {
     /// The fraction by which sides may differ and count as of one length: the pattern then lies on the triangular
     /// lattice.
     pub equal_sides: f64,
-    /// The fraction of a side by which triangles of unequal sides may enter each other without an overlap: the
+    /// The fraction of a side by which faces other than equal triangles may enter each other without an overlap: the
     /// rounding of corners that were laid side by side.
     pub overlap: f64,
     /// The length of a separating axis, as a fraction of the square of a side, below which the axis is rounding.
@@ -80,6 +86,8 @@ pub const TOLERANCES: Tolerances = Tolerances {
     same_panel: 1e-9,
     mass: 1e-5,
     flat_face: 1e-9,
+    planar: 1e-5,
+    corner: 1e-6,
     back_to_back: 1e-6,
     symmetry: 1e-10,
     equal_sides: 1e-6,

@@ -33,14 +33,14 @@ impl Weights {
         for hinge in &target.hinges {
             for (face, &mass) in masses.iter().enumerate() {
                 let corners = target.corners(face);
-                let moment = moment_about(&corners, mass, inertia, &hinge.point, &hinge.axis);
+                let moment = moment_about(corners, mass, inertia, &hinge.point, &hinge.axis);
                 table.push(QUINTIC * hinge.angle.abs() * moment);
             }
         }
         Weights { faces, table }
     }
 
-    /// Returns the weights of a target whose panels have one mass each (kg), spread evenly over the triangle without
+    /// Returns the weights of a target whose panels have one mass each (kg), spread evenly over the face without
     /// thickness.
     pub fn uniform(target: &Target, mass: f64) -> Weights {
         Weights::new(target, &vec![mass; target.faces.len()], Inertia::Lamina)

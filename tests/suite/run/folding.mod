@@ -92,7 +92,7 @@ print(fold(octahedron(edge: 80mm), module: Mori, root: 8).layouts)
 use std.smores.Smores
 use std.shapes.octahedron
 print(fold(octahedron(edge: 80mm), module: Smores).layouts)
-//                                         ^^^^^^ E0506 no triangular panel
+//                                         ^^^^^^ E0506 no panel: it has more than one link
 
 --- a step that the hinges can't keep
 use std.mori.Mori
@@ -260,7 +260,7 @@ print(refold(octahedron(80mm), tetrahedron(80mm), module: Mori).changes)
 print(refold(octahedron(80mm), boat(70mm), module: Mori).changes)
 //                             ^^^^^^^^^^ E0803 70.0000 | 80.0000
 print(refold(octahedron(80mm), boat(80mm), module: Smores).changes)
-//                                                 ^^^^^^ E0506 no triangular panel
+//                                                 ^^^^^^ E0506 no panel: it has more than one link
 print(refold(octahedron(80mm), boat(80mm), module: Mori, budget: 0).changes)
 //    ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ E0802 no way was found
 print(refold(octahedron(80mm), boat(80mm), module: Mori, step: 1ms).changes)

@@ -1,0 +1,196 @@
+//! Crease patterns from FOLD files (Demaine, Ku and Lang 2016): a flat sheet with the angles by which its creases fold.
+
+use super::fault::FormatFault;
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The greatest height of a vertex over the plane, as a part of the extent of the sheet: rounding.
+const TOL_LEVEL: f64 = 1e-6;
+
+/// A crease pattern as a FOLD file states it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CreaseSheet {
+    /// The vertices in the plane of the sheet, in the file's unit of length.
+    pub vertices: Vec<[f64; 2]>,
+    /// The faces as indices in `vertices`, counterclockwise seen from the front.
+    pub faces: Vec<Vec<usize>>,
+    /// The fold angle (rad) of each edge that is not at the border, by its ends, the lesser first: positive where the fold
+    /// is convex as seen from the front, a mountain.
+    pub angles: BTreeMap<[usize; 2], f64>,
+}
+
+/// Reads the crease pattern of a FOLD file: the first frame with places of vertices, which are in one plane, with the
+/// edges' fold angles. Faces that are not stated are those that the edges enclose.
+///
+/// # Errors
+/// A [`FormatFault`] where it is no JSON, holds no flat pattern, or an edge says nothing of its fold or contradicts itself.
+pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
+    let file: Value = serde_json::from_str(text).map_err(|e| FormatFault::Reader(e.to_string()))?;
+    let none: &[Value] = &[];
+    let frames = file["file_frames"].as_array().map_or(none, Vec::as_slice);
+    let list = |value: &Value| value.as_array().filter(|list| !list.is_empty()).cloned();
+    let placed = std::iter::once(&file).chain(frames).find(|frame| list(&frame["vertices_coords"]).is_some());
+    let frame = placed.ok_or(FormatFault::Nothing { what: "vertices" })?;
+    let vertices = vertices(&list(&frame["vertices_coords"]).unwrap_or_default())?;
+    let edges = list(&frame["edges_vertices"]).ok_or(FormatFault::Nothing { what: "edges" })?;
+    let edges = edges.iter().map(|edge| places(edge, vertices.len())).collect::<Result<Vec<_>, _>>()?;
+    let mut known = BTreeMap::new();
+    for (edge, ends) in edges.iter().enumerate() {
+        let &[a, b] = ends.as_slice() else {
+            return Err(FormatFault::Reader(format!("edge {edge} has {} ends", ends.len())));
+        };
+        if a == b || known.insert([a.min(b), a.max(b)], edge).is_some() {
+            return Err(FormatFault::Reader(format!("edge {edge} is a point, or stands there twice")));
+        }
+    }
+    let faces = match list(&frame["faces_vertices"]) {
+        Some(faces) => {
+            faces.iter().map(|face| places(face, vertices.len())).collect::<Result<Vec<_>, _>>()?
+        }
+        None => enclosed(&vertices, &known.keys().copied().collect::<Vec<_>>()),
+    };
+    if faces.is_empty() {
+        return Err(FormatFault::Nothing { what: "faces" });
+    }
+    if let Some(face) = faces.iter().position(|face| face.len() < 3) {
+        return Err(FormatFault::FewCorners { face });
+    }
+    let faces: Vec<Vec<usize>> = faces.into_iter().map(|face| turned_left(&vertices, face)).collect();
+    let mut angles = BTreeMap::new();
+    for ends in inner_edges(&faces) {
+        let Some(&edge) = known.get(&ends) else {
+            let [a, b] = ends;
+            return Err(FormatFault::Reader(format!(
+                "no edge joins vertices {a} and {b}, where two faces meet"
+            )));
+        };
+        angles.insert(ends, fold_angle(frame, edge)?);
+    }
+    Ok(CreaseSheet { vertices, faces, angles })
+}
+
+/// Returns the vertices of a pattern.
+///
+/// # Errors
+/// A fault where one has no coordinates, or is not in the plane.
+fn vertices(stated: &[Value]) -> Result<Vec<[f64; 2]>, FormatFault> {
+    let place = |(vertex, place): (usize, &Value)| {
+        let numbers: Option<Vec<f64>> =
+            place.as_array().and_then(|place| place.iter().map(Value::as_f64).collect());
+        match numbers.as_deref() {
+            Some(&[x, y]) => Ok([x, y, 0.0]),
+            Some(&[x, y, z]) => Ok([x, y, z]),
+            _ => Err(FormatFault::NoCoordinates { vertex }),
+        }
+    };
+    let places = stated.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+    let extent = places.iter().flat_map(|[x, y, _]| [x.abs(), y.abs()]).fold(0.0, f64::max);
+    match places.iter().position(|place| place[2].abs() > TOL_LEVEL * extent) {
+        Some(vertex) => Err(FormatFault::Reader(format!(
+            "vertex {vertex} is out of the plane: this is no crease pattern"
+        ))),
+        None => Ok(places.into_iter().map(|[x, y, _]| [x, y]).collect()),
+    }
+}
+
+/// Returns a list of vertices.
+///
+/// # Errors
+/// A fault where it is none, or one is not there.
+fn places(value: &Value, count: usize) -> Result<Vec<usize>, FormatFault> {
+    let list = value.as_array().ok_or(FormatFault::NoSuchVertex)?;
+    let place = |item: &Value| {
+        let index = item.as_u64().and_then(|index| usize::try_from(index).ok());
+        index.filter(|index| *index < count).ok_or(FormatFault::NoSuchVertex)
+    };
+    list.iter().map(place).collect()
+}
+
+/// Returns the fold angle of an edge between two faces, rad, mountains positive.
+///
+/// # Errors
+/// A fault where the file does not say it, or says that a mountain is a valley.
+fn fold_angle(frame: &Value, edge: usize) -> Result<f64, FormatFault> {
+    let assignment = frame["edges_assignment"][edge].as_str().unwrap_or("U");
+    let degrees = frame["edges_foldAngle"][edge].as_f64();
+    let fault = |why: &str| Err(FormatFault::Reader(format!("edge {edge} {why}")));
+    match (assignment, degrees) {
+        ("B" | "C", _) => fault("is at the border or a cut, but has a face on either side"),
+        ("M", Some(degrees)) if degrees > 0.0 => fault("is a mountain, whose fold angle can't be positive"),
+        ("V", Some(degrees)) if degrees < 0.0 => fault("is a valley, whose fold angle can't be negative"),
+        ("F" | "J", Some(degrees)) if degrees != 0.0 => fault("is flat, but has a fold angle"),
+        (_, Some(degrees)) if degrees.abs() <= 180.0 => Ok(-degrees.to_radians() + 0.0),
+        (_, Some(_)) => fault("folds by more than 180 degrees"),
+        ("F" | "J", None) => Ok(0.0),
+        ("M" | "V", None) => fault("has no fold angle: `edges_foldAngle` says how far it folds"),
+        (_, None) => fault("has neither a fold angle nor an assignment"),
+    }
+}
+
+/// Returns the edges with a face on either side, by their ends, ascending.
+fn inner_edges(faces: &[Vec<usize>]) -> BTreeSet<[usize; 2]> {
+    let mut once = BTreeSet::new();
+    let mut inner = BTreeSet::new();
+    for face in faces {
+        for (k, &a) in face.iter().enumerate() {
+            let b = face[(k + 1) % face.len()];
+            let ends = [a.min(b), a.max(b)];
+            if !once.insert(ends) {
+                inner.insert(ends);
+            }
+        }
+    }
+    inner
+}
+
+/// Returns a face counterclockwise.
+fn turned_left(vertices: &[[f64; 2]], mut face: Vec<usize>) -> Vec<usize> {
+    if area(vertices, &face) < 0.0 {
+        face.reverse();
+    }
+    face
+}
+
+/// Returns twice the area that a face encloses, positive where it is counterclockwise.
+fn area(vertices: &[[f64; 2]], face: &[usize]) -> f64 {
+    let corner = |k: usize| vertices[face[k % face.len()]];
+    (0..face.len()).map(|k| corner(k)[0] * corner(k + 1)[1] - corner(k)[1] * corner(k + 1)[0]).sum()
+}
+
+/// Returns the faces that edges in the plane enclose, counterclockwise, without the outside.
+fn enclosed(vertices: &[[f64; 2]], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let direction = |from: usize, to: usize| {
+        libm::atan2(vertices[to][1] - vertices[from][1], vertices[to][0] - vertices[from][0])
+    };
+    let mut around: Vec<Vec<usize>> = vec![Vec::new(); vertices.len()];
+    for &[a, b] in edges {
+        around[a].push(b);
+        around[b].push(a);
+    }
+    for (from, others) in around.iter_mut().enumerate() {
+        others.sort_by(|a, b| direction(from, *a).total_cmp(&direction(from, *b)).then(a.cmp(b)));
+    }
+    // At each vertex the way goes on along the edge that is next to the right, which keeps the face on the left.
+    let next = |from: usize, to: usize| {
+        let others = &around[to];
+        let back = others.iter().position(|other| *other == from).expect("edges lead both ways");
+        others[(back + others.len() - 1) % others.len()]
+    };
+    let mut seen = BTreeSet::new();
+    let mut faces = Vec::new();
+    for &[a, b] in edges {
+        for start in [[a, b], [b, a]] {
+            let mut face = Vec::new();
+            let [mut from, mut to] = start;
+            while seen.insert([from, to]) {
+                face.push(from);
+                (from, to) = (to, next(from, to));
+            }
+            if face.len() > 2 && area(vertices, &face) > 0.0 {
+                faces.push(face);
+            }
+        }
+    }
+    faces
+}

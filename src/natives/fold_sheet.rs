@@ -1,0 +1,213 @@
+//! `fold_sheet` and `load_creases`: sheets that fold along all creases at once.
+
+use super::fold_supply::{self, Passive, Sheet, Supply};
+use super::{Native, fold_surface};
+use crate::formats::read_creases;
+use crate::geometry::{Pose, Vec3};
+use crate::interpret::argument::{Auto, Positive, WordOr, arguments, parameters};
+use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
+use crate::interpret::interpreter::Interpreter;
+use crate::interpret::native::Call;
+use crate::interpret::plan_value::{PlanValue, ReportField, ReportFields};
+use crate::interpret::record::Record;
+use crate::interpret::robot::Robot;
+use crate::interpret::stop::{Eval, Stop, fault};
+use crate::interpret::value::{Mesh, Value};
+use crate::plan::{CauseId, Plan, World};
+use crate::planners::fold::{Panels, Target};
+use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings};
+use crate::planners::{RequestedProgress, Solution};
+use crate::robot::{Kinematics, State};
+use crate::source::{Diagnostic, Span, code};
+use crate::units::{Dimension, quantity};
+use std::cell::Cell;
+use std::rc::Rc;
+use std::sync::Arc;
+
+// The arguments that diagnostics of `fold_sheet` are about.
+const TARGET: &str = "target";
+const MODULE: &str = "module";
+const ROOT: &str = "root";
+const TIME: &str = "time";
+
+/// The argument of `load_creases` that names the file.
+const FILE: &str = "file";
+
+arguments! {
+    /// The arguments of `fold_sheet`.
+    struct Arguments<'c> {
+        target: &'c Value,
+        module: &'c Value,
+        root: usize as "a face",
+        time: WordOr<Auto, Positive> as "the time of the motion",
+    }
+}
+
+/// The built-ins of sheets: the key of each with its parameters and its Rust function.
+pub(super) const TABLE: &[Native] = &[
+    Native::on_run("fold_sheet", Arguments::PARAMETERS, run),
+    Native::pure("load_creases", parameters![file: &str, scale: Positive], load_creases),
+];
+
+impl ReportFields for Report {
+    const FIELDS: &'static [ReportField<Report>] = &[
+        ("panels", |_, _, report| Value::count(report.target.faces.len())),
+        ("creases", |_, _, report| Value::count(report.creases)),
+        ("loops", |_, _, report| Value::count(report.loops)),
+        ("freedom", |_, _, report| Value::count(report.freedom)),
+        ("opening", |_, _, report| Value::Quantity(report.gap, Dimension::ANGLE)),
+        ("angles", |_, _, report| {
+            Value::list(report.angles.iter().map(|angle| Value::Quantity(*angle, Dimension::ANGLE)).collect())
+        }),
+        ("robot", |_, plan, _| Value::Instance(plan.instance())),
+    ];
+}
+
+/// Runs `fold_sheet`: reads the folded form and its panels, plans, and returns the plan with the planner's report and
+/// verdict.
+fn run(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let arguments = Arguments::read(call)?;
+    let mut supply = Supply::of(interpreter, call, MODULE, arguments.module)?;
+    let target = fold_surface::target(call, TARGET, arguments.target)?;
+    let passive = Passive { faces: &[], module: None };
+    let (sheet, target) = fold_supply::panels(interpreter, &mut supply, &passive, target)?;
+    let time = match arguments.time {
+        WordOr::Word(Auto) => None,
+        WordOr::Value(Positive(time)) => Some(time),
+    };
+    let problem = Problem { target, panels: sheet.panels.clone(), root: arguments.root };
+    let settings = Settings { time, judge: interpreter.judge_settings() };
+    let causes = interpreter.planner_causes(call.span);
+    let Solution { body, program, report } = fold_sheet::plan(&problem, &settings, &mut RequestedProgress)
+        .map_err(|refusal| diagnostic(interpreter, call, &causes.ids, &refusal))?;
+    let (design, robot) = joined(&problem, &sheet, &report.angles, call.span);
+    let bare =
+        interpreter.bare_plan("fold_sheet", body, problem.panels.library.clone(), World::FREE, &causes);
+    let plan = Plan { program, ..bare };
+    let planned = PlanValue::new(design, Some(robot), plan, causes.ids.clone(), report.actions);
+    planned.remember_verdict(report.verdict.clone());
+    let planned = planned.with_report(report);
+    Ok(Value::Record(Rc::new(Record::Plan(Rc::new(planned)))))
+}
+
+/// Returns (configuration, robot) of the panels joined at all creases; the start state of the robot has these angles.
+fn joined(problem: &Problem, sheet: &Sheet, angles: &[f64], span: Span) -> (Rc<Design>, Rc<Robot>) {
+    let Problem { target, panels, root } = problem;
+    let (assembly, joints) = fold_sheet::assembly(target, panels, *root).expect("the planner joined it");
+    let mut positions = vec![0.0; assembly.joints().count()];
+    joints.iter().zip(angles).for_each(|(joint, angle)| positions[joint.0 as usize] = *angle);
+    let start = State {
+        joints: positions,
+        bonds: vec![true; assembly.bonds.len()],
+        base: Pose::identity(),
+        clusters: vec![],
+        misalignments: vec![],
+    };
+    let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
+    let mut poses = vec![Pose::identity(); kinematics.link_count()];
+    kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
+    let robot = Rc::new(Robot {
+        assembly: Arc::new(assembly),
+        start,
+        kinematics,
+        poses,
+        obstacles: Arc::default(),
+        world: None,
+    });
+    let design = configuration(target, panels, *root, &sheet.designs, span);
+    let config = design.config().expect("made as a configuration");
+    assert!(config.robot.set(Some(robot.clone())).is_ok(), "it was just made");
+    (design, robot)
+}
+
+/// Returns the configuration of the panels, with a bond for each crease, which close loops.
+fn configuration(
+    target: &Target,
+    panels: &Panels,
+    root: usize,
+    designs: &[Rc<Design>],
+    span: Span,
+) -> Rc<Design> {
+    let name = |face: usize| -> Rc<str> { format!("panel[{face}]").into() };
+    let modules = designs.iter().enumerate();
+    let modules = modules.map(|(face, panel)| FlatModule { name: name(face), design: panel.clone() });
+    let config = ConfigDesign { closed: true, ..ConfigDesign::of_modules(modules.collect()) };
+    for hinge in &target.hinges {
+        let [a, b] = [0, 1].map(|end| (hinge.faces[end], hinge.sides[end]));
+        config.add_bond(BondRecord { a, b, turn: 0, span, ends: (span, span), instance: "".into() });
+    }
+    config.base.set(Some(root));
+    config.complete.set(true);
+    Rc::new(Design {
+        // The declaration is that of its panels: it has none of its own.
+        def: designs[root].def,
+        name: format!("{}[{}]", designs[root].name, panels.kinds.len()),
+        args: Vec::new(),
+        kind: DesignKind::Config(config),
+        broken: Cell::new(false),
+    })
+}
+
+/// Returns the fault of a refusal; `causes`: the run's number of each cause of the plan.
+fn diagnostic(interpreter: &Interpreter, call: &Call, causes: &[CauseId], refusal: &Refusal) -> Stop {
+    let message = refusal.to_string();
+    let error = |code| Diagnostic::error(code, message.clone());
+    match refusal {
+        Refusal::NoSheet(_) => error(code::UNFOLDABLE)
+            .label(call.at(TARGET), "no sheet")
+            .hint("`fold` cuts a surface along edges so that it lies flat")
+            .into(),
+        Refusal::Overlap { .. } => {
+            error(code::UNFOLDABLE).label(call.at(TARGET), "does not lie flat in one piece").into()
+        }
+        Refusal::TooManyCreases { .. } => {
+            fault(code::NOT_COVERED, call.at(TARGET), message, "too many creases")
+        }
+        Refusal::Stuck(_) => error(code::NOT_COVERED)
+            .label(call.at(TARGET), "no way leads here from flat")
+            .hint("smaller angles of the same mountains and valleys may be reached")
+            .into(),
+        Refusal::NoSuchRoot { .. } => call.refuse(ROOT, message),
+        Refusal::NoHinge => call.refuse(MODULE, message),
+        Refusal::TooShort { least } => Diagnostic::error(code::BAD_VALUE, message)
+            .label(call.at(TIME), "too short for the widest angle")
+            .hint(format!(
+                "{} is long enough; without `time` it is as short as it can be",
+                quantity(*least, Dimension::TIME)
+            ))
+            .into(),
+        Refusal::Schedule(refusal) => interpreter.refused(refusal, causes, call.span),
+        Refusal::Refused(_) => error(code::NO_WAY)
+            .label(call.at(TARGET), "can't be folded together")
+            .label(call.at(MODULE), "of these panels")
+            .hint("smaller angles or thinner panels leave room")
+            .into(),
+    }
+}
+
+/// Runs `load_creases`: reads a crease pattern and returns its folded form.
+fn load_creases(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
+    let scale = call.positive("scale", "the scale of a crease pattern")?;
+    let (path, bytes) = interpreter.project_file(call, FILE)?;
+    let sheet = read_creases(&bytes).map_err(|why| {
+        let message = format!("`{path}` can't be read as a crease pattern in FOLD: {why}");
+        fault(code::CANNOT_READ, call.at(FILE), message, why.to_string())
+    })?;
+    interpreter.check_list(sheet.faces.len().max(sheet.vertices.len()), call.at(FILE))?;
+    let refuse = |why: String| -> Stop {
+        Diagnostic::error(code::UNFOLDABLE, format!("`{path}` does not fold as it says: {why}"))
+            .label(call.at(FILE), "does not fold")
+            .hint("fold angles are degrees from flat: negative at mountains, positive at valleys, seen from the front")
+            .into()
+    };
+    let flat = sheet.vertices.iter().map(|[x, y]| Vec3::new(x * scale, y * scale, 0.0)).collect();
+    let flat = Target::new(flat, &sheet.faces).map_err(|why| refuse(why.to_string()))?;
+    let ends = |hinge: &crate::planners::fold::Hinge| {
+        let corners = &flat.faces[hinge.faces[0]];
+        let (a, b) = (corners[hinge.sides[0]], corners[(hinge.sides[0] + 1) % corners.len()]);
+        [a.min(b), a.max(b)]
+    };
+    let angles: Vec<f64> = flat.hinges.iter().map(|hinge| sheet.angles[&ends(hinge)]).collect();
+    let vertices = fold_sheet::folded(&flat, &angles).map_err(|why| refuse(why.to_string()))?;
+    Ok(Value::Mesh(Rc::new(Mesh { vertices, faces: sheet.faces })))
+}
