@@ -204,8 +204,8 @@ fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
 
 /// Returns the offset of the contents of a text literal that is still open; `None` if none is.
 fn open_text(before: &str) -> Option<usize> {
-    let outline = Outline::of(before)?;
-    let last = outline.tokens.last()?;
+    let tokens = Outline::tokens_of(before)?;
+    let last = tokens.last()?;
     (last.kind == TokenKind::UnclosedText).then_some(last.start + 1)
 }
 
@@ -315,7 +315,7 @@ fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
 }
 
-/// Returns the type of an expression, and a program that has it; `None` if it has no value. What is no plain path is checked as
+/// Returns the type of an expression, and a program that has it; `None` if it has no value. Any but a plain path is checked as
 /// the next entry, with all that is before it.
 fn type_of(knowledge: &Knowledge, text: &str) -> (Arc<Checked>, Option<Type>) {
     if let Some(ty) = type_of_path(&knowledge.checked, text) {
@@ -367,9 +367,8 @@ fn open_call(text: &str) -> Option<usize> {
 
 /// Returns the offset of the innermost open bracket; `None` outside of all brackets.
 fn open_bracket(text: &str) -> Option<usize> {
-    let outline = Outline::of(text)?;
     let mut open = Vec::new();
-    for token in &outline.tokens {
+    for token in Outline::tokens_of(text)? {
         match token.kind {
             TokenKind::Open => open.push(token.start),
             TokenKind::Close => drop(open.pop()),
