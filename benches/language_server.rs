@@ -1,5 +1,6 @@
-//! The time for which an editor waits: `cargo bench --bench language_server`. In a program of 1,000 lines a key is typed, as the
-//! protocol says it; then the diagnostics of its types have come, candidates after a dot are asked for, and an explanation.
+//! The time for which an editor waits: `cargo bench --bench language_server`. In a program of 1,000 lines keys are typed, as the
+//! protocol says it, and the time counts from the key on: to the diagnostics of its types, and to candidates that are asked for at
+//! once behind a dot, for a word, and within a call. Then what is asked of a text at rest: an explanation, hints, lenses.
 
 mod generate;
 #[allow(dead_code)]
@@ -22,6 +23,9 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 const LINES: usize = 1_000;
 const KEYS: usize = 200;
 
+/// The time between two keys of somebody who types fast.
+const PAUSE: Duration = Duration::from_millis(100);
+
 fn main() {
     let mut editor = Client::new(&[]);
     let text = format!(
@@ -30,35 +34,72 @@ fn main() {
     );
     let end = text.matches('\n').count() - 1;
     editor.open("main.mod", &text);
-    let (mut told, mut offered, mut explained) = (Vec::new(), Vec::new(), Vec::new());
-    for key in 0..KEYS {
-        let column = "let typed = robot.".len();
+    let document = json!({ "uri": uri("main.mod") });
+    let type_key = |editor: &mut Client, before: &str, from: usize, to: usize, typed: &str| {
         let place = |column: usize| json!({ "line": end, "character": column });
+        let range = json!({ "start": place(before.len() + from), "end": place(before.len() + to) });
+        editor.change("main.mod", json!([{ "range": range, "text": typed }]))
+    };
+    let typed = "let typed = robot.";
+    let mut told = Vec::new();
+    for key in 0..KEYS {
         // A letter comes, and goes again.
-        let (from, to, typed) = if key % 2 == 0 { (column, column, "w") } else { (column, column + 1, "") };
-        let range = json!({ "start": place(from), "end": place(to) });
+        let (to, letter) = if key % 2 == 0 { (0, "w") } else { (1, "") };
         let begin = Instant::now();
-        let version = editor.change("main.mod", json!([{ "range": range, "text": typed }]));
+        let version = type_key(&mut editor, typed, 0, to, letter);
         editor.published("main.mod", |v, _| v == version);
         told.push(begin.elapsed());
-        let at =
-            json!({ "textDocument": { "uri": uri("main.mod") }, "position": place(column + typed.len()) });
-        let begin = Instant::now();
-        let found = editor.ask("textDocument/completion", at);
-        offered.push(begin.elapsed());
-        assert!(
-            found.as_array().is_some_and(|found| found.iter().any(|item| item["label"] == "walk")),
-            "{found}"
-        );
-        let at =
-            json!({ "textDocument": { "uri": uri("main.mod") }, "position": place("let typed = rob".len()) });
-        let begin = Instant::now();
-        editor.ask("textDocument/hover", at);
-        explained.push(begin.elapsed());
     }
     report("a key to diagnostics", told);
-    report("candidates after a dot", offered);
-    report("hover", explained);
+    // What is typed last, the candidate that has to be there, and whether nothing is typed of it yet.
+    for (what, line, wanted) in [
+        ("a key to members", "let typed = robot.w", "walk"),
+        ("a key to names", "let typed = rob", "robot"),
+        ("a key to parameters", "let typed = robot.walk(", "steps:"),
+        ("a key to units", "let typed = 5m", "mm"),
+    ] {
+        let before = &line[..line.len() - 1];
+        let mut offered = Vec::new();
+        for _ in 0..KEYS / 2 {
+            type_line(&mut editor, end, before);
+            std::thread::park_timeout(PAUSE);
+            let begin = Instant::now();
+            type_key(&mut editor, before, 0, 0, &line[line.len() - 1..]);
+            let place = json!({ "line": end, "character": line.len() });
+            let found =
+                editor.ask("textDocument/completion", json!({ "textDocument": document, "position": place }));
+            offered.push(begin.elapsed());
+            let there = |item: &serde_json::Value| item["label"] == wanted;
+            assert!(found.as_array().is_some_and(|found| found.iter().any(there)), "{wanted}: {found}");
+        }
+        report(what, offered);
+    }
+    let place = json!({ "line": end - 1, "character": "let rob".len() });
+    let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": end, "character": 0 } });
+    for (what, method, more) in [
+        ("hover", "hover", json!({ "position": place })),
+        ("semantic tokens", "semanticTokens/full", json!({})),
+        ("inlay hints of all lines", "inlayHint", json!({ "range": whole })),
+        ("code lenses", "codeLens", json!({})),
+        ("symbols", "documentSymbol", json!({})),
+    ] {
+        let mut asked = Vec::new();
+        let mut params = more.clone();
+        params["textDocument"] = document.clone();
+        for _ in 0..KEYS / 4 {
+            let begin = Instant::now();
+            editor.ask(&format!("textDocument/{method}"), params.clone());
+            asked.push(begin.elapsed());
+        }
+        report(what, asked);
+    }
+}
+
+/// Writes the last line anew.
+fn type_line(editor: &mut Client, line: usize, text: &str) {
+    let range =
+        json!({ "start": { "line": line, "character": 0 }, "end": { "line": line, "character": 1_000 } });
+    editor.change("main.mod", json!([{ "range": range, "text": text }]));
 }
 
 fn report(what: &str, mut times: Vec<Duration>) {

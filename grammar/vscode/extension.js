@@ -1,4 +1,4 @@
-// The extension of modl: the language server, and commands that run the program or show its robot.
+// The extension of modl: the language server with its pages, and commands that run and verify the program or show its robot.
 
 const { execFile } = require("node:child_process");
 const { mkdtempSync, readFileSync, rmSync } = require("node:fs");
@@ -11,6 +11,8 @@ const { LanguageClient } = require("vscode-languageclient/node");
 const WROTE = /^wrote (.*\.html)$/m;
 
 let client = null;
+/** Tells of programs that change on disk. */
+let programs = null;
 /** The panels that show robots, by program. */
 const panels = new Map();
 
@@ -19,8 +21,17 @@ const setting = name => vscode.workspace.getConfiguration("modl").get(name);
 async function start() {
   const root = setting("root");
   const server = { command: setting("path"), args: root ? ["lsp", "--root", root] : ["lsp"] };
-  client = new LanguageClient("modl", "modl", server, { documentSelector: [{ language: "modl", scheme: "file" }] });
+  client = new LanguageClient("modl", "modl", server, {
+    documentSelector: [{ language: "modl", scheme: "file" }],
+    synchronize: { fileEvents: programs },
+  });
   await client.start();
+}
+
+/** A page that the server has, such as that of an error's code. */
+async function page(uri) {
+  const answer = await client?.sendRequest("workspace/textDocumentContent", { uri: uri.toString() });
+  return answer?.text ?? "";
 }
 
 async function restart() {
@@ -70,7 +81,8 @@ async function draw(panel, file) {
   const { page, said } = await drawn(file);
   if (!panels.has(file)) return;
   const escaped = said.replace(/[&<>]/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
-  panel.webview.html = page || `<!doctype html><meta charset="utf-8"><title>modl</title><pre>${escaped}</pre>`;
+  // A panel has margins of its own, which the page does not want.
+  panel.webview.html = page?.replace("</head>", "<style>body { padding: 0 }</style>\n</head>") || `<!doctype html><meta charset="utf-8"><title>modl</title><pre>${escaped}</pre>`;
 }
 
 /** Shows the robot of the program beside it; it is drawn again whenever the program is saved. */
@@ -94,8 +106,16 @@ exports.activate = async context => {
   command("show", show);
   command("run", uri => inTerminal("run", uri));
   command("test", uri => inTerminal("test", uri));
+  // The server verifies: it says beside the text what it has found.
+  command("verifyProgram", uri => {
+    const document = uri ?? vscode.window.activeTextEditor?.document.uri;
+    return document && vscode.commands.executeCommand("modl.verify", document.toString());
+  });
   command("restart", restart);
+  programs = vscode.workspace.createFileSystemWatcher("**/*.mod");
   context.subscriptions.push(
+    programs,
+    vscode.workspace.registerTextDocumentContentProvider("modl", { provideTextDocumentContent: page }),
     vscode.workspace.onDidSaveTextDocument(({ uri }) => {
       const panel = panels.get(uri.fsPath);
       if (panel) draw(panel, uri.fsPath);

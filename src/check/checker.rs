@@ -252,6 +252,8 @@ pub(super) struct Checker<'a> {
     shared: Option<usize>,
     /// The spans at which declarations are named, each with the declaration, in the order of checking.
     pub uses: RefCell<Vec<(Span, DefId)>>,
+    /// The names of `let`s that state no type, each with the type of its value, in the order of checking.
+    pub lets: Vec<(Span, Type)>,
     /// The values of members' `let`s, once checked, by declaration and member; `None` while one is being checked.
     pub member_lets: HashMap<(DefId, MemberId), Option<typed::Expr>>,
     /// The number of slots that the expressions of a declaration's members need, by declaration; none for one without
@@ -276,6 +278,7 @@ impl<'a> Checker<'a> {
             scopes: Vec::new(),
             shared: loaded.files.iter().position(|file| file.entry),
             uses: RefCell::default(),
+            lets: Vec::new(),
             member_lets: HashMap::new(),
             member_frames: HashMap::new(),
             diagnostics,

@@ -274,6 +274,9 @@ impl<'a> Checker<'a> {
             );
             return error_expr(value.span);
         }
+        if x.ty.is_none() && !value.ty.is_error() {
+            self.lets.push((x.name.span, value.ty.clone()));
+        }
         value
     }
 

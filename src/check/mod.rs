@@ -62,6 +62,8 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// The spans at which declarations are named, each with the declaration, in no order.
     pub uses: Vec<(Span, DefId)>,
+    /// The names of `let`s that state no type, each with the type of its value, in no order.
+    pub lets: Vec<(Span, Type)>,
     /// The texts that are entries of a session, oldest first; empty for a file.
     pub entries: Vec<FileId>,
     /// The names visible at the top of the file that is run with their meanings, the prelude's included, sorted
@@ -111,7 +113,8 @@ fn check_loaded((loaded, sources, diagnostics): (load::Loaded, Sources, Vec<Diag
     };
     let names = loaded.root.or(loaded.prelude).map_or_else(Vec::new, |root| checker.meanings(root));
     let uses = checker.uses.take();
+    let lets = std::mem::take(&mut checker.lets);
     let (program, diagnostics) = checker.finish(statements, tests);
     let entries = loaded.files.iter().filter(|file| file.entry).map(|file| file.ast.id).collect();
-    Checked { sources, program, diagnostics, uses, entries, names }
+    Checked { sources, program, diagnostics, uses, lets, entries, names }
 }

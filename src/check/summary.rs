@@ -115,7 +115,7 @@ fn called(name: Symbol, params: &str, result: &str) -> String {
 }
 
 /// Returns a parameter with its default: `n: Int = 4`.
-fn with_default(checked: &Checked, type_params: &[Symbol], param: &Param) -> String {
+pub(crate) fn with_default(checked: &Checked, type_params: &[Symbol], param: &Param) -> String {
     let default = param.default.as_ref().map(|value| checked.sources.text(value.span));
     let default = default.map(|text| format!(" = {text}")).unwrap_or_default();
     format!("{}{default}", param_text(&checked.program, type_params, param))

@@ -288,7 +288,19 @@ fn options(project: &Project, task: &Task, globals: &Globals) -> Options {
     let limits = limits(globals);
     let (seed, values, threads) = (globals.seed, globals.json, threads(globals));
     let verified_pages = None;
-    Options { filter, seed, pages, verified_pages, collects, command, picture: None, limits, values, threads }
+    Options {
+        filter,
+        seed,
+        pages,
+        verified_pages,
+        collects,
+        command,
+        picture: None,
+        limits,
+        values,
+        constants: false,
+        threads,
+    }
 }
 
 /// Returns the number of threads for planners: that of the command line, or one per processor.

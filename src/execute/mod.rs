@@ -48,6 +48,18 @@ pub fn run(
     interpret::run(&ROUTINES, checked, mode, files, host, options)
 }
 
+/// Plans and judges a behaviour of a configuration, both with the defaults of their parameters; else as [`run`]. The outcome
+/// holds the verdict and what was found. `behavior`: the declaration, and the index among its behaviours.
+pub fn judge(
+    checked: &Checked,
+    behavior: (DefId, usize),
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+) -> Outcome {
+    interpret::judge(&ROUTINES, checked, behavior, files, host, options)
+}
+
 /// Returns the result of `work`, which is called on a thread of its own with the interpreter of a checked program, of which
 /// nothing was run. `None` where it met a fault or a limit, reported an error or was cancelled, or where the thread can't be
 /// started. `files` and `host` serve its requests; `options`: the choices of the user.

@@ -3,7 +3,7 @@
 use super::printed::PrintedValue;
 use crate::interrupt::CancelState;
 use crate::plan::Plan;
-use crate::source::Diagnostic;
+use crate::source::{Diagnostic, Span};
 
 /// The reason that an output can't be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,6 +99,8 @@ pub struct Options {
     pub limits: Limits,
     /// True if the host is told the values that are printed, besides their text. Default false.
     pub values: bool,
+    /// True if the values of top-level `let`s are listed in [`Outcome::constants`]. Default false.
+    pub constants: bool,
     /// The number of threads that a planner may use; 0, the default, counts as 1. No result depends on it.
     pub threads: usize,
 }
@@ -149,6 +151,16 @@ pub struct TestResult {
     pub passed: bool,
 }
 
+/// The verdict on a plan, in short.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Judgement {
+    /// True if nothing failed.
+    pub ok: bool,
+    /// The headline with the least margin, or with the first failure: `verified under full dynamics, least margin 12 %
+    /// (torque)`.
+    pub words: String,
+}
+
 /// The outcome of a run: all that it found, tested and wrote, also if it was cancelled.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
@@ -160,6 +172,12 @@ pub struct Outcome {
     pub written: Vec<String>,
     /// The plans that were emitted, each with its path, where [`Options::collects`].
     pub plans: Vec<(String, Plan)>,
+    /// The verdicts on plans that the run judged, by the calls that asked for them: of each call the first that failed, or
+    /// else the one with the least margin.
+    pub judgements: Vec<(Span, Judgement)>,
+    /// The values of top-level `let`s of the files of the project that are numbers or quantities, as text, by the places of their
+    /// expressions; empty unless [`Options::constants`].
+    pub constants: Vec<(Span, String)>,
     /// True if the user ended the run.
     pub cancelled: bool,
 }

@@ -4,7 +4,7 @@ use super::capability::Capabilities;
 use super::causes::Causes;
 use super::design::{ConnectorDesign, Design, Instance};
 use super::evaluator_thread::{HostProxy, REST_BYTES};
-use super::host::{Limits, Mode, Options, TestResult};
+use super::host::{Judgement, Limits, Mode, Options, TestResult};
 use super::keyed::Keyed;
 use super::memory_errors::memory_limit;
 use super::plan_value::PlanValue;
@@ -78,6 +78,8 @@ pub struct Reported {
     pub written: Vec<String>,
     /// The plans that were emitted, each with its path, where they are collected.
     pub plans: Vec<(String, Plan)>,
+    /// The worst verdict of each call that asked for one, as (its least margin, itself).
+    pub judgements: BTreeMap<Span, (f64, Judgement)>,
     /// The size of the values that were told besides their text, in bytes.
     pub values_bytes: usize,
     /// The configurations that embed in the robot that an entry of a session asks about; `None` without the question.

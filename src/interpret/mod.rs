@@ -45,6 +45,7 @@ pub mod contracts;
 pub mod fields;
 mod goals;
 mod joining;
+mod judged;
 pub mod plan_value;
 pub mod planning;
 pub mod record;
@@ -59,6 +60,6 @@ mod table_text;
 
 pub mod session;
 
-pub use host::{Host, Limits, Mode, Options, Outcome, SilentHost, TestResult, WriteError};
+pub use host::{Host, Judgement, Limits, Mode, Options, Outcome, SilentHost, TestResult, WriteError};
 pub use memory_errors::memory_limit;
-pub use run::{run, with_interpreter};
+pub use run::{judge, run, with_interpreter};

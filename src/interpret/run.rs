@@ -7,7 +7,7 @@ use super::memory_errors::no_memory;
 use super::routines::Routines;
 use super::stop::Eval;
 use crate::check::Checked;
-use crate::check::typed::DefKind;
+use crate::check::typed::{DefId, DefKind};
 use crate::interrupt;
 use crate::source::{Diagnostic, Files, Severity};
 
@@ -23,11 +23,38 @@ pub fn run(
     host: &mut dyn Host,
     options: &Options,
 ) -> Outcome {
+    run_by(routines, checked, mode, files, host, options, |interpreter| interpreter.drive())
+}
+
+/// Plans and judges a behaviour of a configuration, both with the defaults of their parameters, as [`run`] runs a program; the
+/// outcome holds the verdict and what was found. `config`: the declaration; `behavior`: the index among its behaviours.
+pub fn judge(
+    routines: &Routines,
+    checked: &Checked,
+    (config, behavior): (DefId, usize),
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+) -> Outcome {
+    let judge = |interpreter: &mut Interpreter| interpreter.judge_behavior(config, behavior);
+    run_by(routines, checked, Mode::Run, files, host, options, judge)
+}
+
+/// Runs what `drive` does with the interpreter of a checked program, as [`run`] says.
+fn run_by(
+    routines: &Routines,
+    checked: &Checked,
+    mode: Mode,
+    files: &dyn Files,
+    host: &mut dyn Host,
+    options: &Options,
+    drive: impl FnOnce(&mut Interpreter) -> Eval<()> + Send,
+) -> Outcome {
     let ran = evaluator_thread::run(files, host, |host| {
         let mut interpreter = Interpreter::new(routines, checked, mode, options, host);
         let cancel_state = interpreter.shared.host.cancel_state.clone();
         let progress_sink = interpreter.shared.host.progress_sink();
-        let ended = interrupt::catch(&cancel_state, progress_sink, || interpreter.drive());
+        let ended = interrupt::catch(&cancel_state, progress_sink, || drive(&mut interpreter));
         interpreter.report_end(ended);
         interpreter.report_lost();
         interpreter.report_unneeded();
@@ -36,6 +63,11 @@ pub fn run(
             tests: std::mem::take(&mut interpreter.reported.tests),
             written: std::mem::take(&mut interpreter.reported.written),
             plans: std::mem::take(&mut interpreter.reported.plans),
+            judgements: std::mem::take(&mut interpreter.reported.judgements)
+                .into_iter()
+                .map(|(span, (_, judgement))| (span, judgement))
+                .collect(),
+            constants: if options.constants { interpreter.constants() } else { Vec::new() },
             cancelled: interpreter.shared.host.cancelled(),
         }
     });

@@ -4,8 +4,8 @@ use super::documents::Opened;
 use crate::check::{self, Checked};
 use crate::session::complete::Knowledge;
 use crate::session::{FileSnapshot, Project};
-use crate::source::{FileId, SourceFile};
-use std::path::PathBuf;
+use crate::source::{Diagnostic, FileId, SourceFile, code};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A checked program, whose root is an open document.
@@ -54,8 +54,21 @@ impl Analysis {
         if source.library { None } else { path.to_str().map(str::to_owned) }
     }
 
+    /// Returns true if the program was read from the file of this path, or tried to.
+    pub(super) fn has_read(&self, path: &Path) -> bool {
+        let own = self.checked.sources.files().filter(|(_, file)| !file.library);
+        let unread = |found: &Diagnostic| matches!(found.code, code::CANNOT_READ | code::UNKNOWN_IMPORT);
+        let missing = self.checked.diagnostics.iter().any(unread);
+        missing || own.map(|(_, file)| self.root.join(&*file.name)).any(|read| read == path)
+    }
+
     /// Returns what completion needs to know of the program.
     pub(super) fn knowledge(&self) -> Knowledge {
-        Knowledge::of_program(self.files.clone(), self.checked.clone(), self.text(self.file))
+        self.knowledge_with(self.text(self.file))
+    }
+
+    /// Returns what completion needs to know of the program whose document has this text now.
+    pub(super) fn knowledge_with(&self, text: &str) -> Knowledge {
+        Knowledge::of_program(self.files.clone(), self.checked.clone(), text)
     }
 }

@@ -136,8 +136,8 @@ pub(super) struct Shown {
 
 /// Returns diagnostics as they are shown in a document: those of files that it imports stand at its begin, with
 /// file and line.
-pub(super) fn shown(analysis: &Analysis, diagnostics: &[Diagnostic]) -> Vec<Shown> {
-    let one = |diagnostic: &Diagnostic| {
+pub(super) fn shown(analysis: &Analysis, diagnostics: &[&Diagnostic]) -> Vec<Shown> {
+    let one = |diagnostic: &&Diagnostic| {
         let first = diagnostic.labels.first();
         let own = first.filter(|label| label.span.file == analysis.file);
         let mut message = diagnostic.message.clone();

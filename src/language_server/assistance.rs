@@ -2,67 +2,179 @@
 //! what diagnostics hint at.
 
 use super::analysis::Analysis;
-use crate::check;
-use crate::check::typed::DefKind;
-use crate::session::complete::signature;
-use crate::source::Diagnostic;
-use crate::syntax::{Outline, Token, TokenKind};
+use super::verdicts::{Judged, Target, VERIFY};
+use crate::check::summary::{params_of, type_params, with_default};
+use crate::check::typed::{DefId, DefKind};
+use crate::check::{self, Meaning, Program, Type};
+use crate::source::{Diagnostic, Span, Symbol};
+use crate::syntax::{DECLARING, Outline, Token, TokenKind};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// The most calls whose arguments are named at once: those of several screens.
 const CALLS_MAX: usize = 400;
+/// The most parameters that are left out whose defaults are shown: more would hide the call.
+const DEFAULTS_MAX: usize = 3;
 
-/// The name of a parameter, to be shown before its argument.
-pub(super) struct ParameterHint {
-    /// The offset of the argument, bytes.
+/// A hint that is shown in the text.
+pub(super) struct Hint {
+    /// The offset at which it is shown, bytes.
     pub at: usize,
-    /// The name of the parameter.
-    pub name: String,
-    /// The parameter as it is declared: `n: Int = 1`.
-    pub declared: String,
+    /// The text that is shown.
+    pub label: String,
+    /// The text that is shown about it: a parameter as it is declared, `n: Int = 1`. Empty for none.
+    pub about: String,
+    /// The kind of the hint.
+    pub kind: HintKind,
 }
 
-/// Returns the names of the parameters of arguments that are given without them, in a range of the document (bytes): of
-/// functions and planners, but not of those that are called by a dot. Names that the argument says itself are left out, and
-/// those of calls with one argument.
-pub(super) fn parameter_hints(analysis: &Analysis, range: &Range<usize>) -> Vec<ParameterHint> {
+/// The kinds of hints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum HintKind {
+    /// The name of a parameter, before its argument.
+    Parameter,
+    /// The default of a parameter that is left out, behind the arguments.
+    Default,
+    /// The type of a `let` with a unit, behind its name.
+    Type,
+    /// The value of a `let`, behind its expression.
+    Value,
+}
+
+/// Returns the hints in a range of the document (bytes), in the order of the text. `constants`: the values of `let`s, by the
+/// places of their expressions.
+pub(super) fn hints(analysis: &Analysis, constants: &[(Span, String)], range: &Range<usize>) -> Vec<Hint> {
     let text = analysis.text(analysis.file);
     let Some(outline) = Outline::of(text) else { return Vec::new() };
     let tokens: Vec<&Token> = outline.tokens.iter().filter(|token| is_code(token)).collect();
-    let knowledge = analysis.knowledge();
+    let mut found = argument_hints(analysis, &tokens, range);
+    found.extend(type_hints(analysis, &tokens, range));
+    found.extend(value_hints(analysis, constants, range));
+    found.sort_by_key(|hint| hint.at);
+    found
+}
+
+/// Returns the names of the parameters of arguments that are given without them, and the defaults of those that are left out (but
+/// not by built-ins): of functions, planners and instances, but not of behaviours and others that are called by a dot. Names that the argument says
+/// itself are left out, and those of calls with one argument.
+fn argument_hints(analysis: &Analysis, tokens: &[&Token], range: &Range<usize>) -> Vec<Hint> {
+    let text = analysis.text(analysis.file);
+    let word = |i: usize| &text[tokens[i].start..tokens[i].end];
+    let checked = &analysis.checked;
+    let declared = |(name, meaning): &(Symbol, Meaning)| match meaning {
+        Meaning::Def(id) => Some((*name, *id)),
+        Meaning::File(_) => None,
+    };
+    let meant: BTreeMap<Symbol, DefId> = checked.names.iter().filter_map(declared).collect();
     let calls = (1..tokens.len()).filter(|i| {
         let [callee, open] = [tokens[i - 1], tokens[*i]];
-        let plain =
-            callee.kind == TokenKind::Word && callee.end == open.start && &text[open.start..open.end] == "(";
-        let dotted = *i > 1 && &text[tokens[i - 2].start..tokens[i - 2].end] == ".";
-        let declares =
-            *i > 1 && matches!(&text[tokens[i - 2].start..tokens[i - 2].end], "fn" | "module" | "config");
-        plain && !dotted && !declares && range.contains(&open.start)
+        let plain = callee.kind == TokenKind::Word && callee.end == open.start && word(*i) == "(";
+        let declares = *i > 1 && (word(*i - 2) == "." || DECLARING.contains(&word(*i - 2)));
+        plain && !declares && range.contains(&open.start)
     });
     let mut found = Vec::new();
     for open in calls.take(CALLS_MAX) {
-        let given = arguments(text, &tokens, open);
-        if given.len() < 2 || given.iter().all(|argument| argument.is_none()) {
-            continue;
-        }
-        let Some(called) = signature(&knowledge, &text[..tokens[open].end]) else { continue };
-        for (argument, declared) in given.iter().zip(&called.parameters) {
+        let Some(Call { given, close }) = call(text, tokens, open) else { continue };
+        let Some(id) = meant.get(&Symbol::new(word(open - 1))) else { continue };
+        let kind = &checked.program.def(*id).kind;
+        let params = params_of(&checked.program, *id).iter();
+        let parameters: Vec<String> =
+            params.map(|param| with_default(checked, type_params(kind), param)).collect();
+        let several = given.len() > 1 && given.iter().any(|argument| argument.name.is_none());
+        let mut left_out: Vec<&str> = parameters.iter().map(String::as_str).collect();
+        let mut variadic = false;
+        for (argument, declared) in given.iter().zip(&parameters) {
             let (name, rest) = declared.split_once(':').unwrap_or((declared, ""));
             // All arguments from here on are of this parameter.
-            if rest.contains("...") {
+            variadic = rest.contains("...");
+            if variadic {
                 break;
             }
-            let Some(argument) = argument else { continue };
-            if text[argument.clone()].trim_end() != name {
-                found.push(ParameterHint {
-                    at: argument.start,
-                    name: name.to_owned(),
-                    declared: declared.clone(),
-                });
+            if argument.name.is_some() {
+                continue;
             }
+            left_out.retain(|other| other != declared);
+            if several && text[argument.range.clone()].trim_end() != name {
+                let (label, about) = (format!("{name}:"), declared.clone());
+                found.push(Hint { at: argument.range.start, label, about, kind: HintKind::Parameter });
+            }
+        }
+        let named = |declared: &str| {
+            given.iter().any(|a| a.name.is_some_and(|name| declared.split(':').next() == Some(name)))
+        };
+        left_out.retain(|declared| !named(declared));
+        let defaults: Vec<String> = left_out.iter().filter_map(|declared| default_of(declared)).collect();
+        // The defaults of built-ins are known, and would stand behind each motion.
+        let shows = !variadic && !matches!(kind, DefKind::Native(_));
+        if shows && (1..=DEFAULTS_MAX).contains(&defaults.len()) {
+            let comma = if given.is_empty() { "" } else { ", " };
+            let (label, about) = (format!("{comma}{}", defaults.join(", ")), String::new());
+            found.push(Hint { at: tokens[close].start, label, about, kind: HintKind::Default });
         }
     }
     found
+}
+
+/// Returns a parameter with its default, as a call would give it: `height: 2m`; `None` without a default, and where that is
+/// nothing.
+fn default_of(declared: &str) -> Option<String> {
+    let (head, default) = declared.split_once(" = ")?;
+    let name = head.split(':').next()?;
+    (default != "_").then(|| format!("{name}: {default}"))
+}
+
+/// Returns the types of `let`s that state none, where these have a unit that the text does not show: not those of a plain number.
+fn type_hints(analysis: &Analysis, tokens: &[&Token], range: &Range<usize>) -> Vec<Hint> {
+    let program = &analysis.checked.program;
+    let here = |(span, ty): &&(Span, Type)| {
+        span.file == analysis.file && range.contains(&span.range().start) && has_unit(program, ty)
+    };
+    let mut found: Vec<Hint> = Vec::new();
+    for (span, ty) in analysis.checked.lets.iter().filter(here) {
+        let at = span.range().end;
+        // Behind the name stands `=`, and behind that the expression.
+        let first = tokens.partition_point(|token| token.start < at) + 1;
+        if is_plain(tokens, first, analysis.text(analysis.file)) || found.iter().any(|hint| hint.at == at) {
+            continue;
+        }
+        let label = format!(": {}", program.type_name(ty));
+        found.push(Hint { at, label, about: String::new(), kind: HintKind::Type });
+    }
+    found
+}
+
+/// Returns true where an expression is nothing but a number, with or without a sign. `first`: the index of its first token.
+fn is_plain(tokens: &[&Token], first: usize, text: &str) -> bool {
+    let sign = tokens.get(first).is_some_and(|token| &text[token.start..token.end] == "-");
+    let number = first + usize::from(sign);
+    let Some(token) = tokens.get(number).filter(|token| token.kind == TokenKind::Number) else {
+        return false;
+    };
+    let next = tokens.get(number + 1).map_or(text.len(), |next| next.start);
+    text[token.end..next].contains('\n') || next == text.len()
+}
+
+/// Returns true for a quantity with a unit, and for lists, vectors and ranges of such.
+fn has_unit(program: &Program, ty: &Type) -> bool {
+    match ty {
+        Type::Quantity(_) => program.type_name(ty) != "Number",
+        Type::List(of) | Type::Vec3(of) | Type::Range(of) | Type::Optional(of) => has_unit(program, of),
+        _ => false,
+    }
+}
+
+/// Returns the values of `let`s behind their expressions.
+fn value_hints(analysis: &Analysis, constants: &[(Span, String)], range: &Range<usize>) -> Vec<Hint> {
+    let text = analysis.text(analysis.file);
+    let here =
+        |(span, _): &&(Span, String)| span.file == analysis.file && range.contains(&span.range().start);
+    let hint = |(span, value): &(Span, String)| {
+        // A bracket around an expression is no part of it.
+        let end = span.range().end;
+        let at = end + text[end..].len() - text[end..].trim_start_matches(')').len();
+        Hint { at, label: format!("= {value}"), about: String::new(), kind: HintKind::Value }
+    };
+    constants.iter().filter(here).map(hint).collect()
 }
 
 /// Returns true for tokens that are neither comments nor line breaks.
@@ -70,16 +182,31 @@ fn is_code(token: &Token) -> bool {
     !matches!(token.kind, TokenKind::LineBreak | TokenKind::LineComment | TokenKind::BlockComment { .. })
 }
 
-/// Returns the ranges of the arguments of the call whose bracket is the token `open`, `None` for those with a name. Empty where
-/// the bracket is not closed.
-fn arguments(text: &str, tokens: &[&Token], open: usize) -> Vec<Option<Range<usize>>> {
+/// A call in the text.
+struct Call<'t> {
+    given: Vec<Argument<'t>>,
+    /// The index of the token that is its closing bracket.
+    close: usize,
+}
+
+/// An argument of a call.
+struct Argument<'t> {
+    /// The range of the argument, its name included, bytes.
+    range: Range<usize>,
+    /// The name that it is given by; `None` without one.
+    name: Option<&'t str>,
+}
+
+/// Returns the call whose opening bracket is the token `open`; `None` where the bracket is not closed.
+fn call<'t>(text: &'t str, tokens: &[&Token], open: usize) -> Option<Call<'t>> {
     let word = |i: usize| tokens.get(i).map_or("", |token| &text[token.start..token.end]);
-    let (mut depth, mut found, mut first) = (0, Vec::new(), open + 1);
+    let (mut depth, mut given, mut first) = (0, Vec::new(), open + 1);
     for i in open..tokens.len() {
         let ends = depth == 1 && (word(i) == "," || word(i) == ")");
         if ends && first < i {
             let named = tokens[first].kind == TokenKind::Word && matches!(word(first + 1), ":" | "=");
-            found.push((!named).then(|| tokens[first].start..tokens[i - 1].end));
+            let range = tokens[first].start..tokens[i - 1].end;
+            given.push(Argument { range, name: named.then(|| word(first)) });
         }
         match tokens[i].kind {
             TokenKind::Open => depth += 1,
@@ -87,13 +214,13 @@ fn arguments(text: &str, tokens: &[&Token], open: usize) -> Vec<Option<Range<usi
             _ => {}
         }
         if depth == 0 {
-            return found;
+            return Some(Call { given, close: i });
         }
         if ends {
             first = i + 1;
         }
     }
-    Vec::new()
+    None
 }
 
 /// A command that is offered at a place of a document.
@@ -101,14 +228,34 @@ pub(super) struct Lens {
     /// The place, bytes.
     pub range: Range<usize>,
     /// The words to click on.
-    pub title: &'static str,
-    /// The command of the editor, which gets the URI of the document.
+    pub title: String,
+    /// The command, which gets the URI of the document.
     pub command: &'static str,
+    /// The second thing that the command gets; `None` for nothing.
+    pub argument: Option<String>,
+}
+
+impl Lens {
+    /// Returns a lens with a command that gets nothing but the document.
+    fn new(range: Range<usize>, title: &str, command: &'static str) -> Lens {
+        Lens { range, title: title.to_owned(), command, argument: None }
+    }
+
+    /// Returns the lens that verifies `target`, or says what is known of it. `span`: the call or the name of the behaviour.
+    fn verify(target: &Target, span: Span, verdicts: &BTreeMap<Target, Option<Judged>>) -> Lens {
+        let title = match verdicts.get(target) {
+            None => "Verify".to_owned(),
+            Some(None) => "verifying …".to_owned(),
+            Some(Some(judged)) => judged.words_at(span),
+        };
+        Lens { range: span.range(), title, command: VERIFY, argument: target.argument() }
+    }
 }
 
 /// Returns the commands that are offered in a document, in order: to run and to show the program at its first item, to show a
-/// robot at its declaration, to run the tests at each of them, to verify where a plan is made into a file.
-pub(super) fn lenses(analysis: &Analysis) -> Vec<Lens> {
+/// robot at its declaration, to run the tests at each of them, to verify where a plan is made into a file, and behaviours that need
+/// no arguments. `verdicts`: what was verified already, or is being verified (`None`).
+pub(super) fn lenses(analysis: &Analysis, verdicts: &BTreeMap<Target, Option<Judged>>) -> Vec<Lens> {
     let text = analysis.text(analysis.file);
     let Some(outline) = Outline::of(text) else { return Vec::new() };
     let mut found = Vec::new();
@@ -119,23 +266,43 @@ pub(super) fn lenses(analysis: &Analysis) -> Vec<Lens> {
         .collect();
     if let Some(first) = begins.first() {
         let range = first.start..first.end;
-        found.push(Lens { range: range.clone(), title: "Run", command: "modl.run" });
-        found.push(Lens { range, title: "Show", command: "modl.show" });
+        found.push(Lens::new(range.clone(), "Run", "modl.run"));
+        found.push(Lens::new(range, "Show", "modl.show"));
     }
     let program = &analysis.checked.program;
     for def in program.own.iter().map(|id| program.def(*id)).filter(|def| def.span.file == analysis.file) {
         let shown = matches!(def.kind, DefKind::Config(_) | DefKind::Lattice(_) | DefKind::Truss(_));
         if shown {
-            found.push(Lens { range: def.span.range(), title: "Show the robot", command: "modl.show" });
+            found.push(Lens::new(def.span.range(), "Show the robot", "modl.show"));
         }
     }
+    let sound = !analysis.checked.has_errors();
+    if sound {
+        let lens = |(target, span): &(Target, Span)| Lens::verify(target, *span, verdicts);
+        found.extend(analysis.verifiable().iter().map(lens));
+    }
+    let mut emits = BTreeSet::new();
     for token in begins {
         let range = token.start..token.end;
         match &text[range.clone()] {
-            "test" => found.push(Lens { range, title: "Run the tests", command: "modl.test" }),
-            "emit" => found.push(Lens { range, title: "Verify and write", command: "modl.run" }),
+            "test" => found.push(Lens::new(range, "Run the tests", "modl.test")),
+            "emit" => {
+                emits.insert(token.start);
+                found.push(Lens::new(range, "Verify and write", "modl.run"));
+                if sound {
+                    let span = Span::new(analysis.file, token.start, token.end);
+                    found.push(Lens::verify(&Target::Program, span, verdicts));
+                }
+            }
             _ => {}
         }
+    }
+    // Verdicts that the program asked for elsewhere.
+    if let Some(Some(judged)) = verdicts.get(&Target::Program) {
+        let elsewhere =
+            |(span, _): &&(Span, _)| span.file == analysis.file && !emits.contains(&span.range().start);
+        let known = judged.verdicts.iter().filter(elsewhere);
+        found.extend(known.map(|(span, _)| Lens::verify(&Target::Program, *span, verdicts)));
     }
     found.sort_by_key(|lens| lens.range.start);
     found

@@ -1,8 +1,10 @@
 //! The types of the protocol, and what the server's answers are in them.
 
 use super::answers::{Shown, Symbol};
-use super::assistance::{Lens, Mend, ParameterHint};
-use super::places::{Encoding, Place, offset, place, places};
+use super::assistance::{Hint, HintKind, Lens, Mend};
+use super::places::{Encoding, Place, offset, place, places, uri_of};
+use super::symbols::Found;
+use super::verdicts::VERIFY;
 use crate::session::complete::{Completion, Signature};
 use crate::source::Severity;
 use crate::syntax::Class;
@@ -11,6 +13,19 @@ use std::ops::Range;
 
 /// The classes of semantic tokens, in the order of their numbers on the wire.
 const TOKEN_TYPES: [&str; 5] = ["keyword", "type", "number", "string", "comment"];
+
+/// The scheme of the URIs of pages that the server has.
+const SCHEME: &str = "modl";
+
+/// Returns the URI of the page that explains a diagnostic's code.
+fn page_of(code: &str) -> String {
+    format!("{SCHEME}:/errors/{code}.md")
+}
+
+/// Returns the code that a page explains, by its URI; `None` for another URI.
+pub(super) fn code_of_page(uri: &str) -> Option<&str> {
+    uri.strip_prefix(SCHEME)?.strip_prefix(":/errors/")?.strip_suffix(".md")
+}
 
 /// Returns the capabilities of the server, whose columns count in `encoding`.
 pub(super) fn capabilities(encoding: Encoding) -> lsp::ServerCapabilities {
@@ -39,6 +54,17 @@ pub(super) fn capabilities(encoding: Encoding) -> lsp::ServerCapabilities {
         inlay_hint_provider: Some(true.into()),
         code_action_provider: Some(true.into()),
         code_lens_provider: Some(lsp::CodeLensOptions::default()),
+        workspace_symbol_provider: Some(true.into()),
+        execute_command_provider: Some(lsp::ExecuteCommandOptions {
+            commands: vec![VERIFY.to_owned()],
+            ..Default::default()
+        }),
+        workspace: Some(lsp::WorkspaceOptions {
+            text_document_content: Some(
+                lsp::TextDocumentContentOptions { schemes: vec![SCHEME.to_owned()] }.into(),
+            ),
+            ..Default::default()
+        }),
         semantic_tokens_provider: Some(
             lsp::SemanticTokensOptions {
                 legend: lsp::SemanticTokensLegend {
@@ -86,11 +112,13 @@ pub(super) fn changed(
     })
 }
 
-/// Returns a diagnostic of a document. `location` gives that of another place; `None` where it has none.
+/// Returns a diagnostic of a document. `pages`: true if it says where its code is explained; `location` gives that of another
+/// place, `None` where it has none.
 pub(super) fn diagnostic(
     text: &str,
     shown: &Shown,
     encoding: Encoding,
+    pages: bool,
     location: impl Fn(crate::source::Span) -> Option<lsp::Location>,
 ) -> lsp::Diagnostic {
     let related = shown.related.iter().filter_map(|(span, message)| {
@@ -105,6 +133,7 @@ pub(super) fn diagnostic(
             Severity::Note => lsp::DiagnosticSeverity::Information,
         }),
         code: Some(lsp::Code::String(shown.code.to_owned())),
+        code_description: pages.then(|| lsp::CodeDescription { href: lsp::Uri(page_of(shown.code)) }),
         source: Some("modl".to_owned()),
         message: shown.message.clone().into(),
         related_information: (!related.is_empty()).then_some(related),
@@ -174,24 +203,44 @@ pub(super) fn signature(found: &Signature) -> lsp::SignatureHelp {
 
 /// Returns the declarations of a document.
 pub(super) fn symbols(text: &str, found: &[Symbol], encoding: Encoding) -> Vec<lsp::DocumentSymbol> {
-    use lsp::SymbolKind as Kind;
     let one = |symbol: &Symbol| lsp::DocumentSymbol {
         name: symbol.name.clone(),
         detail: Some(symbol.detail.clone()),
-        kind: match symbol.word {
-            "fn" | "behavior" | "method" => Kind::Function,
-            "let" | "parameter" => Kind::Variable,
-            "record" | "type" => Kind::Struct,
-            "part" | "joint" | "port" | "obstacle" | "field" => Kind::Field,
-            "connector" => Kind::Interface,
-            _ => Kind::Class,
-        },
+        kind: kind_of_symbol(symbol.word),
         range: range(text, &symbol.whole, encoding),
         selection_range: range(text, &symbol.named, encoding),
         children: Some(symbols(text, &symbol.inside, encoding)).filter(|inside| !inside.is_empty()),
         ..symbol_default()
     };
     found.iter().map(one).collect()
+}
+
+/// Returns the kind of a declaration by the keyword that declares it.
+fn kind_of_symbol(word: &str) -> lsp::SymbolKind {
+    use lsp::SymbolKind as Kind;
+    match word {
+        "fn" | "behavior" | "method" => Kind::Function,
+        "let" | "parameter" => Kind::Variable,
+        "record" | "type" => Kind::Struct,
+        "part" | "joint" | "port" | "obstacle" | "field" => Kind::Field,
+        "connector" => Kind::Interface,
+        _ => Kind::Class,
+    }
+}
+
+/// Returns a declaration of a project.
+pub(super) fn workspace_symbol(found: &Found, encoding: Encoding) -> lsp::WorkspaceSymbol {
+    let uri = lsp::Uri(uri_of(&found.path.to_string_lossy()));
+    lsp::WorkspaceSymbol {
+        location: lsp::Location { uri, range: range(&found.text, &found.named, encoding) }.into(),
+        data: None,
+        base_symbol_information: lsp::BaseSymbolInformation {
+            name: found.name.clone(),
+            kind: kind_of_symbol(found.word),
+            tags: None,
+            container_name: found.around.clone(),
+        },
+    }
 }
 
 #[allow(deprecated, reason = "the protocol's type has a field that is")]
@@ -269,16 +318,20 @@ pub(super) fn folds(text: &str, found: &[Range<usize>], encoding: Encoding) -> V
     found.iter().map(fold).collect()
 }
 
-/// Returns the names of parameters, before their arguments.
-pub(super) fn inlays(text: &str, found: &[ParameterHint], encoding: Encoding) -> Vec<lsp::InlayHint> {
-    let hint = |hint: &ParameterHint| lsp::InlayHint {
+/// Returns hints that are shown in a text.
+pub(super) fn inlays(text: &str, found: &[Hint], encoding: Encoding) -> Vec<lsp::InlayHint> {
+    let hint = |hint: &Hint| lsp::InlayHint {
         position: position(place(text, hint.at, encoding)),
-        label: format!("{}:", hint.name).into(),
-        kind: Some(lsp::InlayHintKind::Parameter),
+        label: hint.label.clone().into(),
+        kind: match hint.kind {
+            HintKind::Parameter | HintKind::Default => Some(lsp::InlayHintKind::Parameter),
+            HintKind::Type => Some(lsp::InlayHintKind::Type),
+            HintKind::Value => None,
+        },
         text_edits: None,
-        tooltip: Some(hint.declared.clone().into()),
-        padding_left: None,
-        padding_right: Some(true),
+        tooltip: (!hint.about.is_empty()).then(|| hint.about.clone().into()),
+        padding_left: (hint.kind == HintKind::Value).then_some(true),
+        padding_right: (hint.kind == HintKind::Parameter).then_some(true),
         data: None,
     };
     found.iter().map(hint).collect()
@@ -306,10 +359,10 @@ pub(super) fn lens(uri: &str, text: &str, lens: &Lens, encoding: Encoding) -> ls
     lsp::CodeLens {
         range: range(text, &lens.range, encoding),
         command: Some(lsp::Command {
-            title: lens.title.to_owned(),
+            title: lens.title.clone(),
             tooltip: None,
             command: lens.command.to_owned(),
-            arguments: Some(vec![uri.into()]),
+            arguments: Some([uri].into_iter().chain(lens.argument.as_deref()).map(Into::into).collect()),
         }),
         data: None,
     }

@@ -266,6 +266,7 @@ fn verify(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         interpreter.draw(&planned, settings, Form::Page, &page, call.span)?;
     }
     let headline = plan::headline_under(&planned.plan, &planned.worlds_in(world), &verdict);
+    interpreter.note_judgement(&verdict, &headline, call.span);
     Ok(Value::Record(Rc::new(Record::Report(verdict, headline))))
 }
 
@@ -281,6 +282,7 @@ fn emit(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     }
     let verdict = interpreter.judge(&planned, settings, None)?;
     interpreter.note_exemptions(&planned, &verdict);
+    interpreter.note_judgement(&verdict, &plan::headline(&planned.plan, &verdict), call.span);
     let page = match interpreter.shared.options.pages {
         true => Some(interpreter.draw(
             &planned,

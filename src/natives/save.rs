@@ -85,6 +85,7 @@ fn export(interpreter: &mut Interpreter, call: &Call, format: &PlanFormat, path:
         // A motion that a robot could execute is judged, as `emit` does.
         let verdict = interpreter.judge(&planned, interpreter.judge_settings(), None)?;
         interpreter.note_exemptions(&planned, &verdict);
+        interpreter.note_judgement(&verdict, &crate::plan::headline(&planned.plan, &verdict), call.span);
         if !verdict.ok() {
             interpreter.report_failures(&planned, &verdict, at, None);
             return Ok(Value::Unknown);

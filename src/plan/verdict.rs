@@ -372,6 +372,23 @@ impl Verdict {
         self.failures.is_empty()
     }
 
+    /// Returns the least margin in words: `least margin 12 % (torque)`, the least part of a limit that the loads of joints,
+    /// bonds or struts leave. Without a measured load it is the least margin of stability, or else the least clearance; `None`
+    /// if there is none of these. Speeds do not count: a motion takes the least time that they allow.
+    pub fn least_margin(&self) -> Option<String> {
+        let loads =
+            [("torque", &self.torque_margin), ("bond", &self.bond_margin), ("force", &self.force_margin)];
+        let measured = loads.into_iter().filter_map(|(name, worst)| Some((name, worst.as_ref()?.value)));
+        if let Some((name, margin)) = measured.min_by(|(_, a), (_, b)| a.total_cmp(b)) {
+            return Some(format!("least margin {} % ({name})", rounded(100.0 * margin, 1)));
+        }
+        let least = |name: &str, worst: &Option<Worst>| {
+            let value = worst.as_ref()?.value;
+            Some(format!("least {name} {}", quantity(value, Dimension::LENGTH)))
+        };
+        least("margin of stability", &self.margin).or_else(|| least("clearance", &self.clearance))
+    }
+
     /// Returns the worst values that the verdict has, each with its row of [`WORST_VALUES`], in the order of the
     /// table.
     pub fn worst_values(&self) -> impl Iterator<Item = (WorstKind, &Worst)> {

@@ -8,8 +8,9 @@ use super::kept::FileSnapshot;
 use super::locals::{LocalName, Origin, locals};
 pub(crate) use super::members::Named;
 use super::members::{about, members, params_of_member};
+use super::path_type::{type_of_let, type_of_path};
 use super::state::{Session, is_given, value_type};
-use crate::check::summary::{param_text, params_of, type_params};
+use crate::check::summary::{param_text, params_of, type_params, with_default};
 use crate::check::typed::{DefId, Param};
 use crate::check::{self, Checked, Entry, Meaning, Type};
 use crate::source::{FileId, Files, Symbol, library};
@@ -50,7 +51,7 @@ impl Knowledge {
 pub(crate) struct Signature {
     /// The function, as it was written.
     pub callee: String,
-    /// The parameters as they are written: `n: Int`.
+    /// The parameters as they are written: `n: Int = 1`.
     pub parameters: Vec<String>,
     /// The index of the parameter that the argument being typed is for.
     pub active: usize,
@@ -67,7 +68,7 @@ pub(crate) fn signature(knowledge: &Knowledge, before: &str) -> Option<Signature
         last.strip_prefix(param.name.as_str()).is_some_and(|rest| rest.trim_start().starts_with(':'))
     });
     let by_place = given.len().saturating_sub(1).min(params.len().saturating_sub(1));
-    let parameters = params.iter().map(|param| param_text(&checked.program, &[], param)).collect();
+    let parameters = params.iter().map(|param| with_default(&checked, &[], param)).collect();
     Some(Signature { callee, parameters, active: by_name.unwrap_or(by_place) })
 }
 
@@ -203,8 +204,8 @@ fn command(knowledge: &Knowledge, before: &str) -> Option<Completion> {
 
 /// Returns the offset of the contents of a text literal that is still open; `None` if none is.
 fn open_text(before: &str) -> Option<usize> {
-    let outline = Outline::of(before)?;
-    let last = outline.tokens.last()?;
+    let tokens = Outline::tokens_of(before)?;
+    let last = tokens.last()?;
     (last.kind == TokenKind::UnclosedText).then_some(last.start + 1)
 }
 
@@ -314,8 +315,12 @@ fn behind_dot(knowledge: &Knowledge, before: &str) -> Vec<Named> {
     ty.map_or_else(Vec::new, |ty| members(&checked, &ty))
 }
 
-/// Checks an expression as the next entry, and returns the program and its type; `None` if it has no value.
-fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
+/// Returns the type of an expression, and a program that has it; `None` if it has no value. Any but a plain path is checked as
+/// the next entry, with all that is before it.
+fn type_of(knowledge: &Knowledge, text: &str) -> (Arc<Checked>, Option<Type>) {
+    if let Some(ty) = type_of_path(&knowledge.checked, text) {
+        return (knowledge.checked.clone(), Some(ty));
+    }
     let mut entries = knowledge.entries.clone();
     entries.push(Entry {
         name: "<completion>".into(),
@@ -326,7 +331,7 @@ fn type_of(knowledge: &Knowledge, text: &str) -> (Checked, Option<Type>) {
     });
     let checked = check::check_session(&*knowledge.files, &entries);
     let ty = checked.entries.last().and_then(|file| value_type(&checked, *file));
-    (checked, ty)
+    (Arc::new(checked), ty)
 }
 
 /// The most substitutions of local names in an expression.
@@ -362,9 +367,8 @@ fn open_call(text: &str) -> Option<usize> {
 
 /// Returns the offset of the innermost open bracket; `None` outside of all brackets.
 fn open_bracket(text: &str) -> Option<usize> {
-    let outline = Outline::of(text)?;
     let mut open = Vec::new();
-    for token in &outline.tokens {
+    for token in Outline::tokens_of(text)? {
         match token.kind {
             TokenKind::Open => open.push(token.start),
             TokenKind::Close => drop(open.pop()),
@@ -402,7 +406,7 @@ fn arguments(inside: &str) -> Vec<&str> {
 
 /// Returns the checked program, the parameters of the call, or the fields of the changed record, in which a text
 /// ends, and the text of its arguments; `None` outside of both, and for an unknown function.
-fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<Param>, &'t str)> {
+fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Arc<Checked>, Vec<Param>, &'t str)> {
     let open = open_bracket(before)?;
     let inside = &before[open + 1..];
     if before[open..].starts_with('{') {
@@ -417,7 +421,7 @@ fn call_at<'t>(knowledge: &Knowledge, before: &'t str) -> Option<(Checked, Vec<P
     let Some((object, name)) = callee.rsplit_once('.') else {
         let id = *meant(&knowledge.checked).get(&Symbol::new(callee))?;
         let params = params_of(&knowledge.checked.program, id).to_vec();
-        return Some(((*knowledge.checked).clone(), params, inside));
+        return Some((knowledge.checked.clone(), params, inside));
     };
     let (checked, ty) = type_of(knowledge, &substituted(object, before));
     let params = params_of_member(&checked, &ty?, Symbol::new(name));
@@ -484,7 +488,9 @@ fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     let mut found = global_names(knowledge);
     let typed = &before[word..];
     let own = locals(&before[..word]).into_iter().filter(|local| local.name.starts_with(typed));
-    found.splice(0..0, own.map(|local| own_name(knowledge, &before[..word], local)));
+    let own: Vec<LocalName> = own.collect();
+    let few = own.len() <= INFERRED_MAX;
+    found.splice(0..0, own.into_iter().map(|local| own_name(knowledge, &before[..word], local, few)));
     let begins = before[line_start(before)..word].trim().is_empty();
     let clauses = if begins { &[ITEMS, STATEMENTS, MODULE, CONFIG, TRUSS][..] } else { &[] };
     let words = clauses.iter().copied().flatten().chain(RESERVED);
@@ -492,10 +498,19 @@ fn names(knowledge: &Knowledge, before: &str, word: usize) -> Vec<Named> {
     found
 }
 
-/// Returns a name that the text declares above, with its type.
-fn own_name(knowledge: &Knowledge, before: &str, local: LocalName) -> Named {
+/// The most names of an unfinished text whose types are worked out by checks of their own.
+const INFERRED_MAX: usize = 4;
+
+/// Returns a name that the text declares above, with its type. `infers`: true if that may be worked out anew.
+fn own_name(knowledge: &Knowledge, before: &str, local: LocalName, infers: bool) -> Named {
     let inferred = || {
-        let (checked, ty) = type_of(knowledge, &substituted(&local.name, before));
+        if let Some(ty) = type_of_let(&knowledge.checked, &local.name) {
+            return knowledge.checked.program.type_name(&ty);
+        }
+        let (checked, ty) = match infers {
+            true => type_of(knowledge, &substituted(&local.name, before)),
+            false => (knowledge.checked.clone(), None),
+        };
         ty.map_or_else(|| "declared above".to_owned(), |ty| checked.program.type_name(&ty))
     };
     let about = match &local.origin {

@@ -19,6 +19,7 @@ pub mod entry;
 pub(crate) mod highlight;
 mod locals;
 mod members;
+mod path_type;
 mod reload;
 mod save;
 

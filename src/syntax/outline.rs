@@ -74,6 +74,17 @@ impl Outline {
         let tokens = joined(Lexer::new(text, start), text, &found);
         Some(Outline { tokens, begins: found.begins, roles: found.roles, chunks })
     }
+
+    /// Returns the tokens of a text alone, without reading what they make, which takes most of the time; a unit such as `m/s` is
+    /// several tokens. `None` as for [`of`](Self::of).
+    pub fn tokens_of(text: &str) -> Option<Vec<Token>> {
+        if text.len() > TEXT_MAX {
+            return None;
+        }
+        let scan = scan(FileId(0), text);
+        let start = scan.chunks.first().copied().unwrap_or(0);
+        (!scan.too_deep).then(|| Lexer::new(text, start).collect())
+    }
 }
 
 /// The tree of a text without positions: the rule and depth of each node, and the text of leaves. Texts that differ

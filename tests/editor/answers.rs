@@ -101,6 +101,63 @@ fn all_uses_are_found_and_renamed() {
     }
 }
 
+/// A text after the edits of a rename in it.
+fn renamed(editor: &mut Client, marked: &str, new: &str) -> String {
+    let mut text = marked.replacen('|', "", 1);
+    let edits = editor.ask_at("textDocument/rename", marked, json!({ "newName": new }));
+    let edits = edits["changes"][uri("main.mod")].as_array().expect("edits").clone();
+    for edit in edits.iter().rev() {
+        let old = piece(&text, &edit["range"]);
+        let at = old.as_ptr() as usize - text.as_ptr() as usize;
+        text.replace_range(at..at + old.len(), edit["newText"].as_str().expect("a name"));
+    }
+    text
+}
+
+#[test]
+fn parts_and_behaviours_are_renamed_with_their_uses() {
+    let mut editor = Client::new(&[]);
+    assert_eq!(
+        renamed(&mut editor, &marked("part a", 0), "front"),
+        PROGRAM
+            .replace("part a", "part front")
+            .replace("connect a.", "connect front.")
+            .replace("(a.m", "(front.m")
+    );
+    assert_eq!(renamed(&mut editor, &marked("pair.nod", 0), "bow"), PROGRAM.replace("nod(", "bow("));
+    // A name that another part has.
+    let refused = editor.try_at("textDocument/rename", &marked("part a", 0), json!({ "newName": "b" }));
+    assert!(refused.as_ref().is_err_and(|said| said.contains("other errors")), "{refused:?}");
+}
+
+#[test]
+fn declarations_of_whole_projects_are_found() {
+    let other = "config Walker { part c: std.smores.Chain3 }\nfn pace(a: Length) = 2 * a\n";
+    let mut editor = Client::new(&[("robots/walker.mod", other), ("notes.txt", "config Nothing {}")]);
+    editor.open("main.mod", PROGRAM);
+    let mut found = |query: &str| -> Vec<(String, String, String)> {
+        let found = editor.ask("workspace/symbol", json!({ "query": query }));
+        let one = |symbol: &Value| {
+            let at = &symbol["location"];
+            let file = at["uri"].as_str().expect("a place").to_owned();
+            let text = if file == uri("main.mod") { PROGRAM } else { other };
+            let name = symbol["name"].as_str().expect("a name").to_owned();
+            assert_eq!(piece(text, &at["range"]), name);
+            (name, file, symbol["containerName"].as_str().unwrap_or_default().to_owned())
+        };
+        found.as_array().expect("a list").iter().map(one).collect()
+    };
+    let of = |name: &str, file: &str, around: &str| (name.to_owned(), uri(file), around.to_owned());
+    assert_eq!(found("walk"), [of("Walker", "robots/walker.mod", "")]);
+    assert_eq!(found("nod"), [of("nod", "main.mod", "Pair")]);
+    let all = found("");
+    assert_eq!(all.len(), 5, "{all:?}");
+    assert_eq!(
+        found("pa"),
+        [of("Pair", "main.mod", ""), of("pair", "main.mod", ""), of("pace", "robots/walker.mod", "")]
+    );
+}
+
 #[test]
 fn names_and_arguments_are_completed() {
     let mut editor = Client::new(&[]);
@@ -225,48 +282,6 @@ fn contracts_are_shown_with_their_behaviour_and_know_states() {
     assert!(!labels(&elsewhere).contains(&"report"), "{:?}", labels(&elsewhere));
 }
 
-/// The hints of a text, as (name, what stands behind it).
-fn inlays(editor: &mut Client, text: &str) -> Vec<(String, String)> {
-    editor.open("main.mod", text);
-    let end = json!({ "line": text.lines().count(), "character": 0 });
-    let range = json!({ "start": { "line": 0, "character": 0 }, "end": end });
-    let found = editor
-        .ask("textDocument/inlayHint", json!({ "textDocument": { "uri": uri("main.mod") }, "range": range }));
-    let one = |hint: &Value| {
-        let place = &hint["position"];
-        let line = text.lines().nth(place["line"].as_u64().expect("a number") as usize).expect("a line");
-        let rest: String =
-            line.chars().skip(place["character"].as_u64().expect("a number") as usize).collect();
-        (hint["label"].as_str().expect("a name").to_owned(), rest)
-    };
-    found.as_array().expect("a list").iter().map(one).collect()
-}
-
-#[test]
-fn arguments_without_a_name_are_told_their_parameters() {
-    let mut editor = Client::new(&[]);
-    let text = "fn area(width: Length, height: Length = 2m, parts: Length...) = width * height
-let height = 3m
-print(area(1m, 4m))
-print(area(1m, height), area(width: 1m, 5m), area(6m))
-print(area(1m, 2m, 3m, 4m))
-";
-    let wanted = [
-        ("width:", "1m, 4m))"),
-        ("height:", "4m))"),
-        // `height` says so itself, names that are given are there, and one argument alone is plain.
-        ("width:", "1m, height), area(width: 1m, 5m), area(6m))"),
-        ("height:", "5m), area(6m))"),
-        ("width:", "1m, 2m, 3m, 4m))"),
-        ("height:", "2m, 3m, 4m))"),
-    ];
-    let wanted: Vec<(String, String)> =
-        wanted.map(|(name, rest)| (name.to_owned(), rest.to_owned())).to_vec();
-    assert_eq!(inlays(&mut editor, text), wanted);
-    // Texts that can't be read have none.
-    assert_eq!(inlays(&mut editor, "print(area(1m, "), []);
-}
-
 /// The mends that are offered at the mark `|` of a text, as (title, the text after them).
 fn mended(editor: &mut Client, marked: &str) -> Vec<(String, String)> {
     let (before, after) = marked.split_once('|').expect("a mark");
@@ -325,11 +340,18 @@ fn programs_robots_and_tests_have_commands() {
     let found = editor.ask("textDocument/codeLens", json!({ "textDocument": { "uri": uri("main.mod") } }));
     let one = |lens: &Value| {
         let command = &lens["command"];
-        assert_eq!(command["arguments"], json!([uri("main.mod")]));
+        assert_eq!(command["arguments"][0], uri("main.mod"));
         (command["command"].as_str().expect("a name").to_owned(), piece(&text, &lens["range"]).to_owned())
     };
     let found: Vec<(String, String)> = found.as_array().expect("a list").iter().map(one).collect();
-    for wanted in [("modl.run", "use"), ("modl.show", "Pair"), ("modl.run", "emit"), ("modl.test", "test")] {
+    for wanted in [
+        ("modl.run", "use"),
+        ("modl.show", "Pair"),
+        ("modl.run", "emit"),
+        ("modl.verify", "emit"),
+        ("modl.verify", "nod"),
+        ("modl.test", "test"),
+    ] {
         let wanted = (wanted.0.to_owned(), wanted.1.to_owned());
         assert!(found.contains(&wanted), "{wanted:?} in {found:?}");
     }

@@ -3,10 +3,12 @@
 use crate::support::suite::MapFiles;
 use lsp_server::{Connection, Message, Notification, Request, RequestId};
 use modl::language_server::{Opened, Workspace, serve};
+use modl::source::{Files, ReadError};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// The time after which a message is missing.
@@ -15,7 +17,31 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// The folder of all documents.
 const ROOT: &str = "/p";
 
-struct Folder(Arc<MapFiles>);
+/// The files on disk, which a test may change.
+struct Disk(Mutex<MapFiles>);
+
+impl Files for Disk {
+    fn read(&self, path: &str) -> Result<Vec<u8>, ReadError> {
+        self.0.lock().expect("no writer fails").read(path)
+    }
+
+    fn library(&self, path: &str) -> Option<Cow<'static, str>> {
+        modl::source::library::text(path).map(Cow::Borrowed)
+    }
+
+    fn list(&self, folder: &str) -> Vec<String> {
+        let files = self.0.lock().expect("no writer fails");
+        let inside = |path: &String| {
+            let below = path.strip_prefix(folder)?.trim_start_matches('/');
+            Some(below.split_once('/').map_or(below.to_owned(), |(folder, _)| format!("{folder}/")))
+        };
+        let mut names: Vec<String> = files.0.keys().filter_map(inside).collect();
+        names.dedup();
+        names
+    }
+}
+
+struct Folder(Arc<Disk>);
 
 impl Workspace for Folder {
     fn open(&self, path: &Path) -> Option<Opened> {
@@ -26,12 +52,15 @@ impl Workspace for Folder {
 
 /// An editor with its server.
 pub struct Client {
+    disk: Arc<Disk>,
     connection: Connection,
     server: Option<std::thread::JoinHandle<Result<bool, String>>>,
     next: i32,
     versions: BTreeMap<String, i64>,
     /// The capabilities that the server stated.
     pub capabilities: Value,
+    /// The requests of the server that came while something else was awaited.
+    requests: Vec<String>,
 }
 
 /// Returns the URI of a document by its name.
@@ -48,15 +77,18 @@ impl Client {
     /// Starts a server for an editor with these capabilities.
     pub fn with(files: &[(&str, &str)], capabilities: Value) -> Client {
         let bytes = files.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec()));
-        let folder = Arc::new(MapFiles(bytes.collect()));
+        let disk = Arc::new(Disk(Mutex::new(MapFiles(bytes.collect()))));
         let (server, connection) = Connection::memory();
-        let thread = std::thread::spawn(move || serve(&server, &Folder(folder)));
+        let folder = Folder(disk.clone());
+        let thread = std::thread::spawn(move || serve(&server, &folder));
         let mut client = Client {
+            disk,
             connection,
             server: Some(thread),
             next: 0,
             versions: BTreeMap::new(),
             capabilities: Value::Null,
+            requests: Vec::new(),
         };
         let begun = client
             .ask("initialize", json!({ "processId": null, "rootUri": null, "capabilities": capabilities }));
@@ -78,13 +110,23 @@ impl Client {
 
     /// Asks, and returns the answer or the words of a refusal; what is published meanwhile is left.
     pub fn try_to(&mut self, method: &str, params: Value) -> Result<Value, String> {
+        let id = self.begin(method, params);
+        self.answer(id)
+    }
+
+    /// Asks, and returns the number of the question.
+    pub fn begin(&mut self, method: &str, params: Value) -> i32 {
         self.next += 1;
-        let id = RequestId::from(self.next);
-        let request = Request { id: id.clone(), method: method.to_owned(), params };
+        let request = Request { id: RequestId::from(self.next), method: method.to_owned(), params };
         self.connection.sender.send(Message::Request(request)).expect("the server listens");
+        self.next
+    }
+
+    /// Returns the answer to a question, or the words of a refusal; what is published meanwhile is left.
+    pub fn answer(&mut self, id: i32) -> Result<Value, String> {
         loop {
-            match self.connection.receiver.recv_timeout(PATIENCE).expect("the server answers") {
-                Message::Response(response) if response.id == id => {
+            match self.received("the server answers") {
+                Message::Response(response) if response.id == RequestId::from(id) => {
                     let value = serde_json::to_value(&response).expect("a message is JSON");
                     return match value.get("error") {
                         Some(error) => Err(error["message"].as_str().unwrap_or_default().to_owned()),
@@ -94,6 +136,29 @@ impl Client {
                 _ => {}
             }
         }
+    }
+
+    /// Waits for a request of the server, which may have come before; what is published meanwhile is left.
+    pub fn awaits(&mut self, method: &str) {
+        while !self.requests.iter().any(|asked| asked == method) {
+            self.received(method);
+        }
+        self.requests.retain(|asked| asked != method);
+    }
+
+    /// Returns the next message.
+    fn received(&mut self, wanted: &str) -> Message {
+        let message = self.connection.receiver.recv_timeout(PATIENCE).expect(wanted);
+        if let Message::Request(request) = &message {
+            self.requests.push(request.method.clone());
+        }
+        message
+    }
+
+    /// Writes a file behind the editor's back.
+    pub fn writes(&self, name: &str, text: &str) {
+        let mut files = self.disk.0.lock().expect("no writer fails");
+        files.0.insert(name.to_owned(), text.as_bytes().to_vec());
     }
 
     /// Opens a document.
@@ -116,7 +181,7 @@ impl Client {
     /// Returns the diagnostics that are published next for a document and a version for which `wanted` holds.
     pub fn published(&mut self, name: &str, wanted: impl Fn(i64, &[Value]) -> bool) -> Vec<Value> {
         loop {
-            let message = self.connection.receiver.recv_timeout(PATIENCE).expect("diagnostics come");
+            let message = self.received("diagnostics come");
             let Message::Notification(Notification { method, params }) = message else { continue };
             if method != "textDocument/publishDiagnostics" || params["uri"] != uri(name) {
                 continue;

@@ -49,3 +49,37 @@ fn open_documents_stand_for_their_files() {
     editor.tell("textDocument/didClose", json!({ "textDocument": { "uri": uri("parts.mod") } }));
     assert!(editor.published("main.mod", |_, found| found.is_empty()).is_empty());
 }
+
+#[test]
+fn codes_lead_to_their_pages() {
+    let able = json!({ "textDocument": { "publishDiagnostics": { "codeDescriptionSupport": true } } });
+    let mut editor = Client::with(&[], able);
+    editor.open("main.mod", "let a = 1mm + 1s\n");
+    let found = editor.published("main.mod", |_, _| true);
+    let page = found[0]["codeDescription"]["href"].clone();
+    let schemes = &editor.capabilities["workspace"]["textDocumentContent"]["schemes"];
+    assert_eq!(schemes[0], page.as_str().expect("an address").split(':').next().expect("a scheme"));
+    let text = editor.ask("workspace/textDocumentContent", json!({ "uri": page }))["text"].clone();
+    assert_eq!(
+        text.as_str(),
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/errors/E0201.md")).ok().as_deref()
+    );
+    assert!(
+        editor.try_to("workspace/textDocumentContent", json!({ "uri": "modl:/errors/../main.rs" })).is_err()
+    );
+    // Others get the code alone.
+    let mut plain = Client::new(&[]);
+    plain.open("main.mod", "let a = 1mm + 1s\n");
+    assert!(plain.published("main.mod", |_, _| true)[0].get("codeDescription").is_none());
+}
+
+#[test]
+fn files_that_change_on_disk_are_read_again() {
+    let mut editor = Client::new(&[("parts.mod", "let width = 1mm\n")]);
+    editor.open("main.mod", "use \"parts.mod\".{width}\nlet twice = 2 * width + 1m\n");
+    assert!(editor.published("main.mod", |_, _| true).is_empty());
+    editor.writes("parts.mod", "let width = 1s\n");
+    let changes = json!({ "changes": [{ "uri": uri("parts.mod"), "type": 2 }] });
+    editor.tell("workspace/didChangeWatchedFiles", changes);
+    assert_eq!(editor.published("main.mod", |_, _| true)[0]["code"], "E0201");
+}

@@ -6,6 +6,7 @@
 use crate::editor::client::{Client, uri};
 use crate::fuzz::inputs::dice::Dice;
 use crate::fuzz::inputs::forms;
+use crate::support::properties::whole;
 use modl::syntax::RESERVED;
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,8 +14,10 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The generated programs.
-const GENERATED: u64 = 2000;
+/// The generated programs, with `MODL_WHOLE=1` five times as many.
+fn generated() -> u64 {
+    if whole() { 10_000 } else { 2_000 }
+}
 
 /// Programs as (name, text): those of the library and the examples, then generated ones.
 fn programs(generated: u64) -> Vec<(String, String)> {
@@ -77,10 +80,10 @@ fn printed(command: &mut Command) -> String {
 #[test]
 fn tree_sitter_reads_every_program() {
     let Some(tool) = tool("MODL_TREE_SITTER") else { return };
-    let mut programs = programs(GENERATED);
+    let mut programs = programs(generated());
     // On one line a bracket behind a value is an index or a call, unless it can be none: that an LR parser does not see.
     programs.retain(|(_, text)| !text.contains("capture 2mm 3deg [") && !text.contains("capture 2mm 3deg ("));
-    assert!(programs.len() as u64 > GENERATED * 9 / 10, "{} programs", programs.len());
+    assert!(programs.len() as u64 > generated() * 9 / 10, "{} programs", programs.len());
     let folder = Folder::of("tree-sitter", &programs);
     let said = printed(Command::new(&tool).arg("parse").arg(&folder.0));
     assert_eq!(said.lines().count(), programs.len());

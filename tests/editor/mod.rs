@@ -1,7 +1,9 @@
 //! The language server, asked over the wire as an editor does.
 
 mod answers;
-mod client;
+pub mod client;
 mod diagnostics;
 mod edits;
 mod grammars;
+mod hints;
+mod verdicts;

@@ -48,7 +48,7 @@ const ROOMS: &[Room] = &[
     room("execute", &["display", "interrupt"], &["units", "geometry", "plan", "planners"]),
     room("document", &["execute", "syntax"], &["elaborate", "natives", "display"]),
     room("session", &["execute", "format", "units"], &["interrupt", "elaborate", "natives", "display"]),
-    room("language_server", &["interrupt", "session"], &["units"]),
+    room("language_server", &["interrupt", "session", "document"], &["units"]),
     room("live", &["execute", "session", "syntax", "units", "view"], &["optimize"]),
     room(
         "cli",
