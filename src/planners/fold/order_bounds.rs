@@ -84,16 +84,52 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
 
 /// Returns the number of hinges up to which paths are enumerated, at least one.
 fn depth(target: &Target, orders: Orders) -> usize {
-    // The mean number of neighbours of the face that a hinge leads to, without the one that it comes from: two where all
-    // faces are triangles.
-    let counts = || (0..target.faces.len()).map(|face| target.around(face).count() as f64);
-    let ways = counts().map(|n| n * (n - 1.0)).sum::<f64>() / counts().sum::<f64>().max(1.0);
-    let growth = ways.max(2.0) * orders.growth() as f64;
-    let most = (POSES_MAX / target.faces.len()) as f64;
-    (1..target.faces.len().max(2))
-        .take_while(|depth| libm::pow(growth, *depth as f64) <= most)
-        .last()
-        .unwrap_or(1)
+    let faces = target.faces.len();
+    // A triangle has three neighbours, and every one after it two that the path has not passed.
+    let growth = 2 * orders.growth();
+    let within = |depth: &usize| growth.checked_pow(*depth as u32).is_some_and(|n| n <= POSES_MAX / faces);
+    let of_triangles = (1..faces.max(2)).take_while(within).last().unwrap_or(1);
+    if target.faces.iter().all(|face| face.len() == 3) {
+        return of_triangles;
+    }
+    // From other faces more ways lead on: their poses are counted.
+    (1..=of_triangles).rev().find(|depth| has_few_poses(target, orders, *depth)).unwrap_or(1)
+}
+
+/// Returns true if the paths of at most so many hinges have at most [`POSES_MAX`] poses in all.
+fn has_few_poses(target: &Target, orders: Orders, depth: usize) -> bool {
+    let mut left = POSES_MAX;
+    let mut on_path = vec![false; target.faces.len()];
+    (0..target.faces.len()).all(|face| {
+        crate::interrupt::checkpoint();
+        count_poses(target, orders, face, depth, 1, &mut on_path, &mut left)
+    })
+}
+
+/// Counts down the poses of the paths that go on from a face by at most `hinges` hinges, at the first of which there are
+/// `poses`; returns false once there are none left.
+fn count_poses(
+    target: &Target,
+    orders: Orders,
+    face: usize,
+    hinges: usize,
+    poses: usize,
+    on_path: &mut [bool],
+    left: &mut usize,
+) -> bool {
+    if hinges == 0 {
+        return true;
+    }
+    on_path[face] = true;
+    let is_within = target.around(face).all(|(_, other)| {
+        if on_path[other] {
+            return true;
+        }
+        *left = left.saturating_sub(poses);
+        *left > 0 && count_poses(target, orders, other, hinges - 1, poses * orders.growth(), on_path, left)
+    });
+    on_path[face] = false;
+    is_within
 }
 
 /// Returns by pair of faces the least sum of absolute fold angles on a path between them, rad (Floyd-Warshall).
