@@ -181,7 +181,7 @@ pub const TARGETS: &[Target] = &[
         input: exports::input,
         check: exports::pictures,
         gate: 10,
-        aim: 10_000,
+        aim: 100_000,
     },
     Target {
         name: "wire",

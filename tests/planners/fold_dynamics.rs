@@ -81,13 +81,13 @@ fn a_prism_and_a_point_are_what_they_are_called() {
     let target = target("octahedron");
     let (corners, hinge) = (target.corners(0), &target.hinges[0]);
     let height = SIDE * libm::sqrt(0.75);
-    let of = |inertia| moment_about(&corners, MASS, inertia, &hinge.point, &hinge.axis);
+    let of = |inertia| moment_about(corners, MASS, inertia, &hinge.point, &hinge.axis);
     assert!(near(of(Inertia::Lamina), MASS * height * height / 6.0, 1e-9));
     assert!(near(of(Inertia::Point), MASS * height * height / 9.0, 1e-9));
     let prism = MASS * height * height / 6.0 + MASS * 0.006 * 0.006 / 12.0;
     assert!(near(of(Inertia::Prism(0.006)), prism, 1e-9));
     // About its centre of mass: m l²/24 in the plane, m l²/12 across it.
-    let body = Body::of_panel(&corners, MASS, Inertia::Lamina);
+    let body = Body::of_panel(corners, MASS, Inertia::Lamina);
     let normal = target.normal(0);
     assert!(near(normal.dot(&(body.inertia * normal)), MASS * SIDE * SIDE / 12.0, 1e-9));
     assert!(near(hinge.axis.dot(&(body.inertia * hinge.axis)), MASS * SIDE * SIDE / 24.0, 1e-9));

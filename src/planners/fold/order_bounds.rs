@@ -72,7 +72,7 @@ pub(super) fn energies(target: &Target, masses: &[f64], inertia: Inertia, orders
             cut: vec![f64::INFINITY; faces],
         };
         search.extend_path(goal, 0, &[Pose::identity()], 0.0);
-        let slope = QUINTIC * least_moment(&search.corners, mass, inertia);
+        let slope = QUINTIC * least_moment(search.corners, mass, inertia);
         let cut = || search.cut.iter().enumerate().filter(|(_, cost)| cost.is_finite());
         for (root, sum) in sums.iter_mut().enumerate() {
             let beyond = cut().map(|(face, cost)| cost + slope * angles[face][root]);

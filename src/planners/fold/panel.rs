@@ -164,8 +164,10 @@ fn outline(ports: &[Port]) -> Option<Vec<Vec3>> {
         let (from, to) = (corners[k], corners[(k + 1) % n]);
         let off = ((from + to) / 2.0 - middle(k)).norm() / longest;
         let outwards = (to - from).cross(&front).normalize();
-        let turned = (port.pose.rotation * Vec3::z() - front).norm().max((out(k) - outwards).norm());
-        if !(off.max(turned) <= TOLERANCES.side) {
+        // Ports in one line have no corner between them: what is then not a number does not fit.
+        let fits = |error: f64| error <= TOLERANCES.side;
+        let turned = [port.pose.rotation * Vec3::z() - front, out(k) - outwards];
+        if !fits(off) || !turned.iter().all(|error| fits(error.norm())) {
             return None;
         }
     }
