@@ -29,3 +29,4 @@ pub mod tosnake_near;
 pub mod tosnake_search;
 pub mod tosnake_weight;
 pub mod truss_robots;
+pub mod unwind;
