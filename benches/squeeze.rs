@@ -8,6 +8,7 @@
 mod lattices;
 
 use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
+use modl::plan::StageEnd;
 use modl::planners::squeeze::{Motion, PlanLimits, Refusal, accordion, arms, fold, shear};
 use std::time::Instant;
 
@@ -39,7 +40,7 @@ fn main() {
             let plan = plan_of(stages_of(way, PAPER));
             let modl::plan::Body::Stages(stages) = &plan.body else { unreachable!("it is a lattice") };
             let (count, runs) =
-                (stages.stages.len(), stages.stages.iter().map(|s| s.end.len()).sum::<usize>());
+                (stages.stages.len(), stages.stages.iter().map(|s| records(&s.end)).sum::<usize>());
             let start = Instant::now();
             let text = modl::plan::file::write(&plan).expect("it can be written");
             let write = start.elapsed();
@@ -55,6 +56,14 @@ fn main() {
                 verify.as_secs_f64(),
             );
         }
+    }
+}
+
+/// Returns the number of runs, or of classes and spans, that state the end of a stage.
+fn records(end: &StageEnd) -> usize {
+    match end {
+        StageEnd::Runs(runs) => runs.len(),
+        StageEnd::Moves(moves) => moves.classes.len() + moves.cells.len(),
     }
 }
 

@@ -85,7 +85,7 @@ fn lattice() -> Plan {
         name: name.into(),
         time_squared: Ratio(4, 1),
         law: Law::BangBang,
-        end: vec![block(sizes, 10)],
+        end: vec![block(sizes, 10)].into(),
         cause: CauseId(0),
     };
     let one = Ratio::ONE;

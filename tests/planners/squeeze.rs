@@ -87,6 +87,7 @@ fn small_plans_are_those_of_the_reference_to_the_last_fraction() {
             let mut boxes: Vec<[Ratio; 4]> = (0..n as usize)
                 .map(|i| ["x", "y", "w", "h"].map(|key| fraction(&expected[key][i])))
                 .collect();
+            let found = found.as_ref().expect("closed forms state all configurations");
             let mut here: Vec<[Ratio; 4]> = cells(found, n);
             let key = |b: &[Ratio; 4]| b.map(|r| (r.to_f64() * 1e9) as i64);
             boxes.sort_by_key(key);

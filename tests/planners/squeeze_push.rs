@@ -142,7 +142,7 @@ fn cells_that_keep_their_size_are_pushed_too() {
     let corner = moved(square.clone(), [0, 0, 0], [5, 3, 0]);
     let found = found(cell, &square, &corner, &Settings::default());
     sampled(&found.stages, &square, &corner);
-    let whole = found.stages.stages.iter().flat_map(|stage| &stage.end).flat_map(|run| run.size);
-    assert!(whole.into_iter().all(|side| side.to_f64() == 1.0));
+    let instants = found.stages.instants();
+    assert!(instants.iter().all(|&t| found.stages.state(t).iter().all(|cell| cell.size == [1.0; 3])));
     assert_eq!(found.method, Method::Push);
 }

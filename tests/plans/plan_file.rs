@@ -7,7 +7,8 @@ use crate::support::robots::{LEFT, TILT, chain, reel, walk4};
 use modl::plan::file::{FileError, read, schema, write};
 use modl::plan::{
     Action, Body, CauseId, Change, Check, CheckKind, Command, Compare, Condition, Exemption, ExemptionKind,
-    Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, Status, Track, Verdict, World, WorldFrom, Worst,
+    Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, StageEnd, Status, Track, Verdict, World,
+    WorldFrom, Worst,
 };
 use modl::robot::{Cell, JointId, Library, PortRef};
 use proptest::prelude::*;
@@ -326,7 +327,8 @@ fn what_points_nowhere_is_refused() {
     assert!(forward.message.contains("no node"), "{forward}");
     let mut odd = lattice();
     let Body::Stages(stages) = &mut odd.body else { panic!("it is a lattice") };
-    stages.stages[0].end[0].first = 3;
+    let StageEnd::Runs(runs) = &mut stages.stages[0].end else { panic!("it states positions") };
+    runs[0].first = 3;
     assert!(refused(&written(&odd)).message.contains("cells 3 to 6"));
 }
 

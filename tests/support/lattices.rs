@@ -3,8 +3,8 @@
 
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Law, Model, Plan, Provenance, Ratio, Run, Settings, Stage, Stages,
-    Verdict, World, WorldFrom,
+    Body, Cause, CauseId, CellLimits, Law, Model, Plan, Provenance, Ratio, Run, Settings, Stage, StageEnd,
+    Stages, Verdict, World, WorldFrom,
 };
 use modl::planners::squeeze::{Motion, PlanHeader, PlanLimits, Profile};
 use modl::robot::{Cell, Library};
@@ -40,7 +40,7 @@ pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: M
         name: "by hand".into(),
         time_squared: *time_squared,
         law: *law,
-        end: runs(end),
+        end: runs(end).into(),
         cause: CauseId(0),
     };
     Stages {
@@ -51,6 +51,14 @@ pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: M
         model,
         start: runs(start),
         stages: ends.iter().map(stage).collect(),
+    }
+}
+
+/// Returns the runs that a stage states.
+pub fn runs_of(stage: &mut Stage) -> &mut Vec<Run> {
+    match &mut stage.end {
+        StageEnd::Runs(runs) => runs,
+        StageEnd::Moves(_) => panic!("the stage states moves"),
     }
 }
 

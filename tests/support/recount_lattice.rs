@@ -1,6 +1,6 @@
 //! A second look at plans of lattices: cells in floating point, at samples of each stage.
 
-use modl::plan::{Body, CellBox, Law, Plan, Ratio};
+use modl::plan::{Body, CellBox, Law, Plan, Ratio, StageEnd};
 
 /// The deviation that rounding explains, in cell sizes.
 const SLACK: f64 = 1e-9;
@@ -21,7 +21,7 @@ pub fn recount(plan: &Plan, found: &mut Vec<String>) {
     place(&mut before, &stages.start);
     for stage in &stages.stages {
         let mut after = before.clone();
-        place(&mut after, &stage.end);
+        advance(&mut after, &stage.end);
         let seconds = number(stage.time_squared).sqrt();
         let pairs: Vec<(CellBox, CellBox)> =
             before.iter().zip(&after).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
@@ -106,6 +106,25 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
 fn between(a: &CellBox, b: &CellBox, u: f64) -> CellBox {
     let mix = |x: [f64; 3], y: [f64; 3]| [0, 1, 2].map(|axis| x[axis] + (y[axis] - x[axis]) * u);
     CellBox { center: mix(a.center, b.center), size: mix(a.size, b.size) }
+}
+
+fn advance(cells: &mut [Option<CellBox>], end: &StageEnd) {
+    let moves = match end {
+        StageEnd::Runs(runs) => return place(cells, runs),
+        StageEnd::Moves(moves) => moves,
+    };
+    let mut first = 0;
+    for span in moves.cells.iter() {
+        let (class, next) = (&moves.classes[span.class as usize], first + span.count as usize);
+        for cell in cells[first..next].iter_mut().flatten() {
+            for axis in 0..3 {
+                let number = |Ratio(a, b): Ratio| a as f64 / b as f64;
+                cell.center[axis] += number(class.displacement[axis]);
+                cell.size[axis] += number(class.growth[axis]);
+            }
+        }
+        first = next;
+    }
 }
 
 fn place(cells: &mut [Option<CellBox>], runs: &[modl::plan::Run]) {

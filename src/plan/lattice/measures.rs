@@ -32,7 +32,7 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let mut peaks = Vec::with_capacity(stages.stages.len());
     for stage in &stages.stages {
         let mut after = before.clone();
-        grid.place(&stage.end, &mut after)?;
+        grid.advance(&stage.end, &mut after)?;
         let change = Change::of(&before, &after);
         let mut forest = ContactForest::new(before.len());
         let _ = examine(&before, &after, &change, grid.lines, &mut forest).ok_or(LatticeFault::Entangled)?;
@@ -59,7 +59,7 @@ pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = cubes.clone();
-    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
     Ok(time_between(stages, &start, &cubes, grid))
 }
 
@@ -86,7 +86,7 @@ pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = places(&cubes, grid.lines)?;
-    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
     Ok((start, places(&cubes, grid.lines)?))
 }
 

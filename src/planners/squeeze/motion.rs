@@ -2,7 +2,7 @@
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
-use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
+use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Moves, Ratio, Run, Stage, StageEnd, Stages};
 
 /// A motion (trajectory) of a lattice robot: configurations of all cells with the transitions between them. Lengths
 /// are in cell sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1
@@ -12,8 +12,9 @@ pub struct Motion {
     /// The number of cells of the robot.
     pub count: u64,
     /// The configurations in order of time as arithmetic runs, in cell sizes relative to the centre of mass, which
-    /// rests; one more than there are transitions.
-    pub configurations: Vec<Vec<Run>>,
+    /// rests; one more than there are transitions. `None` between two transitions that state moves; the first and the
+    /// last are stated always.
+    pub configurations: Vec<Option<Vec<Run>>>,
     /// The transitions, of which number `k` leads from configuration `k` to `k + 1`.
     pub transitions: Vec<Transition>,
 }
@@ -29,6 +30,8 @@ pub struct Transition {
     pub law: Law,
     /// True if the angular momentum stays zero during the transition.
     pub balanced: bool,
+    /// The moves of all cells; `None` if the configurations before and after are stated instead.
+    pub moves: Option<Moves>,
 }
 
 /// The velocity profile of a stage: how its progress speeds up and slows down.
@@ -97,7 +100,7 @@ impl<'a> Builder<'a> {
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<Builder<'a>, Refusal> {
         let start = runs(domains, count, &place)?;
-        let motion = Motion { count, configurations: vec![start], transitions: vec![] };
+        let motion = Motion { count, configurations: vec![Some(start)], transitions: vec![] };
         Ok(Builder { limits, motion, last: Box::new(place) })
     }
 
@@ -115,15 +118,50 @@ impl<'a> Builder<'a> {
         domains: &[Domain],
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
+        self.stage_by(name, relative_displacement, domains, place, None)
+    }
+
+    /// Appends a stage as [`stage`](Self::stage) does, that is stated by these moves if there are any, else by the
+    /// configurations before and after. The moves must be the displacements relative to the centre of mass, and they
+    /// must lead to the states that `place` returns.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+    pub(super) fn stage_by(
+        &mut self,
+        name: &'static str,
+        relative_displacement: i64,
+        domains: &[Domain],
+        place: impl Fn(u64) -> CellState + 'a,
+        moves: Option<Moves>,
+    ) -> Result<(), Refusal> {
         let motion = Displacements::of(domains, self.motion.count, &self.last, &place);
         if motion.moves {
             let (time_squared, law) =
                 least_time(&self.limits, self.motion.count, &motion, relative_displacement)
                     .ok_or(Refusal::TooLarge)?;
-            self.motion.transitions.push(Transition { name, time_squared, law, balanced: motion.balanced });
-            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
+            let mut configuration = None;
+            if moves.is_none() {
+                self.state_last(domains)?;
+                configuration = Some(runs(domains, self.motion.count, &place)?);
+            }
+            let balanced = motion.balanced;
+            self.motion.transitions.push(Transition { name, time_squared, law, balanced, moves });
+            self.motion.configurations.push(configuration);
         }
         self.last = Box::new(place);
+        Ok(())
+    }
+
+    /// States the last configuration, if it is not stated yet, by runs of these domains, on each of which it must be
+    /// affine.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+    pub(super) fn state_last(&mut self, domains: &[Domain]) -> Result<(), Refusal> {
+        if let Some(last @ None) = self.motion.configurations.last_mut() {
+            *last = Some(runs(domains, self.motion.count, &self.last)?);
+        }
         Ok(())
     }
 
@@ -156,14 +194,15 @@ impl<'a> Builder<'a> {
                 time_squared: half,
                 law,
                 balanced: whole.balanced,
+                moves: None,
             });
-            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
+            self.motion.configurations.push(Some(runs(domains, self.motion.count, &place)?));
         }
         self.last = Box::new(end);
         Ok(())
     }
 
-    /// Returns the motion of the stages added so far.
+    /// Returns the motion of the stages added so far, whose last configuration must be stated.
     pub(super) fn motion(self) -> Motion {
         self.motion
     }
@@ -361,14 +400,17 @@ impl Motion {
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
-        Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
+        Ok(Motion { count, configurations: vec![Some(runs(domains, count, &place)?)], transitions: vec![] })
     }
 
     /// Returns the motion in reverse, from the end to the start, with the time laws reversed.
     pub fn reversed(mut self) -> Motion {
         self.configurations.reverse();
         self.transitions.reverse();
-        self.transitions.iter_mut().for_each(|transition| transition.law = transition.law.reversed());
+        for transition in &mut self.transitions {
+            transition.law = transition.law.reversed();
+            transition.moves = transition.moves.as_ref().map(Moves::reversed);
+        }
         self
     }
 
@@ -388,7 +430,12 @@ impl Motion {
             (0..3).for_each(|k| turned[to[k]] = ratios[k]);
             turned
         };
-        for run in self.configurations.iter_mut().flatten() {
+        let moves = self.transitions.iter_mut().filter_map(|transition| transition.moves.as_mut());
+        for class in moves.flat_map(|moves| &mut moves.classes) {
+            class.displacement = turn(class.displacement);
+            class.growth = turn(class.growth);
+        }
+        for run in self.configurations.iter_mut().flatten().flatten() {
             run.center = turn(run.center);
             run.size = turn(run.size);
             run.counters.iter_mut().for_each(|counter| counter.step = turn(counter.step));
@@ -399,12 +446,15 @@ impl Motion {
     /// Returns the motion as the body of a plan, whose stages all have cause 0.
     pub fn into_stages(self, header: PlanHeader) -> Stages {
         let mut configurations = self.configurations.into_iter();
-        let start = configurations.next().unwrap_or_default();
-        let stage = |(transition, end): (Transition, Vec<Run>)| Stage {
+        let start = configurations.next().flatten().unwrap_or_default();
+        let stage = |(transition, end): (Transition, Option<Vec<Run>>)| Stage {
             name: transition.name.into(),
             time_squared: transition.time_squared,
             law: transition.law,
-            end,
+            end: match transition.moves {
+                Some(moves) => StageEnd::Moves(moves),
+                None => StageEnd::Runs(end.unwrap_or_default()),
+            },
             cause: CauseId(0),
         };
         Stages {

@@ -243,12 +243,25 @@ function latticeMotion(plan, body) {
     }
     return boxes;
   };
+  // Or it says which move each cell makes: of every class of cells the displacement and the growth.
+  const shift = (boxes, [classes, spans]) => {
+    let cell = 0;
+    for (const span of spans) {
+      const [k, count] = span.length ? span : [span, 1];
+      const end = cell + count;
+      for (let i = 6 * Math.ceil(cell / every); i * every < 6 * end; i += 6)
+        for (let axis = 0; axis < 6; axis++) boxes[i + axis] += classes[k][axis];
+      cell = end;
+    }
+    return boxes;
+  };
+  const after = (boxes, stage) => (stage.moves ? shift(boxes.slice(), stage.moves) : fill(boxes.slice(), stage.end));
   const times = [0];
   for (const stage of body.stages) times.push(times[times.length - 1] + stage.duration);
   // Configurations at the stages' ends: every so many are kept, those between are found again from the
   // one before, and the last two are at hand.
   const apart = Math.ceil(((body.stages.length + 1) * n) / KEPT_MAX);
-  const kept = [fill(new Float32Array(6 * n), body.start)];
+  const kept = [fill(new Float64Array(6 * n), body.start)];
   const hand = new Map();
   let low = Infinity;
   const lower = boxes => {
@@ -256,7 +269,7 @@ function latticeMotion(plan, body) {
   };
   lower(kept[0]);
   body.stages.reduce((boxes, stage, i) => {
-    const next = fill(boxes.slice(), stage.end);
+    const next = after(boxes, stage);
     lower(next);
     if ((i + 1) % apart === 0) kept.push(next);
     return next;
@@ -264,7 +277,7 @@ function latticeMotion(plan, body) {
   const endAt = index => {
     if (index % apart === 0) return kept[index / apart];
     if (!hand.has(index)) {
-      const boxes = fill(endAt(index - 1).slice(), body.stages[index - 1].end);
+      const boxes = after(endAt(index - 1), body.stages[index - 1]);
       if (hand.size > 1) hand.delete(hand.keys().next().value);
       hand.set(index, boxes);
     }

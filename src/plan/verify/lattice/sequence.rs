@@ -8,7 +8,7 @@ use crate::plan::lattice::measures::{examine, time_between};
 use crate::plan::lattice::transient::{contact_intervals, transient_contacts};
 use crate::plan::lattice::{Cube, Grid, LatticeFault, boxes};
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, Dynamics, Ground, Plan, Ratio, Run, Stage, World};
+use crate::plan::{CheckKind, Dynamics, Ground, Plan, Ratio, Stage, World};
 use std::fmt;
 
 /// The greatest number of cells times stages that is judged: some minutes of work.
@@ -75,8 +75,7 @@ impl Judgement<'_> {
         if !sound {
             return Err(NotJudged::Units(cell.name.clone()));
         }
-        let named = |runs: &[Run]| runs.iter().map(Run::count).sum::<u64>();
-        let work = stages.stages.iter().map(|s| stages.count + named(&s.end)).fold(0, u64::saturating_add);
+        let work = stages.stages.iter().map(|s| stages.count + s.count()).fold(0, u64::saturating_add);
         if work > 2 * WORK_MAX {
             return Err(NotJudged::Work);
         }
@@ -108,7 +107,7 @@ impl Judgement<'_> {
             let stages = self.stages.stages.len();
             crate::interrupt::progress_checkpoint(|| format!("stage {} of {stages}", index + 1));
             after.clone_from(&before);
-            grid.place(&stage.end, &mut after)?;
+            grid.advance(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {
                 self.velocities_continuous(
                     (last, &earlier),
