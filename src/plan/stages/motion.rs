@@ -2,8 +2,8 @@
 //!
 //! In a stage every cell moves on a straight line, and its size changes linearly, by one time law that all share; so
 //! the two end configurations determine it. Configurations are given by runs of cells whose positions are affine in
-//! the run's indices, with rational numbers: a million cells take a few lines, and nothing is rounded. Where shapes
-//! are irregular, stages state the moves of cells in classes instead.
+//! the run's indices, with rational numbers: a million cells take a few lines, and nothing is rounded. Stages of
+//! irregular shapes state the moves of cells in classes instead.
 
 use super::moves::{CellMove, Moves};
 use super::ratio::Ratio;

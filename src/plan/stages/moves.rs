@@ -1,6 +1,6 @@
 //! Moves of all cells over a stage, in classes: cells of one class move by the same displacement and grow alike.
 //!
-//! Where shapes are irregular, positions are no arithmetic runs, but few displacements occur: a stage that swaps
+//! Positions in irregular shapes are no arithmetic runs, but few displacements occur: a stage that swaps
 //! pairs of ten thousand cells has three. So the classes and the class of each cell state it in a few bytes a cell.
 
 use super::ratio::Ratio;
