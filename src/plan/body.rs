@@ -124,9 +124,9 @@ impl Body {
         }
     }
 
-    /// Returns true if stages of a lattice state moves, as plan files may since version 3.
-    pub(super) fn states_moves(&self) -> bool {
-        matches!(self, Body::Stages(stages) if stages.states_moves())
+    /// Returns true if a plan file needs what version 3 added, of lattices.
+    pub(super) fn needs_version_3(&self) -> bool {
+        matches!(self, Body::Stages(stages) if stages.needs_version_3())
     }
 
     /// Returns the motion in reverse, from its end to its start.

@@ -56,8 +56,8 @@ pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile,
 pub use provenance::{Change, ObjectiveValue, Provenance};
 pub use slope::SLOPE_RISE_MAX;
 pub use stages::{
-    ArithmeticRun, CellBox, CellLimits, CellMove, CellSpan, Counter, Law, Model, Moves, Ratio, Run, Stage,
-    StageEnd, Stages, StagesFault, arithmetic_runs,
+    Anchor, ArithmeticRun, CellBox, CellLimits, CellMove, CellSpan, Counter, Law, Model, Moves, Ratio, Run,
+    Stage, StageEnd, Stages, StagesFault, arithmetic_runs,
 };
 pub use stated_path::StatedPath;
 pub use tolerances::{TOLERANCES, Tolerances};

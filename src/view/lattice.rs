@@ -28,6 +28,7 @@ pub(super) fn body(stages: &Stages, library: &Library) -> Value {
         "cell": cell.map_or("cell", |cell| cell.name.as_str()),
         "size": number(cell.map_or(1.0, |cell| cell.size)),
         "count": stages.count,
+        "obstacles": stages.anchor.as_ref().map_or_else(Vec::new, |anchor| runs(&anchor.obstacles)),
         "start": runs(&stages.start),
         "stages": stages.stages.iter().map(stage).collect::<Vec<_>>(),
     })

@@ -95,6 +95,7 @@ fn lattice() -> Plan {
         time_unit: 0.5,
         limits: CellLimits::default(),
         model: Model::default(),
+        anchor: None,
         start: vec![block([one; 3], 10)],
         stages: vec![
             stage("x-squeeze", [half, one, one]),

@@ -363,7 +363,16 @@ fn crowd_with_a_twin() -> Stages {
         row,
     ];
     let limits = CellLimits { smallest: small, ..UNIT };
-    Stages { cell: 0, count: count + 1503, time_unit: 1.0, limits, model: PAPER, start, stages: vec![] }
+    Stages {
+        cell: 0,
+        count: count + 1503,
+        time_unit: 1.0,
+        limits,
+        model: PAPER,
+        anchor: None,
+        start,
+        stages: vec![],
+    }
 }
 
 #[test]

@@ -264,7 +264,13 @@ struct Found {
 
 fn squeeze(cell: &Cell, task: &Task) -> Result<Found, Refusal> {
     let Task { method, demand: model, profile, max_force, euclidean, .. } = *task;
-    let problem = Problem { cell: cell.clone(), start: task.from.to_vec(), goal: task.to.to_vec() };
+    let problem = Problem {
+        cell: cell.clone(),
+        start: task.from.to_vec(),
+        goal: task.to.to_vec(),
+        fixed: vec![],
+        obstacles: vec![],
+    };
     let norm = if euclidean { Norm::Euclidean } else { Norm::EachAxis };
     let settings = Settings { method, model, profile, max_force, norm };
     let solution = modl::planners::squeeze::plan(&problem, &settings, &mut NoProgress)?;

@@ -335,6 +335,7 @@ pub fn squeezing() -> Stages {
         time_unit: 2.0,
         limits: CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE },
         model: Model::default(),
+        anchor: None,
         start: vec![cells(Ratio(-3, 2), Ratio::ONE, Ratio::ONE)],
         stages: vec![
             stage(vec![cells(Ratio(-3, 4), Ratio(1, 2), Ratio(1, 2))], Law::BangBang),

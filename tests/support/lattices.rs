@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 /// Limits of 1 in units of 1.
 pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
-pub const TERMS: PlanLimits = PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false };
+pub const TERMS: PlanLimits =
+    PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false, anchored: false };
 pub const BALANCED: Model = Model { balanced: true, contact_force: None, euclidean: false };
 pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean: false };
 
@@ -49,6 +50,7 @@ pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: M
         time_unit: 1.0,
         limits: UNIT,
         model,
+        anchor: None,
         start: runs(start),
         stages: ends.iter().map(stage).collect(),
     }

@@ -46,12 +46,28 @@ pub fn recount(plan: &Plan, found: &mut Vec<String>) {
         }
         let drift =
             |axis: usize| pairs.iter().map(|(a, b)| b.center[axis] - a.center[axis]).sum::<f64>().abs();
-        if (0..3).any(|axis| drift(axis) > 1e-6) {
-            found.push(format!("{} moves the centre of mass", stage.name));
+        match &stages.anchor {
+            None if (0..3).any(|axis| drift(axis) > 1e-6) => {
+                found.push(format!("{} moves the centre of mass", stage.name));
+            }
+            Some(anchor)
+                if anchor.cells.iter().any(|&cell| pairs[cell as usize].0 != pairs[cell as usize].1) =>
+            {
+                found.push(format!("{} moves what is fixed", stage.name));
+            }
+            _ => {}
         }
+        let mut obstacles = vec![None; stages.obstacles().len()];
+        place(&mut obstacles, stages.anchor.as_ref().map_or(&[][..], |anchor| &anchor.obstacles[..]));
         for k in 0..=6 {
             let u = f64::from(k) / 6.0;
             let now: Vec<CellBox> = pairs.iter().map(|(a, b)| between(a, b, u)).collect();
+            if now
+                .iter()
+                .any(|cell| obstacles.iter().flatten().any(|o| (0..3).all(|k| overlap(cell, o, k) > 1e-7)))
+            {
+                found.push(format!("{} runs into an obstacle", stage.name));
+            }
             crowd(&stage.name, &now, smallest, k == 0 || k == 6, found);
         }
         before = after;
@@ -73,9 +89,6 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
     if cells.iter().flat_map(|c| c.size).any(|s| !(smallest - SLACK..=1.0 + SLACK).contains(&s)) {
         found.push(format!("{stage}: a cell is too small or too large"));
     }
-    let overlap = |a: &CellBox, b: &CellBox, axis: usize| {
-        (a.size[axis] + b.size[axis]) / 2.0 - (a.center[axis] - b.center[axis]).abs()
-    };
     let mut reached = vec![false; cells.len()];
     let mut open = vec![0];
     if !cells.is_empty() {
@@ -101,6 +114,11 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
     if !at_end && reached.contains(&false) {
         found.push(format!("{stage}: it falls apart"));
     }
+}
+
+/// Returns the length by which two cells overlap along an axis; negative for a gap.
+fn overlap(a: &CellBox, b: &CellBox, axis: usize) -> f64 {
+    (a.size[axis] + b.size[axis]) / 2.0 - (a.center[axis] - b.center[axis]).abs()
 }
 
 fn between(a: &CellBox, b: &CellBox, u: f64) -> CellBox {

@@ -31,7 +31,7 @@ use std::sync::Arc;
 
 /// The text of the first field of every plan file.
 pub(super) const FORMAT: &str = "modl plan";
-/// The version of the schema: 3 added the moves of lattices. A plan without any is written as one of
+/// The version of the schema: 3 added moves and anchors of lattices. A plan without any is written as one of
 /// [`VERSION_MIN`], which every tool reads.
 pub(super) const VERSION: u32 = 3;
 /// The oldest version of the schema that is read.
@@ -45,7 +45,7 @@ pub(super) const VERSION_MIN: u32 = 2;
 pub(super) struct PlanJson<'a> {
     /// The format, always `modl plan`.
     format: Cow<'a, str>,
-    /// 2, or 3 if stages of a lattice state `moves`. Later versions only add fields.
+    /// 2, or 3 if a lattice has an `anchor` or states `moves`. Later versions only add fields.
     version: u32,
     provenance: Cow<'a, Provenance>,
     /// The worlds, in order of time.
@@ -164,7 +164,7 @@ impl<'a> PlanJson<'a> {
         };
         PlanJson {
             format: Cow::Borrowed(FORMAT),
-            version: if plan.body.states_moves() { VERSION } else { VERSION_MIN },
+            version: if plan.body.needs_version_3() { VERSION } else { VERSION_MIN },
             provenance: Cow::Borrowed(&plan.provenance),
             worlds: plan.worlds.iter().map(world).collect(),
             settings: plan.settings,

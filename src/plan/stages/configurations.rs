@@ -9,13 +9,23 @@ use crate::plan::lattice::grid::{Cube, Grid};
 
 impl Stages {
     /// Returns true if some stage states moves, not positions.
-    pub(in crate::plan) fn states_moves(&self) -> bool {
+    fn states_moves(&self) -> bool {
         self.stages.iter().any(Stage::states_moves)
     }
 
-    /// Returns all numbers of the positions and moves, in cell sizes.
+    /// Returns true if a plan file needs what version 3 added: moves, or an anchor.
+    pub(in crate::plan) fn needs_version_3(&self) -> bool {
+        self.anchor.is_some() || self.states_moves()
+    }
+
+    /// Returns all numbers of positions, moves and obstacles, in cell sizes.
     pub(in crate::plan) fn ratios(&self) -> impl Iterator<Item = Ratio> + '_ {
-        self.start.iter().flat_map(Run::ratios).chain(self.stages.iter().flat_map(Stage::ratios))
+        let obstacles = self.anchor.iter().flat_map(|anchor| &anchor.obstacles);
+        self.start
+            .iter()
+            .chain(obstacles)
+            .flat_map(Run::ratios)
+            .chain(self.stages.iter().flat_map(Stage::ratios))
     }
 
     /// Returns runs that state the position of every cell before the stage of this index (from 0), or at the end if it

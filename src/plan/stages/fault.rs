@@ -70,6 +70,12 @@ pub enum StagesFault {
         /// The number of cells of the lattice.
         count: u64,
     },
+    /// An anchor without cells, or with cells that are not in ascending order or not there.
+    AnchorCells,
+    /// A size of an obstacle that is not positive.
+    ObstacleSize,
+    /// A plan that is to be balanced though cells stand fast.
+    AnchorBalance,
     /// Moves that lead to positions without exact arithmetic, for the reason given.
     Inexact(LatticeFault),
 }
@@ -103,6 +109,13 @@ impl fmt::Display for StagesFault {
             }
             StagesFault::MoveCells { stage, stated, count } => {
                 write!(f, "stage `{stage}` states the moves of {stated} cells: there are {count}")
+            }
+            StagesFault::AnchorCells => {
+                write!(f, "the fixed cells must be some of the cells there are, in ascending order")
+            }
+            StagesFault::ObstacleSize => write!(f, "the size of an obstacle must be positive"),
+            StagesFault::AnchorBalance => {
+                write!(f, "a lattice with fixed cells is held from turning: it is not balanced by itself")
             }
             StagesFault::Inexact(fault) => write!(f, "the moves add up to no exact positions: {fault}"),
             StagesFault::Ratio { numerator, denominator } => {

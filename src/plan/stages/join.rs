@@ -14,7 +14,7 @@ use crate::plan::operation_error::OperationError;
 /// Returns the stages of `a` followed by those of `b`, whose causes are numbered from `causes` on.
 ///
 /// # Errors
-/// [`OperationError`] for lattices of other cells, of another number of cells or of another shape where they meet,
+/// [`OperationError`] for lattices of other cells, of another number of cells, of another shape where they meet, or on another anchor,
 /// and for numbers that 64 bits do not hold.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
@@ -34,6 +34,9 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
     // The bijection of the cells and the translation that take the second shape to the first.
     let (numbers, shift) = matched(&last, &cubes).ok_or(OperationError::Shapes)?;
     let same_numbers = numbers.iter().enumerate().all(|(i, &number)| i == number as usize);
+    if (a.anchor.is_some() || b.anchor.is_some()) && !same_anchor(a, b, &numbers, shift) {
+        return Err(OperationError::Surroundings);
+    }
     // The stages of the second, renumbered and translated; of the same numbering they stay as they are.
     let mut new = a.clone();
     for stage in &b.stages {
@@ -64,6 +67,15 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
         contact_force: a.model.contact_force.zip(b.model.contact_force).map(|(f, g)| looser(f, g, true)),
     };
     Ok(new)
+}
+
+/// Returns true if the same cells of two lattices stand fast, at the same places among the same obstacles: `numbers` and
+/// `shift` take the cells of the second to those of the first.
+fn same_anchor(a: &Stages, b: &Stages, numbers: &[u32], shift: [i64; 3]) -> bool {
+    let (Some(a), Some(b)) = (&a.anchor, &b.anchor) else { return false };
+    let mut cells: Vec<u64> = b.cells.iter().map(|&cell| u64::from(numbers[cell as usize])).collect();
+    cells.sort_unstable();
+    shift == [0; 3] && a.cells == cells && a.obstacles == b.obstacles
 }
 
 /// Returns moves with cell `i` as number `numbers[i]`, which must be a permutation of all cells.

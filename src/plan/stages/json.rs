@@ -1,7 +1,7 @@
 //! Stages as they stand in a plan file.
 
 use super::fault::StagesFault;
-use super::motion::{CellLimits, Law, Model, Run, Stage, StageEnd, Stages};
+use super::motion::{Anchor, CellLimits, Law, Model, Run, Stage, StageEnd, Stages};
 use super::moves::Moves;
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
@@ -27,6 +27,9 @@ pub(in crate::plan) struct StagesJson<'a> {
     limits: CellLimits,
     /// The bounds on the cells' forces.
     model: Model,
+    /// The cells that stand fast, and the obstacles around them; absent for a lattice that floats by itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    anchor: Option<Cow<'a, Anchor>>,
     /// The position of every cell at the start. Of two runs that name a cell the later holds.
     start: Cow<'a, [Run]>,
     stages: Vec<StageJson<'a>>,
@@ -64,6 +67,7 @@ impl<'a> StagesJson<'a> {
             time_unit: stages.time_unit,
             limits: stages.limits,
             model: stages.model,
+            anchor: stages.anchor.as_ref().map(Cow::Borrowed),
             start: Cow::Borrowed(&stages.start),
             stages: stages.stages.iter().map(StageJson::of).collect(),
         }
@@ -85,6 +89,7 @@ impl<'a> StagesJson<'a> {
             time_unit: self.time_unit,
             limits: self.limits,
             model: self.model,
+            anchor: self.anchor.map(Cow::into_owned),
             start: self.start.into_owned(),
             stages: self.stages.into_iter().map(StageJson::into_stage).collect::<Result<_, _>>()?,
         })

@@ -16,6 +16,6 @@ pub use arithmetic_runs::{ArithmeticRun, arithmetic_runs};
 pub use fault::StagesFault;
 pub(super) use join::joined;
 pub(super) use json::StagesJson;
-pub use motion::{CellBox, CellLimits, Counter, Law, Model, Run, Stage, StageEnd, Stages};
+pub use motion::{Anchor, CellBox, CellLimits, Counter, Law, Model, Run, Stage, StageEnd, Stages};
 pub use moves::{CellMove, CellSpan, Moves};
 pub use ratio::Ratio;

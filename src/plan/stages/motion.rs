@@ -25,10 +25,23 @@ pub struct Stages {
     pub limits: CellLimits,
     /// The conditions on the forces of the cells and their contacts.
     pub model: Model,
+    /// The cells that stand fast, and the obstacles around them; `None` for a lattice that floats by itself.
+    pub anchor: Option<Anchor>,
     /// The position of every cell at the start. If two runs name a cell, the later holds.
     pub start: Vec<Run>,
     /// The stages of the motion, in order of time; they follow each other without pause.
     pub stages: Vec<Stage>,
+}
+
+/// The cells of a lattice that stand fast, so that the others push off from them and the centre of mass moves, and
+/// the obstacles, which stand fast too.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anchor {
+    /// The numbers of the cells that neither move nor change their size, ascending; at least one.
+    pub cells: Vec<u64>,
+    /// The boxes that no cell overlaps at any time, numbered from 0 by themselves.
+    pub obstacles: Vec<Run>,
 }
 
 /// The limits of a cell, in units of its size and of [`Stages::time_unit`]; its greatest force gives it
@@ -248,6 +261,14 @@ impl Run {
 }
 
 impl Stages {
+    /// Returns the boxes of all obstacles, by number.
+    pub fn obstacles(&self) -> Vec<CellBox> {
+        let runs = self.anchor.iter().flat_map(|anchor| &anchor.obstacles);
+        let mut named: Vec<(usize, CellBox)> = runs.flat_map(Run::cells).collect();
+        named.sort_by_key(|(number, _)| *number);
+        named.into_iter().map(|(_, obstacle)| obstacle).collect()
+    }
+
     /// Returns the duration of all stages, s.
     pub fn duration(&self) -> f64 {
         self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
@@ -261,6 +282,11 @@ impl Stages {
             now * self.time_unit
         });
         std::iter::once(0.0).chain(ends).collect()
+    }
+
+    /// Returns the number of the first of the cells that stand fast, on which the others hang; `None` if none does.
+    pub(in crate::plan) fn root(&self) -> Option<u32> {
+        self.anchor.as_ref().and_then(|anchor| anchor.cells.first()).map(|&cell| cell as u32)
     }
 
     /// Returns the box of every cell, by its number, at the time `t` (s); before the start and after the end, as at

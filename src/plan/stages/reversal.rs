@@ -27,6 +27,6 @@ impl Stages {
             cause: stage.cause,
         };
         let stages = self.stages.iter().enumerate().rev().map(stage).collect();
-        Stages { start, stages, ..*self }
+        Stages { start, stages, anchor: self.anchor.clone(), ..*self }
     }
 }

@@ -1,7 +1,7 @@
 //! The validation of stages: references and ranges, in whole numbers.
 
 use super::fault::StagesFault;
-use super::motion::{Law, Run, StageEnd, Stages};
+use super::motion::{Anchor, Law, Run, StageEnd, Stages};
 use super::moves::{CellMove, Moves};
 use super::ratio::Ratio;
 use crate::plan::fault::{PlanFault, need, need_index};
@@ -15,7 +15,7 @@ const RAMP_DENOMINATOR_MAX: i64 = 1 << 60;
 impl Stages {
     /// Checks that the stages are well formed: that the cell type exists and there are not too many cells, that the
     /// start names them all, that every run names cells there are, that moves are of every cell and lead to exact
-    /// positions, that every ratio is a number, and that unit of time, limits, durations and ramps are in their
+    /// positions, that an anchor has cells, that every ratio is a number, and that unit of time, limits, durations and ramps are in their
     /// ranges. `library`: that of the plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
@@ -28,6 +28,9 @@ impl Stages {
         let named = self.start.iter().map(|run| size_of(run).unwrap_or(0)).fold(0, u64::saturating_add);
         need(named >= self.count, || StagesFault::Start)?;
         self.start.iter().try_for_each(|run| self::run(run, self.count))?;
+        if let Some(anchor) = &self.anchor {
+            self.anchor(anchor)?;
+        }
         for stage in &self.stages {
             need_index(stage.cause.0 as usize, causes, "cause")?;
             ratio(stage.time_squared)?;
@@ -41,6 +44,18 @@ impl Stages {
         }
         // Whoever comes after may add up moves without asking.
         Ok(self.for_configurations(|_| false, |_, _| {}).map_err(StagesFault::Inexact)?)
+    }
+
+    fn anchor(&self, anchor: &Anchor) -> Result<(), PlanFault> {
+        let ascending = anchor.cells.windows(2).all(|pair| pair[0] < pair[1]);
+        let there = anchor.cells.last().is_some_and(|&last| last < self.count);
+        need(ascending && there, || StagesFault::AnchorCells)?;
+        need(!self.model.balanced, || StagesFault::AnchorBalance)?;
+        let count = anchor.obstacles.iter().map(|run| size_of(run).unwrap_or(0)).fold(0, u64::saturating_add);
+        need(count <= CELLS_MAX, || StagesFault::CellCount { most: CELLS_MAX })?;
+        anchor.obstacles.iter().try_for_each(|run| self::run(run, count))?;
+        let positive = anchor.obstacles.iter().all(|run| run.size.iter().all(|side| side.0 > 0));
+        need(positive, || StagesFault::ObstacleSize)
     }
 
     fn limits(&self) -> Result<(), PlanFault> {

@@ -95,7 +95,7 @@ impl Listed {
             let relative_displacement = greatest_relative_displacement(&cubes(&last), &cubes(&states), LINES)
                 .ok_or(Refusal::TooLarge)?;
             let domains = runs(&last, &states);
-            let moves = moves(&stage.classes, &of_cell)?;
+            let moves = moves(&stage.classes, &of_cell, limits.anchored)?;
             let moves = (length(&moves) < domains.len() * RUN_LENGTH).then_some(moves);
             last.clone_from(&states);
             // The greatest relative displacement is in lines of the judge's grid.
@@ -117,11 +117,12 @@ fn length(moves: &Moves) -> usize {
     moves.cells.len() + moves.classes.len() * CLASS_LENGTH
 }
 
-/// Returns the moves of cells, by number, that change by these classes, about the centre of mass, which is held.
-fn moves(classes: &[Change], of_cell: &[u32]) -> Result<Moves, Refusal> {
+/// Returns the moves of cells, by number, that change by these classes, about the centre of mass, which is held, if
+/// they are not `anchored`.
+fn moves(classes: &[Change], of_cell: &[u32], anchored: bool) -> Result<Moves, Refusal> {
     let count = of_cell.len() as i128;
     let mut drift = [0_i128; 3];
-    for &class in of_cell {
+    for &class in of_cell.iter().filter(|_| !anchored) {
         let displacement = classes[class as usize].displacement;
         (0..3).for_each(|axis| drift[axis] += i128::from(displacement[axis]));
     }

@@ -54,6 +54,9 @@ pub struct PlanLimits {
     pub profile: Profile,
     /// True if the Euclidean norm of an acceleration is bounded, not only its component along each axis.
     pub euclidean: bool,
+    /// True if some cells stand fast, so that nothing recoils: configurations are relative to the lattice, not to the
+    /// centre of mass.
+    pub anchored: bool,
 }
 
 /// The data about cells, limits and model that a motion needs to become the body of a plan.
@@ -99,7 +102,7 @@ impl<'a> Builder<'a> {
         domains: &[Domain],
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<Builder<'a>, Refusal> {
-        let start = runs(domains, count, &place)?;
+        let start = runs(domains, count, limits.anchored, &place)?;
         let motion = Motion { count, configurations: vec![Some(start)], transitions: vec![] };
         Ok(Builder { limits, motion, last: Box::new(place) })
     }
@@ -135,7 +138,7 @@ impl<'a> Builder<'a> {
         place: impl Fn(u64) -> CellState + 'a,
         moves: Option<Moves>,
     ) -> Result<(), Refusal> {
-        let motion = Displacements::of(domains, self.motion.count, &self.last, &place);
+        let motion = self.displacements(domains, &place);
         if motion.moves {
             let (time_squared, law) =
                 least_time(&self.limits, self.motion.count, &motion, relative_displacement)
@@ -143,7 +146,7 @@ impl<'a> Builder<'a> {
             let mut configuration = None;
             if moves.is_none() {
                 self.state_last(domains)?;
-                configuration = Some(runs(domains, self.motion.count, &place)?);
+                configuration = Some(self.runs(domains, &place)?);
             }
             let balanced = motion.balanced;
             self.motion.transitions.push(Transition { name, time_squared, law, balanced, moves });
@@ -160,9 +163,19 @@ impl<'a> Builder<'a> {
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub(super) fn state_last(&mut self, domains: &[Domain]) -> Result<(), Refusal> {
         if let Some(last @ None) = self.motion.configurations.last_mut() {
-            *last = Some(runs(domains, self.motion.count, &self.last)?);
+            *last = Some(runs(domains, self.motion.count, self.limits.anchored, &self.last)?);
         }
         Ok(())
+    }
+
+    /// Returns the configuration in which `place` returns the state of a cell, affine on each of the domains.
+    fn runs(&self, domains: &[Domain], place: &dyn Fn(u64) -> CellState) -> Result<Vec<Run>, Refusal> {
+        runs(domains, self.motion.count, self.limits.anchored, place)
+    }
+
+    /// Returns the displacements from the last configuration to that in which `place` returns the state of a cell.
+    fn displacements(&self, domains: &[Domain], place: &dyn Fn(u64) -> CellState) -> Displacements {
+        Displacements::of(domains, (self.motion.count, self.limits.anchored), &self.last, place)
     }
 
     /// Appends two stages between which the cells do not come to rest: a speed-up to the states `middle` and a
@@ -179,8 +192,8 @@ impl<'a> Builder<'a> {
         middle: impl Fn(u64) -> CellState + 'a,
         end: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
-        let whole = Displacements::of(domains, self.motion.count, &self.last, &end);
-        let resized = 2 * Displacements::of(domains, self.motion.count, &self.last, &middle).resized;
+        let whole = self.displacements(domains, &end);
+        let resized = 2 * self.displacements(domains, &middle).resized;
         let limits = PlanLimits { profile: Profile::Trapezoid, ..self.limits };
         let (time, law) = least_time(&limits, self.motion.count, &whole, relative_displacement.max(resized))
             .ok_or(Refusal::TooLarge)?;
@@ -196,7 +209,8 @@ impl<'a> Builder<'a> {
                 balanced: whole.balanced,
                 moves: None,
             });
-            self.motion.configurations.push(Some(runs(domains, self.motion.count, &place)?));
+            let configuration = self.runs(domains, &place)?;
+            self.motion.configurations.push(Some(configuration));
         }
         self.last = Box::new(end);
         Ok(())
@@ -282,12 +296,17 @@ impl Affine {
     }
 }
 
-/// Returns the configuration about its centre of mass, as arithmetic runs.
-fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> CellState) -> Result<Vec<Run>, Refusal> {
+/// Returns the configuration as arithmetic runs, about its centre of mass if it is not `anchored`.
+fn runs(
+    domains: &[Domain],
+    count: u64,
+    anchored: bool,
+    place: &dyn Fn(u64) -> CellState,
+) -> Result<Vec<Run>, Refusal> {
     crate::interrupt::checkpoint();
     let affine: Vec<Affine> = domains.iter().map(|domain| Affine::of(domain, place)).collect();
     let sum = |axis| domains.iter().zip(&affine).map(|(d, a)| a.sum(d, axis)).sum::<i128>();
-    let total = [sum(0), sum(1), sum(2)];
+    let total = if anchored { [0; 3] } else { [sum(0), sum(1), sum(2)] };
     let quarters = |n: i64| Ratio::new(n.into(), WHOLE.into()).ok_or(Refusal::TooLarge);
     let three = |f: &dyn Fn(usize) -> Result<Ratio, Refusal>| Ok([f(0)?, f(1)?, f(2)?]);
     let run = |(domain, affine): (&Domain, &Affine)| {
@@ -330,10 +349,11 @@ impl Displacements {
         Ratio::new(root, whole * ROOT_PARTS)
     }
 
-    /// Computes the displacements of a stage, relative to the centre of mass, and its angular momentum.
+    /// Computes the displacements of a stage, relative to the centre of mass if it is not `anchored`, and its angular
+    /// momentum.
     fn of(
         domains: &[Domain],
-        count: u64,
+        (count, anchored): (u64, bool),
         before: &dyn Fn(u64) -> CellState,
         after: &dyn Fn(u64) -> CellState,
     ) -> Displacements {
@@ -344,7 +364,7 @@ impl Displacements {
             domains.iter().zip(&ends).map(moved).sum::<i128>()
         };
         // The centre of mass would drift by this; all displacements are relative to it.
-        let drift = [sum(0), sum(1), sum(2)];
+        let drift = if anchored { [0; 3] } else { [sum(0), sum(1), sum(2)] };
         let mut motion = Displacements { farthest: [0; 3], resized: 0, moves: false, balanced: true };
         // Twelve times the sum of position × displacement over all cells, about the origin: the angular
         // momentum but for the common time law.
@@ -388,7 +408,7 @@ impl Displacements {
             let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
             i128::from(count) * turning[axis] - 12 * (places[y] * drift[z] - places[z] * drift[y])
         };
-        motion.balanced = (0..3).all(|axis| about(axis) == 0);
+        motion.balanced = !anchored && (0..3).all(|axis| about(axis) == 0);
         motion
     }
 }
@@ -400,7 +420,8 @@ impl Motion {
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
-        Ok(Motion { count, configurations: vec![Some(runs(domains, count, &place)?)], transitions: vec![] })
+        let start = runs(domains, count, false, &place)?;
+        Ok(Motion { count, configurations: vec![Some(start)], transitions: vec![] })
     }
 
     /// Returns the motion in reverse, from the end to the start, with the time laws reversed.
@@ -443,7 +464,7 @@ impl Motion {
         self
     }
 
-    /// Returns the motion as the body of a plan, whose stages all have cause 0.
+    /// Returns the motion as the body of a plan without an anchor, whose stages all have cause 0.
     pub fn into_stages(self, header: PlanHeader) -> Stages {
         let mut configurations = self.configurations.into_iter();
         let start = configurations.next().flatten().unwrap_or_default();
@@ -463,6 +484,7 @@ impl Motion {
             time_unit: header.time_unit,
             limits: header.limits,
             model: header.model,
+            anchor: None,
             start,
             stages: self.transitions.into_iter().zip(configurations).map(stage).collect(),
         }

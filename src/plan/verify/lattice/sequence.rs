@@ -8,7 +8,7 @@ use crate::plan::lattice::measures::{examine, time_between};
 use crate::plan::lattice::transient::{contact_intervals, transient_contacts};
 use crate::plan::lattice::{Cube, Grid, LatticeFault, boxes};
 use crate::plan::verify::ledger::Ledger;
-use crate::plan::{CheckKind, Dynamics, Ground, Plan, Ratio, Stage, World};
+use crate::plan::{CheckKind, Dynamics, Ground, Plan, Ratio, Run, Stage, World};
 use std::fmt;
 
 /// The greatest number of cells times stages that is judged: some minutes of work.
@@ -87,7 +87,7 @@ impl Judgement<'_> {
     /// # Errors
     /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place at the start, or too many pairs
     /// of cells come near each other.
-    pub(super) fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
+    pub(super) fn stages(&mut self, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let grid = Grid::of(self.stages)?;
         // A cell that no run names has no size.
         let mut before = vec![Cube::default(); self.stages.count as usize];
@@ -98,6 +98,7 @@ impl Judgement<'_> {
         if self.stages.count == 0 {
             return Ok(());
         }
+        self.obstacles = self.placed_obstacles(grid)?;
         let mut dynamics = Dynamics::default();
         let instants = self.stages.instants();
         self.start(&before, grid, ledger)?;
@@ -140,6 +141,17 @@ impl Judgement<'_> {
         Ok(())
     }
 
+    /// Returns the obstacles in grid lines.
+    fn placed_obstacles(&self, grid: Grid) -> Result<Vec<Cube>, NotJudged> {
+        let runs = self.stages.anchor.as_ref().map_or(&[][..], |anchor| &anchor.obstacles[..]);
+        let count = runs.iter().map(Run::count).sum::<u64>();
+        let mut obstacles = vec![Cube::default(); count as usize];
+        grid.place(runs, &mut obstacles)?;
+        // Those that no run names, since others are named twice.
+        obstacles.retain(|obstacle| obstacle.size(0) > 0);
+        Ok(obstacles)
+    }
+
     /// Checks K7, and the start by itself for plans that do not move at first.
     fn start(&self, cubes: &[Cube], grid: Grid, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let change = Change::of(cubes, cubes);
@@ -167,7 +179,7 @@ impl Judgement<'_> {
             Some(Err(overlap)) => self.overlapping(&overlap, 0.0, 0.0, None, ledger),
             Some(Ok(())) => self.connected(&mut forest, 0.0, None, ledger),
         }
-        Ok(())
+        self.clear_of_obstacles((cubes, cubes), (0.0, 0.0), None, ledger).ok_or(NotJudged::EntangledStart)
     }
 
     /// Checks that velocities are continuous between two stages.
@@ -216,6 +228,9 @@ impl Judgement<'_> {
             Some(Err(overlap)) => self.overlapping(&overlap, step.from, step.to, Some(stage), ledger),
             Some(Ok(())) => {}
         }
+        let times = (step.from, step.to);
+        self.clear_of_obstacles((step.before, step.after), times, Some(stage), ledger)
+            .ok_or_else(|| NotJudged::Entangled(stage.name.clone()))?;
         self.contact_speed(step, &forest, ledger);
         if forest.is_connected() {
             self.forces(step, &forest, dynamics, ledger);
