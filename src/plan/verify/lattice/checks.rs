@@ -192,7 +192,7 @@ impl Judgement<'_> {
         }
         let energy = 0.5 * self.cell.mass * (change.squares as f64) / lines / lines * rate * rate;
         ledger.verdict.energy += energy;
-        // What is held from outside has none of its own.
+        // A robot that is held has no angular momentum of its own.
         if self.stages.anchor.is_none() {
             dynamics.angular_momentum = dynamics.angular_momentum.max(turning);
         }

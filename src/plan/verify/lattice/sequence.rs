@@ -147,7 +147,7 @@ impl Judgement<'_> {
         let count = runs.iter().map(Run::count).sum::<u64>();
         let mut obstacles = vec![Cube::default(); count as usize];
         grid.place(runs, &mut obstacles)?;
-        // Those that no run names, since others are named twice.
+        // Obstacles that no run names, because others are named twice, have no size.
         obstacles.retain(|obstacle| obstacle.size(0) > 0);
         Ok(obstacles)
     }
