@@ -144,7 +144,8 @@ fn fastest(
         if best.as_ref().is_some_and(|(_, _, stages)| time(stages) <= candidate.motion.duration()) {
             break;
         }
-        let balanced = candidate.motion.is_balanced();
+        // A robot that is held is not balanced by itself, not even at rest.
+        let balanced = candidate.motion.is_balanced() && anchor.is_none();
         // In the paper's model the judge does not ask for balance.
         let mut stages = stages_of(candidate.motion, balanced && settings.model != ModelChoice::Paper);
         if let Some(force) = units.contact_force {
