@@ -2581,6 +2581,11 @@ extern type Squeezing is Plan {
 ///
 /// There is neither gravity nor ground, as in the paper. The result ends as asked up to a translation.
 ///
+/// `fixed` are cells of both shapes that stay where they are, as those of a base that is bolted down: the others push
+/// off from them, and neither centre of mass nor angular momentum is kept. `obstacles` are whole cells of the lattice
+/// that the robot keeps clear of; they need fixed cells, for a robot that floats recoils. Then both shapes stand
+/// where they are drawn, and `push` is the method.
+///
 /// Example:
 /// ```modl
 /// use std.crystal.ExpandingCube
@@ -2597,6 +2602,8 @@ extern fn squeeze(
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,
   norm: each_axis | euclidean = each_axis,
+  fixed: Cells?,
+  obstacles: Cells?,
 ) -> Squeezing
 
 /// What `tosnake` found.

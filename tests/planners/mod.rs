@@ -20,6 +20,7 @@ pub mod planar_path;
 pub mod reconfigure;
 pub mod refold;
 pub mod squeeze;
+mod squeeze_anchor;
 mod squeeze_push;
 pub mod surroundings;
 pub mod tosnake;
