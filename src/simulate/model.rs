@@ -48,6 +48,8 @@ pub(super) struct Joint {
     pub armature: f64,
     /// The damping of its bearing, N·m·s/rad or N·s/m; 0 with a servo, whose own counts.
     pub damping: f64,
+    /// True if motors with limits drive it together with others.
+    pub is_coupled: bool,
     /// The least and greatest coordinate, rad or m; `None` without ends, and for one that follows others.
     pub range: Option<(f64, f64)>,
 }
@@ -358,7 +360,13 @@ impl Model {
                 factors: of(&motor.joints),
                 shares: of(effort),
             });
-            self.coupled.push(Coupled { bodies, motors: motors.collect() });
+            let motors = motors.collect();
+            for (body, _) in &bodies {
+                if let Some(joint) = &mut self.bodies[*body].joint {
+                    joint.is_coupled = true;
+                }
+            }
+            self.coupled.push(Coupled { bodies, motors });
         }
     }
 
@@ -433,6 +441,7 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         servo,
         armature: if driven { armature } else { 0.0 },
         damping: stated.damping.filter(|_| passive).unwrap_or(0.0),
+        is_coupled: false,
         range,
     }
 }

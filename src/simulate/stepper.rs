@@ -60,6 +60,8 @@ pub(super) struct Stepper<'a> {
     /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
     pub efforts: Vec<f64>,
     servos: Vec<ServoState>,
+    /// The states that a round found for servos whose motors drive several joints, before the limits of those motors.
+    coupled_servos: Vec<ServoState>,
     /// The point that spatial vectors were about in the step taken last, m.
     pub origin: Vec3,
     /// The height of the centre of mass at the start of the step taken last, m.
@@ -101,6 +103,7 @@ impl<'a> Stepper<'a> {
             mid_rates: vec![0.0; count],
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
+            coupled_servos: vec![ServoState::default(); count],
             origin: Vec3::zeros(),
             centre_height: 0.0,
             number: 0,
@@ -142,7 +145,6 @@ impl<'a> Stepper<'a> {
         let at =
             Instant { time, step: self.step, poses: &self.poses, origin, coordinates: &self.coordinates };
         self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
-        self.servos.iter_mut().for_each(|servo| servo.stop = None);
         let weight = self.model.mass * self.gravity.norm().max(1.0);
         for at in 0..self.servos.len() {
             self.set_servo(at, commands);
@@ -163,7 +165,7 @@ impl<'a> Stepper<'a> {
                 None => 0.0,
             };
             let change = self.couplings.update(&self.bodies, self.step).max(of_ground);
-            let settled = self.update_servos(commands);
+            let settled = self.update_servos(commands, round == 0);
             if settled && change <= PARAMETERS.force_change * weight {
                 break;
             }
@@ -229,10 +231,8 @@ impl<'a> Stepper<'a> {
             (None, _) => {}
         }
         if let Some(end) = self.servos[at].stop {
-            let stiffness = PARAMETERS.stop_stiffness;
-            let damping = PARAMETERS.contact_damping * stiffness;
-            effort += stiffness * (end - q - h * v) - damping * v;
-            armature += h * (h * stiffness + damping);
+            effort += stop_effort(end, h, q, v);
+            armature += h * (h + PARAMETERS.contact_damping) * PARAMETERS.stop_stiffness;
         }
         self.bodies.set_effort(at, effort, armature);
     }
@@ -249,9 +249,10 @@ impl<'a> Stepper<'a> {
     }
 
     /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
-    /// true if that was known.
+    /// true if that was known. `first`: true in the first round, in which stops are those of the step before: one that pulls
+    /// lets go.
     #[inline(always)]
-    fn update_servos(&mut self, commands: &[(f64, f64)]) -> bool {
+    fn update_servos(&mut self, commands: &[(f64, f64)], first: bool) -> bool {
         let h = self.step;
         let mut settled = true;
         for (at, body) in self.model.bodies.iter().enumerate() {
@@ -267,24 +268,33 @@ impl<'a> Stepper<'a> {
             if let Some((low, high)) = joint.range {
                 let next = q + h * v;
                 now.stop = if next > high { Some(high) } else { (next < low).then_some(low) };
+                if first && let Some(end) = self.servos[at].stop.filter(|end| now.stop == Some(*end)) {
+                    let outwards = if end == high { 1.0 } else { -1.0 };
+                    now.stop = Some(end).filter(|_| stop_effort(end, h, q, v) * outwards < 0.0);
+                }
             }
-            settled &= self.change_servo(at, now, commands);
+            if joint.is_coupled {
+                self.coupled_servos[at] = now;
+            } else {
+                settled &= self.change_servo(at, now, commands);
+            }
         }
         for coupled in &self.model.coupled {
             let of = |(body, sign): &(usize, f64)| self.efforts[*body] * sign;
             let efforts: Vec<f64> = coupled.bodies.iter().map(of).collect();
             let needed: Vec<f64> = coupled.motors.iter().map(|motor| dot(&motor.shares, &efforts)).collect();
             let exceeds = |(motor, needed): (&CoupledMotor, &f64)| needed.abs() > motor.effort;
-            if !coupled.motors.iter().zip(&needed).any(exceeds) {
-                continue;
-            }
+            let limited = coupled.motors.iter().zip(&needed).any(exceeds);
             for (number, (body, sign)) in coupled.bodies.iter().enumerate() {
-                let drives = |(motor, needed): (&CoupledMotor, &f64)| {
-                    motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
-                };
-                let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
-                self.efforts[*body] = effort;
-                let now = ServoState { limited: Some((effort, 0.0)), ..self.servos[*body] };
+                let mut now = self.coupled_servos[*body];
+                if limited {
+                    let drives = |(motor, needed): (&CoupledMotor, &f64)| {
+                        motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
+                    };
+                    let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
+                    self.efforts[*body] = effort;
+                    now.limited = Some((effort, 0.0));
+                }
                 settled &= self.change_servo(*body, now, commands);
             }
         }
@@ -444,4 +454,10 @@ fn command(commands: &[(f64, f64)], joint: usize, factor: f64) -> (f64, f64) {
 /// Returns the effort of a servo at the end of a step that begins at the coordinate `q` and has the rate `v`.
 fn spring(servo: &DrivenServo, step: f64, q: f64, v: f64, (wanted, rate): (f64, f64)) -> f64 {
     servo.stiffness * (wanted + servo.zero - q - step * v) + servo.damping * (rate - v)
+}
+
+/// Returns the effort of the stop at an end of a joint's range, N·m or N, at the end of a step that begins at the coordinate `q`
+/// and has the rate `v`.
+fn stop_effort(end: f64, step: f64, q: f64, v: f64) -> f64 {
+    PARAMETERS.stop_stiffness * (end - q - step * v - PARAMETERS.contact_damping * v)
 }
