@@ -12,7 +12,7 @@ use super::ground_contact::GroundContacts;
 use super::link_contact::LinkContacts;
 use super::model::{CarryingBond, CoupledMotor, DrivenServo, Model};
 use super::parameters::PARAMETERS;
-use crate::geometry::pose::turned;
+use crate::geometry::pose::{length, turned};
 use crate::geometry::{Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
@@ -45,6 +45,8 @@ pub(super) struct Stepper<'a> {
     pub couplings: Couplings,
     /// The world poses of the bodies at the start of the step taken last.
     poses: Vec<Pose>,
+    /// Their rotations as matrices.
+    turns: Vec<Mat3>,
     /// The poses of the bases now, by body; of other bodies they are of no use.
     bases: Vec<Pose>,
     /// The velocities of the bases, by body.
@@ -95,6 +97,7 @@ impl<'a> Stepper<'a> {
             ground,
             couplings,
             poses: model.start.clone(),
+            turns: vec![Mat3::identity(); count],
             bases: model.start.clone(),
             twists: vec![Twist::default(); count],
             coordinates: model.coordinates(joints),
@@ -138,23 +141,26 @@ impl<'a> Stepper<'a> {
         self.number += 1;
         let origin = self.bases[0].translation.vector;
         self.origin = origin;
-        self.place(&origin);
+        self.place(&origin, commands);
         if let Some(ground) = &mut self.ground {
-            ground.find(self.model, &self.bodies, &self.poses, &origin, self.number);
+            ground.find(self.model, &self.bodies, (&self.poses, &self.turns), &origin, self.number);
         }
-        let at =
-            Instant { time, step: self.step, poses: &self.poses, origin, coordinates: &self.coordinates };
+        let at = Instant {
+            time,
+            step: self.step,
+            poses: &self.poses,
+            turns: &self.turns,
+            origin,
+            coordinates: &self.coordinates,
+        };
         self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
-        let weight = self.model.mass * self.gravity.norm().max(1.0);
-        for at in 0..self.servos.len() {
-            self.set_servo(at, commands);
-        }
+        let weight = self.model.mass * length(&self.gravity).max(1.0);
         for round in 0..PARAMETERS.rounds_max {
             if let Some(ground) = &self.ground {
-                let (model, poses, gravity) = (self.model, &self.poses, &self.gravity);
+                let (model, poses, turns) = (self.model, &self.poses, &self.turns);
+                let gravity = &self.gravity;
                 ground.add_to(&mut self.bodies, round > 0, |bodies, body| {
-                    let turn = *poses[body].rotation.to_rotation_matrix().matrix();
-                    set_rigid(bodies, body, model, (&poses[body], &turn), &origin, gravity);
+                    set_rigid(bodies, body, model, (&poses[body], &turns[body]), &origin, gravity);
                 });
             }
             self.bodies.accelerate().ok_or(NoInertia)?;
@@ -177,24 +183,34 @@ impl<'a> Stepper<'a> {
         self.move_on(&origin)
     }
 
-    /// Finds the poses, twists and rigid inertias of all bodies; spatial vectors are about `origin`.
+    /// Finds the poses, twists and rigid inertias of all bodies, and sets the efforts of their joints; spatial vectors are
+    /// about `origin`.
     #[inline(always)]
-    fn place(&mut self, origin: &Vec3) {
+    fn place(&mut self, origin: &Vec3, commands: &[(f64, f64)]) {
         let mut first = 0.0;
         for (at, body) in self.model.bodies.iter().enumerate() {
-            let turn: Mat3;
             match (&body.step, body.attachment) {
                 (Some(step), Attachment::Joint(parent) | Attachment::Fixed(parent)) => {
-                    self.poses[at] = step.child_pose_at(&self.poses[parent], self.coordinates[at]);
-                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
-                    let axis = step.axis_turned(&self.poses[parent], &self.poses[at], &turn);
+                    let (pose, turn) = step.child_pose_turned(
+                        &self.poses[parent],
+                        &self.turns[parent],
+                        self.coordinates[at],
+                    );
+                    let axis = step.axis_turned(&self.poses[parent], &pose, &turn);
                     let axis =
                         axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
                     self.bodies.set_joint(at, axis, self.rates[at], self.mid_rates[at]);
+                    (self.poses[at], self.turns[at]) = (pose, turn);
+                    self.set_servo(at, commands);
+                }
+                (Some(step), Attachment::Part(parent)) => {
+                    let whole = (&self.poses[parent], &self.turns[parent]);
+                    (self.poses[at], self.turns[at]) = step.child_pose_turned(whole.0, whole.1, 0.0);
+                    continue;
                 }
                 _ => {
                     self.poses[at] = self.bases[at];
-                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
+                    self.turns[at] = *self.poses[at].rotation.to_rotation_matrix().matrix();
                     let from = origin - self.poses[at].translation.vector;
                     let about = |Twist { linear, angular }: Twist| SpatialVector {
                         angular,
@@ -204,7 +220,7 @@ impl<'a> Stepper<'a> {
                     self.bodies.set_base(at, about(self.twists[at]), about(self.mid_twists[at]), held);
                 }
             }
-            let pose = (&self.poses[at], &turn);
+            let pose = (&self.poses[at], &self.turns[at]);
             let com = set_rigid(&mut self.bodies, at, self.model, pose, origin, &self.gravity);
             first += com.z * body.rigid.mass;
         }
@@ -328,11 +344,11 @@ impl<'a> Stepper<'a> {
                     mid_twist.linear = twist.linear + linear / 2.0;
                     mid_twist.angular = twist.angular + angular / 2.0;
                     base.translation.vector += twist.linear * h;
-                    let turn = turned(twist.angular, twist.angular.norm() * h).rotation;
+                    let turn = turned(twist.angular, length(&twist.angular) * h).rotation;
                     base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
                     sum += base.translation.vector.sum();
                 }
-                Attachment::Held | Attachment::Fixed(_) => {}
+                Attachment::Held | Attachment::Fixed(_) | Attachment::Part(_) => {}
             }
         }
         if f64::is_finite(sum) { Ok(()) } else { Err(NoInertia) }

@@ -384,6 +384,23 @@ fn the_work_of_a_motor_is_the_energy_that_it_gives() {
     assert!((1.7..2.3).contains(&(coarse / fine)), "{coarse} J, {fine} J");
 }
 
+#[test]
+fn a_joint_leaves_its_stop_without_delay() {
+    // It lies on its stop under the weight until the motor lifts it: the servo yields as it does without the stop.
+    let lifted = |range: &str| {
+        let program =
+            format!("{}let b = x.lifts(30deg, 1s)\n", arm(&format!("{range}, stiffness: 500N*m/rad")));
+        play(&plan(&program, HELD), &Settings::default())
+    };
+    let (free, stopped) = (lifted(""), lifted(", range: -0.01deg..60deg"));
+    let angle = |simulation: &Simulation, time: f64| at(simulation, time).joints[0];
+    // The weight bends the servo by 0.22 degrees, of which the stop leaves 0.01 and its own yielding.
+    assert!(angle(&free, 0.0) < -3.5e-3 && angle(&stopped, 0.0) > -1.5e-3);
+    for time in [0.5, 0.8, 1.2] {
+        close(angle(&stopped, time), angle(&free, time), 1e-5);
+    }
+}
+
 /// Returns the greatest difference of the energy of an arm with a servo of 500 N·m/rad to what its motor has given, J,
 /// for a time step, s; fails if the simulation states another work.
 fn most_energy_missed(plan: &Plan, h: f64) -> f64 {
