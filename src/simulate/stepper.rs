@@ -29,6 +29,14 @@ struct ServoState {
     stop: Option<f64>,
 }
 
+impl ServoState {
+    /// Returns false if the motor is at its limit in one direction and this limit is in the other: the effort that it needs
+    /// is between them, where it is a spring with a damper.
+    fn leads_to(&self, (limit, _): &(f64, f64)) -> bool {
+        self.limited.is_none_or(|(now, _)| now * limit >= 0.0)
+    }
+}
+
 /// A robot in motion.
 #[derive(Clone, Debug)]
 pub(super) struct Stepper<'a> {
@@ -278,7 +286,7 @@ impl<'a> Stepper<'a> {
             let mut now = ServoState::default();
             if let Some(servo) = &joint.servo {
                 let effort = spring(servo, h, q, v, command(commands, joint.id, joint.factor));
-                now.limited = servo.limit_at(effort, v);
+                now.limited = servo.limit_at(effort, v).filter(|limit| self.servos[at].leads_to(limit));
                 self.efforts[at] = now.limited.map_or(effort, |(limited, falling)| limited - falling * v);
             }
             if let Some((low, high)) = joint.range {
@@ -309,7 +317,7 @@ impl<'a> Stepper<'a> {
                     };
                     let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
                     self.efforts[*body] = effort;
-                    now.limited = Some((effort, 0.0));
+                    now.limited = Some((effort, 0.0)).filter(|limit| self.servos[*body].leads_to(limit));
                 }
                 settled &= self.change_servo(*body, now, commands);
             }
