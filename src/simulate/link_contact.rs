@@ -34,7 +34,7 @@ struct Pair {
     spring: Spring,
 }
 
-/// What is known of the distance of two shapes that are near each other.
+/// The distance of two shapes that are near each other, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     /// The bodies of the shapes.
@@ -45,7 +45,7 @@ struct Known {
     /// body's frame in it, then.
     centre: Vec3,
     rotation: UnitQuaternion<f64>,
-    /// That centre in the frame of the second body, and the radius, m.
+    /// The centre in the frame of the second body, and the radius of the sphere, m.
     around: (Vec3, f64),
 }
 
@@ -87,7 +87,7 @@ pub(super) struct LinkContacts {
     bonded: BTreeSet<(usize, usize)>,
     /// The pairs that are near each other, ascending by their shapes.
     pairs: Vec<Pair>,
-    /// What is known of their distances, in that order.
+    /// Their distances as far as they are known, in that order.
     known: Vec<Known>,
     /// The bodies of each pair in that order, of parts the wholes, and the length of both their paths together up to which
     /// its shapes can't meet, m.

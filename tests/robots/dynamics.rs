@@ -330,7 +330,7 @@ fn inertias_of_bodies_parts_and_points_are_those_of_their_matrices() {
     let box_of = |x: f64| RigidBody {
         mass: 1.0,
         com: Vec3::new(x, 0.0, 0.0),
-        inertia: Matrix3::from_diagonal(&Vec3::new(1.0, 2.0, 2.5) * 1e-3),
+        inertia: Matrix3::from_diagonal(&(Vec3::new(1.0, 2.0, 2.5) * 1e-3)),
     };
     let quarter = UnitQuaternion::from_scaled_axis(Vec3::x() * std::f64::consts::FRAC_PI_2);
     let pose = Pose::from_parts(Translation3::new(0.1, 0.0, 0.0), quarter);
