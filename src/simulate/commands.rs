@@ -28,8 +28,6 @@ struct Planned<'a> {
     tracks: &'a Tracks,
     /// The index of the segment of each track that has begun last, or that comes first.
     current: Vec<usize>,
-    /// The derivative of that segment by its argument, as control points; empty until it is needed.
-    rates: Vec<Vec<f64>>,
     /// The number of events that have been told.
     told: usize,
 }
@@ -45,12 +43,7 @@ impl<'a> Commands<'a> {
                 execution: Box::new(Execution::new(tracks, &program.root)),
                 deadline: 2.0 * tracks.duration + PATIENCE,
             },
-            None => Source::Planned(Planned {
-                tracks,
-                current: vec![0; tracks.tracks.len()],
-                rates: vec![Vec::new(); tracks.tracks.len()],
-                told: 0,
-            }),
+            None => Source::Planned(Planned { tracks, current: vec![0; tracks.tracks.len()], told: 0 }),
         };
         let joints = tracks.start.joints.iter().map(|&position| (position, 0.0)).collect();
         Commands { source, joints }
@@ -122,10 +115,9 @@ impl Planned<'_> {
     /// Finds the commands at a time, s.
     fn advance(&mut self, time: f64, joints: &mut [(f64, f64)]) {
         let tracks: &[Track] = &self.tracks.tracks;
-        for ((track, current), rates) in tracks.iter().zip(&mut self.current).zip(&mut self.rates) {
+        for (track, current) in tracks.iter().zip(&mut self.current) {
             while track.segments.get(*current + 1).is_some_and(|next| next.start <= time) {
                 *current += 1;
-                rates.clear();
             }
             let Some(segment) = track.segments.get(*current) else { continue };
             if time < segment.start {
@@ -136,12 +128,8 @@ impl Planned<'_> {
                 *joint = (segment.last(), 0.0);
                 continue;
             }
-            if rates.is_empty() {
-                *rates = polynomial::derivative(&segment.control);
-            }
-            let argument = segment.argument(time);
-            let rate = polynomial::value(rates, argument) / (segment.end - segment.start);
-            *joint = (polynomial::value(&segment.control, argument), rate);
+            let (position, rate) = polynomial::value_and_rate(&segment.control, segment.argument(time));
+            *joint = (position, rate / (segment.end - segment.start));
         }
     }
 }
