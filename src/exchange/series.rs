@@ -5,7 +5,7 @@ use super::names::Names;
 use super::refusal::Refusal;
 use crate::formats::{ExportFormat, RecordCell, RecordColumn, RecordTable, TABLE_FORMATS};
 use crate::plan::Plan;
-use crate::robot::{JointKind, JointOwner};
+use crate::robot::JointOwner;
 use crate::view::LinkPaths;
 
 /// The rate at which files are sampled, Hz.
@@ -110,13 +110,7 @@ pub fn table(plan: &Plan, series: Series, times: &[f64]) -> Result<RecordTable, 
 /// Returns true if a joint can be commanded: it has a motor of its own.
 pub(super) fn can_be_commanded(plan: &Plan, owner: JointOwner) -> bool {
     let Some(tracks) = plan.body.tracks() else { return false };
-    match owner {
-        JointOwner::Module { module, joint } => {
-            let joint = &tracks.robot.module_type(module).joints[joint];
-            joint.kind != JointKind::Fixed && joint.mimic.is_none() && !joint.passive
-        }
-        JointOwner::Bond(_) => true,
-    }
+    tracks.robot.takes_commands(owner)
 }
 
 /// Returns a column of quantities in SI units.

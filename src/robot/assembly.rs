@@ -172,6 +172,15 @@ impl Assembly {
         String::new()
     }
 
+    /// Returns true if a joint takes commands; the hinge of a bond always does, and its index is not checked. Panics if there
+    /// is no such module or joint.
+    pub fn takes_commands(&self, owner: JointOwner) -> bool {
+        match owner {
+            JointOwner::Module { module, joint } => self.module_type(module).joints[joint].takes_commands(),
+            JointOwner::Bond(_) => true,
+        }
+    }
+
     /// Returns the greatest effort of a joint's motor, N·m or N; `None` if none is stated, and for a joint that is
     /// passive or follows others and a bond without a hinge. Panics if there is no such module, joint or bond.
     pub fn effort_limit(&self, owner: JointOwner) -> Option<f64> {

@@ -8,7 +8,6 @@
 use super::assembly::{Assembly, JointOwner};
 use super::jacobian::LinkFrame;
 use super::kinematics::Kinematics;
-use super::library::JointKind;
 use super::step::{Motion, Step};
 use crate::geometry::rigid_transform::rotation_vector;
 use crate::geometry::{Pose, RigidTransform, Vec3};
@@ -121,9 +120,7 @@ impl ChainJoint {
             JointOwner::Bond(bond) => robot.hinge(bond)?.limits.range,
             JointOwner::Module { module, joint } => {
                 let declared = &robot.module_type(module).joints[joint];
-                let moves =
-                    declared.kind != JointKind::Fixed && !declared.passive && declared.mimic.is_none();
-                moves.then_some(declared.limits.range)?
+                declared.takes_commands().then_some(declared.limits.range)?
             }
         };
         let limits = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));

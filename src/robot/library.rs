@@ -230,6 +230,13 @@ pub struct Joint {
     pub mimic: Option<Vec<(usize, f64)>>,
 }
 
+impl Joint {
+    /// Returns true if the joint takes commands: it moves by a motor of its own, and follows no other.
+    pub fn takes_commands(&self) -> bool {
+        self.kind != JointKind::Fixed && !self.passive && self.mimic.is_none()
+    }
+}
+
 /// The facts of the servo that holds a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose;
 use crate::plan::{LastingTrees, Tracks};
-use crate::robot::{Assembly, ClusterPose, JointKind, JointOwner, Kinematics, Limits, Link, Servo, Step};
+use crate::robot::{Assembly, ClusterPose, JointOwner, Kinematics, Limits, Link, Servo, Step};
 
 /// The least extent of a joint's range, rad or m.
 const RANGE_MIN: f64 = 1e-6;
@@ -159,12 +159,6 @@ impl<'a> Trees<'a> {
     /// Returns true if a joint has an actuator in the model: it is not passive, not fixed, and follows no other joint.
     /// Joints that share motors have one each, and hinges of bonds always have one.
     pub(super) fn is_driven(&self, joint: usize) -> bool {
-        match self.joints[joint] {
-            JointOwner::Module { module, joint } => {
-                let joint = &self.robot.module_type(module).joints[joint];
-                !joint.passive && joint.mimic.is_none() && joint.kind != JointKind::Fixed
-            }
-            JointOwner::Bond(_) => true,
-        }
+        self.robot.takes_commands(self.joints[joint])
     }
 }

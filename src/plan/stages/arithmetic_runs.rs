@@ -1,6 +1,9 @@
 //! Arithmetic runs: numbers on which something changes by the same step from each to the next, and runs of such
 //! runs, which state lists of cells in closed form.
 
+use super::motion::{Counter, Run};
+use super::ratio::Ratio;
+
 /// The numbers `first + length·i + j` for `i` in 0..times and `j` in 0..length: `times` lines of `length` consecutive
 /// numbers, one line after the other, so all numbers from `first` to `first + length·times - 1`. From each number of a
 /// line to the next there is one step, the same in all lines, and from each line's first number to that of the next
@@ -13,6 +16,26 @@ pub struct ArithmeticRun {
     pub times: usize,
     /// The number of numbers in a line, at least 1.
     pub length: usize,
+}
+
+impl ArithmeticRun {
+    /// Returns the run of the cells with these numbers, whose sizes are alike. `center`: the centre of the first one, and
+    /// `size`: the size of each, in cell sizes; `step(a, b)` returns the displacement from the cell of number `a` to that of
+    /// number `b` (`a < b`). `None` where `step` returns none.
+    pub fn of_cells(
+        &self,
+        (center, size): ([Ratio; 3], [Ratio; 3]),
+        step: impl Fn(usize, usize) -> Option<[Ratio; 3]>,
+    ) -> Option<Run> {
+        let counters =
+            [(self.times, self.length), (self.length, 1)].into_iter().filter(|(count, _)| *count > 1);
+        let counter = |(count, stride): (usize, usize)| {
+            let step = step(self.first, self.first + stride)?;
+            Some(Counter { count: count as u64, stride: stride as i64, step })
+        };
+        let counters = counters.map(counter).collect::<Option<_>>()?;
+        Some(Run { first: self.first as u64, counters, center, size })
+    }
 }
 
 /// Splits the numbers 0 to `count - 1` greedily into arithmetic runs, which follow each other in ascending order and

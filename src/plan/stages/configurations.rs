@@ -1,7 +1,7 @@
 //! Configurations between stages, as runs; where stages state moves, these are added up, exactly.
 
 use super::arithmetic_runs::{ArithmeticRun, arithmetic_runs};
-use super::motion::{Counter, Run, Stage, StageEnd, Stages};
+use super::motion::{Run, Stage, StageEnd, Stages};
 use super::moves::CellMove;
 use super::ratio::Ratio;
 use crate::plan::lattice::LatticeFault;
@@ -115,23 +115,9 @@ pub(super) fn gathered(cubes: &[Cube], grid: Grid) -> Option<Vec<Run>> {
         Some([x?, y?, z?])
     };
     let run = |s: ArithmeticRun| {
-        let counter = |count: usize, stride: usize| {
-            let step = three(apart(s.first, s.first + stride), 2 * lines)?;
-            Some(Counter { count: count as u64, stride: stride as i64, step })
-        };
-        let mut counters = Vec::new();
-        for (count, stride) in [(s.times, s.length), (s.length, 1)] {
-            if count > 1 {
-                counters.push(counter(count, stride)?);
-            }
-        }
         let middle = [0, 1, 2].map(|axis| cubes[s.first].middle(axis));
-        Some(Run {
-            first: s.first as u64,
-            counters,
-            center: three(middle, 2 * lines)?,
-            size: three(sizes(s.first), lines)?,
-        })
+        let first = (three(middle, 2 * lines)?, three(sizes(s.first), lines)?);
+        s.of_cells(first, |i, j| three(apart(i, j), 2 * lines))
     };
     found.into_iter().map(run).collect()
 }

@@ -8,7 +8,7 @@ use crate::plan::fault::{PlanFault, TracksFault, need, need_bounded, need_finite
 use crate::plan::polynomial::DEGREE_MAX;
 use crate::plan::tolerances::TOLERANCES;
 use crate::robot::validation::{MODULE_EXTENT_MAX, POSITION_MAX, check_library};
-use crate::robot::{Assembly, JointKind, JointOwner, Kinematics, Library, PortRef};
+use crate::robot::{Assembly, JointOwner, Kinematics, Library, PortRef};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -147,7 +147,7 @@ impl Tracks {
             let limit = farthest(owner);
             let far = track.segments.iter().flat_map(|s| &s.control).any(|q| q.abs() > limit);
             need(!far, || TracksFault::FarJoint { limit })?;
-            need(takes_commands(&self.robot, owner), || TracksFault::NoCommands {
+            need(self.robot.takes_commands(owner), || TracksFault::NoCommands {
                 joint: self.robot.joint_name(owner),
             })?;
         }
@@ -189,18 +189,6 @@ pub(super) fn robot(robot: &Assembly) -> Result<(), PlanFault> {
 fn port(port: PortRef, robot: &Assembly) -> Result<(), PlanFault> {
     need_index(port.module, robot.modules.len(), "module")?;
     need_index(port.port, robot.module_type(port.module).ports.len(), "port")
-}
-
-/// Returns true for a joint that commands may move: it is not fixed, not passive, and follows no other joint; hinges of
-/// bonds always may.
-fn takes_commands(robot: &Assembly, owner: JointOwner) -> bool {
-    match owner {
-        JointOwner::Module { module, joint } => {
-            let joint = &robot.module_type(module).joints[joint];
-            joint.kind != JointKind::Fixed && !joint.passive && joint.mimic.is_none()
-        }
-        JointOwner::Bond(_) => true,
-    }
 }
 
 /// Checks that the connectors of bonds which hold mate, and that no port is held twice.

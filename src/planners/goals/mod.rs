@@ -32,4 +32,5 @@ mod tolerances;
 pub use free_space::{FreeSpace, Meeting, Surroundings};
 pub use front::Misplaced;
 pub use resolve::{GOALS_MAX, Placing, Problem, Reason, Refusal, Resolved, resolve};
+pub(super) use resolve::{action, moves_within, names, ranges};
 pub(super) use timing::together as least_time;

@@ -377,12 +377,13 @@ fn commanded(goal: &Goal) -> BTreeSet<usize> {
     goal.stand_ins.iter().filter_map(of).collect()
 }
 
-fn names(robot: &Assembly) -> Vec<String> {
+/// Returns the name of every joint.
+pub(in crate::planners) fn names(robot: &Assembly) -> Vec<String> {
     robot.joints().map(|owner| robot.joint_name(owner)).collect()
 }
 
 /// Returns the range of every joint, infinite for those that have none.
-fn ranges(robot: &Assembly) -> Vec<(f64, f64)> {
+pub(in crate::planners) fn ranges(robot: &Assembly) -> Vec<(f64, f64)> {
     let of = |owner| match owner {
         JointOwner::Module { module, joint } => robot.module_type(module).joints[joint].limits.range,
         JointOwner::Bond(bond) => robot.hinge(bond).and_then(|hinge| hinge.limits.range),
@@ -390,7 +391,8 @@ fn ranges(robot: &Assembly) -> Vec<(f64, f64)> {
     robot.joints().map(|owner| of(owner).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))).collect()
 }
 
-fn action(command: Command, cause: CauseId) -> Arc<Node> {
+/// Returns the node of a command without conditions.
+pub(in crate::planners) fn action(command: Command, cause: CauseId) -> Arc<Node> {
     let otherwise = Otherwise::Proceed;
     Arc::new(Node::Action(Action { command, until: None, timeout: None, otherwise, cause }))
 }
@@ -405,12 +407,23 @@ fn move_together(
 ) -> Result<Arc<Node>, Reason> {
     let least = || timing::together(robot, from, to, profile);
     let duration = duration.or_else(least).ok_or(Reason::NoSpeed)?;
+    Ok(moves_within(to, joints, (duration, profile), cause))
+}
+
+/// Returns moves of joints (by the number in their `JointId`) to some positions of all joints, rad or m, which take the same
+/// time, s.
+pub(in crate::planners) fn moves_within(
+    to: &[f64],
+    joints: &[usize],
+    (duration, profile): (f64, Profile),
+    cause: CauseId,
+) -> Arc<Node> {
     let moves = joints.iter().map(|&joint| {
         let target = Target::To(to[joint]);
         let command = Command::Move { joint: joint_id(joint), target, duration: Some(duration), profile };
         action(command, cause)
     });
-    Ok(Arc::new(Node::Parallel(moves.collect())))
+    Arc::new(Node::Parallel(moves.collect()))
 }
 
 /// Returns the actions by which the joints of a chain follow a path, and the time that they take, s.

@@ -360,15 +360,7 @@ impl Search<'_> {
         way: Way,
         verdict: Option<Verdict>,
     ) -> Solution<Report> {
-        let (there, back) = (&there.report, &back.report);
-        let both = tosnake::Report {
-            docks: there.docks + back.undocks,
-            undocks: there.undocks + back.docks,
-            joint_travel: there.joint_travel + back.joint_travel,
-            tried: there.tried + back.tried,
-            work: there.work + back.work,
-            actions: there.actions + back.actions,
-        };
+        let both = there.report.and_back(&back.report);
         let history = plan.provenance.history;
         let report = Report { both, way, fewest_changes: self.fewest_changes, history, verdict };
         Solution { body: plan.body, program: plan.program, report }

@@ -2,7 +2,7 @@
 
 use super::shape::Shape;
 use super::{Method, ModelChoice, Problem, Settings};
-use crate::plan::{Anchor, ArithmeticRun, Counter, Ratio, Run, arithmetic_runs};
+use crate::plan::{Anchor, ArithmeticRun, Ratio, Run, arithmetic_runs};
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -96,18 +96,9 @@ pub(super) fn of(problem: &Problem, start: &Shape) -> Option<Anchor> {
 fn runs(sites: &[[i64; 3]]) -> Vec<Run> {
     let apart = |i: usize, j: usize| [0, 1, 2].map(|axis| sites[j][axis] - sites[i][axis]);
     let run = |s: ArithmeticRun| {
-        let counter = |(count, stride): (usize, usize)| Counter {
-            count: count as u64,
-            stride: stride as i64,
-            step: apart(s.first, s.first + stride).map(|step| Ratio(step, 1)),
-        };
-        let counters = [(s.times, s.length), (s.length, 1)].into_iter().filter(|(count, _)| *count > 1);
-        Run {
-            first: s.first as u64,
-            counters: counters.map(counter).collect(),
-            center: sites[s.first].map(|x| Ratio(2 * x + 1, 2)),
-            size: [Ratio::ONE; 3],
-        }
+        let center = sites[s.first].map(|x| Ratio(2 * x + 1, 2));
+        let step = |i: usize, j: usize| Some(apart(i, j).map(|step| Ratio(step, 1)));
+        s.of_cells((center, [Ratio::ONE; 3]), step).expect("each step is there")
     };
     arithmetic_runs(sites.len(), |i, j| Some(apart(i, j))).into_iter().map(run).collect()
 }

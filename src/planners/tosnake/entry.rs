@@ -47,6 +47,20 @@ pub struct Report {
     pub actions: u64,
 }
 
+impl Report {
+    /// Returns the figures of this plan and another one in reverse after it.
+    pub(crate) fn and_back(&self, back: &Report) -> Report {
+        Report {
+            docks: self.docks + back.undocks,
+            undocks: self.undocks + back.docks,
+            joint_travel: self.joint_travel + back.joint_travel,
+            tried: self.tried + back.tried,
+            work: self.work + back.work,
+            actions: self.actions + back.actions,
+        }
+    }
+}
+
 /// Plans the motion from a configuration of RoFI modules to a snake, after [Mrázek et al.](super): one straight chain
 /// of all modules, dock -Z on dock -Z. `settings`: the settings of the search.
 ///

@@ -55,17 +55,9 @@ pub fn between(
     let (there, first) = half(from).map_err(BetweenRefusal::From)?;
     let (back, second) = half(to).map_err(BetweenRefusal::To)?;
     let plan = joined(&there, &reversed(&back)).map_err(BetweenRefusal::DifferentSnakes)?;
-    let both = tosnake::Report {
-        docks: first.docks + second.undocks,
-        undocks: first.undocks + second.docks,
-        joint_travel: first.joint_travel + second.joint_travel,
-        tried: first.tried + second.tried,
-        work: first.work + second.work,
-        actions: first.actions + second.actions,
-    };
     let bonds = |problem: &Problem| problem.start.bonds.iter().filter(|holds| **holds).count();
     let report = Report {
-        both,
+        both: first.and_back(&second),
         way: Way::Snake { direct: None },
         fewest_changes: bonds(from).abs_diff(bonds(to)),
         history: plan.provenance.history,

@@ -2,7 +2,7 @@
 
 use super::tolerances::{COS_OPPOSITE, SIN_BENDS, TOL_DISTANCE};
 use crate::geometry::{Pose, Vec3};
-use crate::robot::{Assembly, JointKind, ModuleType};
+use crate::robot::{Assembly, ModuleType};
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -135,9 +135,5 @@ fn joints_between(kind: &ModuleType, pair: [usize; 2]) -> Vec<usize> {
     let [a, b] = pair.map(to_body);
     let one_only =
         a.iter().filter(|joint| !b.contains(joint)).chain(b.iter().filter(|joint| !a.contains(joint)));
-    let moves = |joint: &usize| {
-        let joint = &kind.joints[*joint];
-        joint.kind != JointKind::Fixed && !joint.passive && joint.mimic.is_none()
-    };
-    one_only.copied().filter(moves).collect()
+    one_only.copied().filter(|joint| kind.joints[*joint].takes_commands()).collect()
 }

@@ -8,7 +8,7 @@ use super::tolerances::TOL_STRAIGHT;
 use crate::geometry::Pose;
 use crate::optimize::random::SplitMix64;
 use crate::planners::Progress;
-use crate::planners::goals::{FreeSpace, Surroundings, avoid, reach};
+use crate::planners::goals::{FreeSpace, Surroundings, avoid, names, ranges, reach};
 use crate::robot::chain::{Chain, ChainJoint, Orientation, Target};
 use crate::robot::jacobian::LinkFrame;
 use crate::robot::{Assembly, Bond, Kinematics, PortRef, State, mate};
@@ -68,10 +68,6 @@ impl<'a> Search<'a> {
         let owners: Vec<_> = robot.joints().collect();
         let movable = |(joint, owner): (usize, &_)| ChainJoint::commanded(robot, *owner, joint);
         let joints: Vec<ChainJoint> = owners.iter().enumerate().filter_map(movable).collect();
-        let mut limits = vec![(f64::NEG_INFINITY, f64::INFINITY); owners.len()];
-        for joint in &joints {
-            limits[joint.joint] = joint.limits;
-        }
         if let Some(module) = Chains::new(robot, &start.bonds, &ends, alike).apart() {
             return Err(Refusal::Pieces(module));
         }
@@ -82,8 +78,8 @@ impl<'a> Search<'a> {
             ends,
             alike,
             joints,
-            limits,
-            names: owners.iter().map(|owner| robot.joint_name(*owner)).collect(),
+            limits: ranges(robot),
+            names: names(robot),
             steps: Vec::new(),
             tried: 0,
             work: 0,
@@ -138,8 +134,10 @@ impl<'a> Search<'a> {
         if self.work > self.settings.budget {
             return Err(Refusal::BudgetSpent(self.status()));
         }
-        let Status { made, needed, .. } = self.status();
-        progress.report(&|| format!("{made} of {needed} connections made"));
+        progress.report(&|| {
+            let Status { made, needed, .. } = self.status();
+            format!("{made} of {needed} connections made")
+        });
         Ok(())
     }
 
