@@ -168,6 +168,8 @@ try {
 
   await part("mended", async () => {
     await page.locator('.tab[data-resource-name="main.mod"]').click();
+    // Keys would go to the page of the code until the program is back.
+    await seen("the program", ".view-line", "let reach");
     await goTo("let reach", "40mm");
     await press("Shift+End");
     await press("Delete");
