@@ -93,7 +93,13 @@ fn rows(name: &str, sets: &[(Shape, Shape)], before: Method) {
         let start = Instant::now();
         let mut refused = 0;
         for (from, to) in sets {
-            let problem = Problem { cell: unit_cell(), start: from.clone(), goal: to.clone() };
+            let problem = Problem {
+                cell: unit_cell(),
+                start: from.clone(),
+                goal: to.clone(),
+                fixed: vec![],
+                obstacles: vec![],
+            };
             let settings = Settings { method, ..Settings::default() };
             let Ok(solution) = plan(&problem, &settings, &mut NoProgress) else {
                 refused += 1;

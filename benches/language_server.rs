@@ -51,7 +51,7 @@ fn main() {
         told.push(begin.elapsed());
     }
     report("a key to diagnostics", told);
-    // What is typed last, the candidate that has to be there, and whether nothing is typed of it yet.
+    // Each case is a line that is typed to its end, and the candidate that has to be there then.
     for (what, line, wanted) in [
         ("a key to members", "let typed = robot.w", "walk"),
         ("a key to names", "let typed = rob", "robot"),

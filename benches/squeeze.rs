@@ -2,13 +2,17 @@
 //! it, how large the file is, and how the time of the motion compares with bounds.
 //!
 //! `cargo bench --bench squeeze`; with a number behind `--`, up to so many cells; with names of methods,
-//! those only.
+//! those only; with `planar`, irregular shapes in a plane instead, of that number of cells.
 
 #[path = "../tests/support/lattices.rs"]
 mod lattices;
 
-use lattices::{PAPER, TERMS, judged_plan, plan_of, stages_of};
-use modl::planners::squeeze::{Motion, PlanLimits, Refusal, accordion, arms, fold, shear};
+use lattices::{PAPER, TERMS, judged_plan, plan_of, random_shape, stages_of, unit_cell};
+use modl::plan::{Body, StageEnd};
+use modl::planners::NoProgress;
+use modl::planners::squeeze::{
+    Method, Motion, PlanLimits, Problem, Refusal, Settings, accordion, arms, fold, shear,
+};
 use std::time::Instant;
 
 /// The allocator that the tool has.
@@ -24,6 +28,9 @@ const COUNTS: [u64; 7] = [1_000, 4_096, 10_000, 65_536, 100_000, 999_999, 1_000_
 fn main() {
     let most = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(u64::MAX);
     let named: Vec<String> = std::env::args().filter(|a| METHODS.iter().any(|(name, _)| name == a)).collect();
+    if std::env::args().any(|a| a == "planar") {
+        return planar(most.min(1_000_000) as usize);
+    }
     if named.is_empty() {
         makespans();
         println!();
@@ -37,9 +44,9 @@ fn main() {
             let way = construction(TERMS, n).expect("there is a way");
             let emit = start.elapsed();
             let plan = plan_of(stages_of(way, PAPER));
-            let modl::plan::Body::Stages(stages) = &plan.body else { unreachable!("it is a lattice") };
+            let Body::Stages(stages) = &plan.body else { unreachable!("it is a lattice") };
             let (count, runs) =
-                (stages.stages.len(), stages.stages.iter().map(|s| s.end.len()).sum::<usize>());
+                (stages.stages.len(), stages.stages.iter().map(|s| records(&s.end)).sum::<usize>());
             let start = Instant::now();
             let text = modl::plan::file::write(&plan).expect("it can be written");
             let write = start.elapsed();
@@ -55,6 +62,50 @@ fn main() {
                 verify.as_secs_f64(),
             );
         }
+    }
+}
+
+/// A merge of two random shapes in a plane.
+fn planar(count: usize) {
+    let mut seed = 1;
+    let mut shape = || random_shape(2, false, &mut seed, count);
+    let problem =
+        Problem { cell: unit_cell(), start: shape(), goal: shape(), fixed: vec![], obstacles: vec![] };
+    let settings = Settings { method: Method::Merge, ..Settings::default() };
+    let start = Instant::now();
+    let solution =
+        modl::planners::squeeze::plan(&problem, &settings, &mut NoProgress).expect("there is a way");
+    let planned = start.elapsed();
+    let Body::Stages(stages) = solution.body else { unreachable!("it is a lattice") };
+    let (count_of_stages, plan) = (stages.stages.len(), plan_of(stages));
+    let start = Instant::now();
+    let text = modl::plan::file::write(&plan).expect("it can be written");
+    let write = start.elapsed();
+    let start = Instant::now();
+    let read = modl::plan::file::read(&text).expect("it can be read");
+    let reading = start.elapsed();
+    assert!(read == plan);
+    let start = Instant::now();
+    let verdict = judged_plan(&plan);
+    let verify = start.elapsed();
+    assert!(verdict.ok(), "{:?}", verdict.failures);
+    println!("| n | stages | plan | file | write | read | verify |");
+    println!("|---|---|---|---|---|---|---|");
+    println!(
+        "| {count} | {count_of_stages} | {:.2} s | {:.1} MB | {:.2} s | {:.2} s | {:.2} s |",
+        planned.as_secs_f64(),
+        text.len() as f64 / 1e6,
+        write.as_secs_f64(),
+        reading.as_secs_f64(),
+        verify.as_secs_f64(),
+    );
+}
+
+/// Returns the number of runs, or of classes and spans, that state the end of a stage.
+fn records(end: &StageEnd) -> usize {
+    match end {
+        StageEnd::Runs(runs) => runs.len(),
+        StageEnd::Moves(moves) => moves.classes.len() + moves.cells.len(),
     }
 }
 

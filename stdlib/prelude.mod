@@ -2581,6 +2581,11 @@ extern type Squeezing is Plan {
 ///
 /// There is neither gravity nor ground, as in the paper. The result ends as asked up to a translation.
 ///
+/// `fixed` are cells of both shapes that stay where they are, as those of a base that is bolted down: the others push
+/// off from them, and neither centre of mass nor angular momentum is kept. `obstacles` are whole cells of the lattice
+/// that the robot keeps clear of; they need fixed cells, for a robot that floats recoils. Then both shapes stand
+/// where they are drawn, and `push` is the method.
+///
 /// Example:
 /// ```modl
 /// use std.crystal.ExpandingCube
@@ -2597,6 +2602,8 @@ extern fn squeeze(
   max_force: Force?,
   profile: bang_bang | trapezoid = bang_bang,
   norm: each_axis | euclidean = each_axis,
+  fixed: Cells?,
+  obstacles: Cells?,
 ) -> Squeezing
 
 /// What `tosnake` found.
@@ -2613,7 +2620,7 @@ extern type Unwinding is Plan {
   work: Int
 }
 
-/// Unwinds a robot of RoFI modules to a snake: one straight chain of all its modules, dock -Z on dock -Z.
+/// Unwinds a robot to a snake: one straight chain of all its modules; of RoFI modules, dock -Z on dock -Z.
 ///
 /// Connections that close loops are let go. Then two chains at a time become one: the joints between
 /// their ends bend until the ends meet and dock, and a connection of the loop that this closes is let
@@ -2633,6 +2640,10 @@ extern type Unwinding is Plan {
 /// tentacles, and going back over pairs. Collisions are then looked for nowhere (`none`), in the states in
 /// which tips meet (`detection`), or there and in the inverse kinematics (`avoidance`), and never on the
 /// way. Such a plan comes back unjudged; `verify` says what is wrong with it, and `emit` does not write it.
+///
+/// Robots of other modules unwind, too, floating and by `motion`, if each module has two ports that mate with each other and
+/// with their like, and joints between ports: its ends are of such ports the two that face opposite ways, with the most
+/// joints that bend between them, the farthest apart. Robots of some ten modules take seconds, and the time grows with the cube of their number.
 ///
 /// Example:
 /// ```modl
@@ -2669,12 +2680,12 @@ extern type Reconfiguration is Plan {
   work: Int
 }
 
-/// Turns one robot of RoFI modules into another of as many modules. Options are those of `tosnake`.
+/// Turns one robot into another of as many modules. Options are those of `tosnake`.
 ///
 /// There are two ways, and the one that takes less time is taken. Directly, connections that both have stay, and the
 /// others are exchanged one after the other: two docks are brought together, and another connection of the loop that this
 /// closes is let go. Through the snake, both unwind as by `tosnake`, and the second way is taken backwards. With gravity,
-/// or with the paper's own method, it is always the snake.
+/// or with the paper's own method, it is always the snake, and so it is with other modules than RoFI's.
 ///
 /// The result ends as the second robot, with the first one's modules in its places. A way to the snake is
 /// looked for once in a run.

@@ -1,6 +1,7 @@
 //! Crease patterns from FOLD files (Demaine, Ku and Lang 2016): a flat sheet with the angles by which its creases fold.
 
 use super::fault::FormatFault;
+use super::fold_reader::{coordinates, list, parsed, vertex_of};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,11 +26,9 @@ pub struct CreaseSheet {
 /// # Errors
 /// A [`FormatFault`] where it is no JSON, holds no flat pattern, or an edge says nothing of its fold or contradicts itself.
 pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
-    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
-    let file: Value = serde_json::from_str(text).map_err(|e| FormatFault::Reader(e.to_string()))?;
+    let file = parsed(bytes)?;
     let none: &[Value] = &[];
     let frames = file["file_frames"].as_array().map_or(none, Vec::as_slice);
-    let list = |value: &Value| value.as_array().filter(|list| !list.is_empty()).cloned();
     let placed = std::iter::once(&file).chain(frames).find(|frame| list(&frame["vertices_coords"]).is_some());
     let frame = placed.ok_or(FormatFault::Nothing { what: "vertices" })?;
     let vertices = vertices(&list(&frame["vertices_coords"]).unwrap_or_default())?;
@@ -75,16 +74,8 @@ pub fn read_creases(bytes: &[u8]) -> Result<CreaseSheet, FormatFault> {
 /// # Errors
 /// A fault where one has no coordinates, or is not in the plane.
 fn vertices(stated: &[Value]) -> Result<Vec<[f64; 2]>, FormatFault> {
-    let place = |(vertex, place): (usize, &Value)| {
-        let numbers: Option<Vec<f64>> =
-            place.as_array().and_then(|place| place.iter().map(Value::as_f64).collect());
-        match numbers.as_deref() {
-            Some(&[x, y]) => Ok([x, y, 0.0]),
-            Some(&[x, y, z]) => Ok([x, y, z]),
-            _ => Err(FormatFault::NoCoordinates { vertex }),
-        }
-    };
-    let places = stated.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+    let places = stated.iter().enumerate().map(|(vertex, place)| coordinates(place, vertex));
+    let places = places.collect::<Result<Vec<_>, _>>()?;
     let extent = places.iter().flat_map(|[x, y, _]| [x.abs(), y.abs()]).fold(0.0, f64::max);
     match places.iter().position(|place| place[2].abs() > TOL_LEVEL * extent) {
         Some(vertex) => Err(FormatFault::Reader(format!(
@@ -100,11 +91,7 @@ fn vertices(stated: &[Value]) -> Result<Vec<[f64; 2]>, FormatFault> {
 /// A fault where it is none, or one is not there.
 fn places(value: &Value, count: usize) -> Result<Vec<usize>, FormatFault> {
     let list = value.as_array().ok_or(FormatFault::NoSuchVertex)?;
-    let place = |item: &Value| {
-        let index = item.as_u64().and_then(|index| usize::try_from(index).ok());
-        index.filter(|index| *index < count).ok_or(FormatFault::NoSuchVertex)
-    };
-    list.iter().map(place).collect()
+    list.iter().map(|vertex| vertex_of(vertex, count)).collect()
 }
 
 /// Returns the fold angle of an edge between two faces, rad, mountains positive.

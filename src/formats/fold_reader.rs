@@ -15,9 +15,7 @@ const TOL_MEET: f64 = 1e-6;
 /// # Errors
 /// A [`FormatFault`] where it is no JSON, or holds no list of vertices or faces.
 pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
-    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
-    let file: Value = serde_json::from_str(text).map_err(|e| FormatFault::Reader(e.to_string()))?;
-    let list = |value: &Value| value.as_array().filter(|list| !list.is_empty()).cloned();
+    let file = parsed(bytes)?;
     let frames = file["file_frames"].as_array().map_or(&[][..], Vec::as_slice);
     let placed = frames.iter().rev().find(|frame| list(&frame["vertices_coords"]).is_some());
     let frame = placed.unwrap_or(&file);
@@ -28,21 +26,40 @@ pub(super) fn read(bytes: &[u8]) -> Result<Content, FormatFault> {
     let vertices = vertices.collect::<Result<Vec<[f64; 3]>, FormatFault>>()?;
     let corners = |(face, corners): (usize, &Value)| {
         let all = corners.as_array().ok_or(FormatFault::FewCorners { face })?;
-        let corner = |corner: &Value| {
-            let index = corner.as_u64().and_then(|index| usize::try_from(index).ok());
-            index.filter(|index| *index < vertices.len()).ok_or(FormatFault::NoSuchVertex)
-        };
-        all.iter().map(corner).collect::<Result<Vec<usize>, FormatFault>>()
+        all.iter().map(|corner| vertex_of(corner, vertices.len())).collect()
     };
-    let faces = faces.iter().enumerate().map(corners).collect::<Result<Vec<_>, FormatFault>>()?;
+    let faces = faces.iter().enumerate().map(corners).collect::<Result<Vec<Vec<usize>>, FormatFault>>()?;
     Ok(joined(vertices, faces))
+}
+
+/// Returns a FOLD file as JSON.
+///
+/// # Errors
+/// A [`FormatFault`] where it is none.
+pub(super) fn parsed(bytes: &[u8]) -> Result<Value, FormatFault> {
+    let text = std::str::from_utf8(bytes).map_err(|_| FormatFault::NotText)?;
+    serde_json::from_str(text).map_err(|e| FormatFault::Reader(e.to_string()))
+}
+
+/// Returns a list that holds something.
+pub(super) fn list(value: &Value) -> Option<Vec<Value>> {
+    value.as_array().filter(|list| !list.is_empty()).cloned()
+}
+
+/// Returns the index of a vertex, of which there are `count`.
+///
+/// # Errors
+/// [`FormatFault::NoSuchVertex`] where it is not among them.
+pub(super) fn vertex_of(value: &Value, count: usize) -> Result<usize, FormatFault> {
+    let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
+    index.filter(|index| *index < count).ok_or(FormatFault::NoSuchVertex)
 }
 
 /// Returns the coordinates of a vertex.
 ///
 /// # Errors
 /// [`FormatFault::NoCoordinates`] unless there are two or three numbers.
-fn coordinates(place: &Value, vertex: usize) -> Result<[f64; 3], FormatFault> {
+pub(super) fn coordinates(place: &Value, vertex: usize) -> Result<[f64; 3], FormatFault> {
     let numbers: Option<Vec<f64>> =
         place.as_array().and_then(|place| place.iter().map(Value::as_f64).collect());
     match numbers.as_deref() {

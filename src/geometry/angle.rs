@@ -19,15 +19,15 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
     if angle.is_nan() || angle.abs() > ANGLE_MAX {
         return libm::sincos(angle);
     }
-    let turns = (angle * FRAC_2_PI + ROUNDING) - ROUNDING;
+    let rounded = angle * FRAC_2_PI + ROUNDING;
+    let turns = rounded - ROUNDING;
     let rest = (angle - turns * QUARTER.0) - turns * QUARTER.1;
     let (s, c) = near_zero(rest);
-    match turns as i64 & 3 {
-        0 => (s, c),
-        1 => (c, -s),
-        2 => (-s, -c),
-        _ => (-c, s),
-    }
+    // The last bits of the rounded number are those of the count; without jumps, which would often be guessed wrong.
+    let quarter = rounded.to_bits();
+    let (s, c) = if quarter & 1 == 0 { (s, c) } else { (c, s) };
+    let negated = |x: f64, quarter: u64| f64::from_bits(x.to_bits() ^ ((quarter & 2) << 62));
+    (negated(s, quarter), negated(c, quarter.wrapping_add(1)))
 }
 
 /// Returns sine and cosine by the series of Taylor, which within an eighth of a turn are exact to 1e-17 after

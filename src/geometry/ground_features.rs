@@ -5,7 +5,7 @@
 
 use super::broad_phase::Aabb;
 use super::hull;
-use super::pose::{Mat3, Pose, Vec3};
+use super::pose::{Mat3, Pose, Vec3, length};
 use super::shape::{Placed, Shape};
 
 /// Threshold: the sine of the angle to the level within which the plane of a circle counts as level, so that no point of
@@ -170,7 +170,7 @@ const EIGHTHS: [(f64, f64); 8] = [
 /// depends on its axis alone.
 fn downhill(axis: &Vec3, up: &Vec3) -> Vec3 {
     let e = axis * up.dot(axis) - up;
-    let n = e.norm();
+    let n = length(&e);
     if n > TOL_LEVEL {
         return e / n;
     }
@@ -192,17 +192,17 @@ pub struct CirclePlane {
 impl CirclePlane {
     fn new(axis: &Vec3, up: &Vec3) -> CirclePlane {
         let (along, down) = (up.dot(axis), downhill(axis, up));
-        let fall = libm::sqrt((1.0 - along * along).max(0.0));
+        let fall = (1.0 - along * along).max(0.0).sqrt();
         CirclePlane { axis: *axis, fall, down, across: axis.cross(&down) }
     }
 
     /// Returns the plane of circles with an axis: the known one if it is that.
     #[inline(always)]
-    fn known(known: &mut Option<CirclePlane>, axis: &Vec3, up: &Vec3) -> CirclePlane {
-        match known {
-            Some(plane) if plane.axis == *axis => *plane,
-            _ => *known.insert(CirclePlane::new(axis, up)),
+    fn known<'p>(known: &'p mut Option<CirclePlane>, axis: &Vec3, up: &Vec3) -> &'p CirclePlane {
+        if known.as_ref().is_none_or(|plane| plane.axis != *axis) {
+            *known = None;
         }
+        known.get_or_insert_with(|| CirclePlane::new(axis, up))
     }
 }
 

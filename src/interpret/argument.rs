@@ -5,6 +5,7 @@
 //! types, what may be left out, and the words of choices. The top of [`crate::natives`] shows how they are
 //! used.
 
+use super::cells::Cells;
 use super::design::Instance;
 use super::record::{Record, StateValue};
 use super::value::{Behavior, Callable, ConditionValue, JointValue, Mesh, PortValue, Solid, Value};
@@ -49,6 +50,8 @@ pub enum Kind {
     Shape,
     /// A polygon mesh of vertices and faces, `Mesh`.
     Mesh,
+    /// An arrangement of cells, `Cells`.
+    Cells,
     /// A height field, as the ground is given: `Terrain`.
     Terrain,
     /// A record, by the name of its type.
@@ -249,6 +252,7 @@ arguments_of_variants! {
     &'c ConditionValue: Condition = Value::Condition(condition) => condition;
     &'c Solid: Shape = Value::Shape(shape) => shape;
     &'c Mesh: Mesh = Value::Mesh(mesh) => mesh;
+    &'c Rc<Cells>: Cells = Value::Cells(cells) => cells;
     &'c HeightField: Terrain = Value::Terrain(field) => field;
 }
 

@@ -24,6 +24,21 @@ pub struct Robot {
 }
 
 impl Robot {
+    /// Returns a robot alone with this start state, its base module's body at the origin.
+    pub fn alone(assembly: Assembly, start: State) -> Robot {
+        let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
+        let mut poses = vec![Pose::identity(); kinematics.link_count()];
+        kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
+        Robot {
+            assembly: Arc::new(assembly),
+            start,
+            kinematics,
+            poses,
+            obstacles: Arc::default(),
+            world: None,
+        }
+    }
+
     /// Returns the number of the joint of a module or a bond among those of the assembly. The indices of a module and
     /// its joint are not checked: one out of range may give the number of another joint, or panic. Panics for a bond
     /// that is not there or has no hinge.

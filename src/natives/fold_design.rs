@@ -1,14 +1,11 @@
 //! Panels joined by the hinges of a layout, as a configuration of the language.
 
-use crate::geometry::Pose;
 use crate::interpret::design::{BondRecord, ConfigDesign, Design, DesignKind, FlatModule};
 use crate::interpret::robot::Robot;
 use crate::planners::fold::{Layout, Panels, Sheet, Target};
-use crate::robot::Kinematics;
 use crate::source::Span;
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 /// A layout of a target with the designs of the panels that it joins, by face.
 pub(super) struct Joined<'t> {
@@ -28,18 +25,7 @@ impl Joined<'_> {
     pub(super) fn design(&self, panels: &Panels) -> (Rc<Design>, Rc<Robot>) {
         let sheet = Sheet::new(self.target, panels, self.layout).expect("the planner joined it");
         let start = sheet.folded(self.target, self.layout);
-        let assembly = sheet.assembly;
-        let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
-        let mut poses = vec![Pose::identity(); kinematics.link_count()];
-        kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
-        let robot = Rc::new(Robot {
-            assembly: Arc::new(assembly),
-            start,
-            kinematics,
-            poses,
-            obstacles: Arc::default(),
-            world: None,
-        });
+        let robot = Rc::new(Robot::alone(sheet.assembly, start));
         let design = self.joined();
         let config = design.config().expect("made as a configuration");
         assert!(config.robot.set(Some(robot.clone())).is_ok(), "it was just made");

@@ -17,12 +17,11 @@ use crate::plan::{CauseId, Plan, World};
 use crate::planners::fold::{Panels, Target};
 use crate::planners::fold_sheet::{self, Problem, Refusal, Report, Settings};
 use crate::planners::{RequestedProgress, Solution};
-use crate::robot::{Kinematics, State};
+use crate::robot::State;
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 // The arguments that diagnostics of `fold_sheet` are about.
 const TARGET: &str = "target";
@@ -103,17 +102,7 @@ fn joined(problem: &Problem, sheet: &Sheet, angles: &[f64], span: Span) -> (Rc<D
         clusters: vec![],
         misalignments: vec![],
     };
-    let kinematics = Kinematics::new(&assembly, &start.bonds, assembly.base);
-    let mut poses = vec![Pose::identity(); kinematics.link_count()];
-    kinematics.link_poses(&start.joints, &Pose::identity(), &mut poses);
-    let robot = Rc::new(Robot {
-        assembly: Arc::new(assembly),
-        start,
-        kinematics,
-        poses,
-        obstacles: Arc::default(),
-        world: None,
-    });
+    let robot = Rc::new(Robot::alone(assembly, start));
     let design = configuration(target, panels, *root, &sheet.designs, span);
     let config = design.config().expect("made as a configuration");
     assert!(config.robot.set(Some(robot.clone())).is_ok(), "it was just made");

@@ -54,6 +54,7 @@ mod study;
 pub mod tosnake;
 pub mod truss;
 mod truss_limits;
+mod unwind;
 mod waypoints;
 
 pub use embed::capabilities;

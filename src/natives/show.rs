@@ -314,6 +314,7 @@ fn cells(lattice: &LatticeDesign, library: &mut Library) -> Option<Stages> {
         time_unit: 1.0,
         limits: CellLimits::default(),
         model: Model::default(),
+        anchor: None,
         start: positions.iter().enumerate().map(run).collect(),
         stages: Vec::new(),
     })

@@ -2,6 +2,7 @@
 
 use super::Native;
 use crate::interpret::argument::{Choice, Positive, arguments};
+use crate::interpret::cells::Cells;
 use crate::interpret::design::{Design, DesignKind, Instance, LatticeDesign};
 use crate::interpret::interpreter::Interpreter;
 use crate::interpret::native::Call;
@@ -11,7 +12,7 @@ use crate::interpret::stop::{Eval, Stop, fault};
 use crate::interpret::value::Value;
 use crate::plan::{Dynamics, World};
 use crate::planners::squeeze::{
-    self, Method, ModelChoice, Norm, Problem, Profile, Refusal, Report, Settings,
+    self, AnchorFault, Method, ModelChoice, Norm, Problem, Profile, Refusal, Report, Settings,
 };
 use crate::planners::{RequestedProgress, Solution};
 use crate::robot::{Cell, Library};
@@ -33,6 +34,8 @@ arguments! {
         max_force: Option<Positive> as "the greatest contact force",
         profile: Profile,
         norm: Norm,
+        fixed: Option<&'c Rc<Cells>>,
+        obstacles: Option<&'c Rc<Cells>>,
     }
 }
 
@@ -66,7 +69,7 @@ impl Choice for Norm {
 
 /// Runs `squeeze`: plans between two lattices of equal cells.
 fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
-    let SqueezeArguments { from, to, method, model, max_force, profile, norm } =
+    let SqueezeArguments { from, to, method, model, max_force, profile, norm, fixed, obstacles } =
         SqueezeArguments::read(call)?;
     let (design, goal) = (from.design.clone(), to.design.clone());
     let (Some((start, cell)), Some((end, other))) = (lattice(&design), lattice(&goal)) else {
@@ -83,6 +86,8 @@ fn squeeze(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
         cell: cell.clone(),
         start: start.cells.positions.clone(),
         goal: end.cells.positions.clone(),
+        fixed: fixed.map_or_else(Vec::new, |cells| cells.positions.clone()),
+        obstacles: obstacles.map_or_else(Vec::new, |cells| cells.positions.clone()),
     };
     let max_force = max_force.map(|force| force.0);
     let settings = Settings { method, model, profile, max_force, norm };
@@ -146,6 +151,7 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             .label(call.at("to"), "to here")
             .hint("`model: auto` takes one that turns little, `paper` the fastest; `p.angular_momentum` says how much")
             .into(),
+        Refusal::Anchor(fault) => anchor_refused(*fault, call),
         Refusal::TooLarge => {
             let hint = "too many cells, or limits too far apart";
             fault(code::SIZE_LIMIT, call.span, refusal.to_string(), hint)
@@ -156,6 +162,36 @@ fn refused(refusal: &Refusal, call: &Call) -> Stop {
             fault(code::NOT_VERIFIED, call.span, refusal.to_string(), hint)
         }
     }
+}
+
+/// Returns the fault of fixed cells and obstacles that leave no way, at the arguments that it is about.
+fn anchor_refused(fault: AnchorFault, call: &Call) -> Stop {
+    let message = fault.to_string();
+    match fault {
+        AnchorFault::Floating => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at("obstacles"), "around a robot that floats")
+            .hint("`fixed:` are cells of both shapes that stay where they are, such as `fixed: row(1)`"),
+        AnchorFault::NotThere { at_start, .. } => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at("fixed"), "these are to stay")
+            .label(call.at(if at_start { "from" } else { "to" }), "not all are here")
+            .hint("with fixed cells both shapes stand where they are drawn: the last line of a text is at y = 0"),
+        AnchorFault::Occupied { at_start, .. } => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at("obstacles"), "these stand fast")
+            .label(call.at(if at_start { "from" } else { "to" }), "not all of this is free")
+            .hint("with obstacles both shapes stand where they are drawn: the last line of a text is at y = 0"),
+        AnchorFault::Method(_) => Diagnostic::error(code::NOT_COVERED, message)
+            .label(call.at("method"), "this method")
+            .hint("`method: push`, or `auto`, the default, lets cells stand fast"),
+        AnchorFault::Balanced => Diagnostic::error(code::NO_WAY, message)
+            .label(call.at("model"), "asked of the robot alone")
+            .label(call.at("fixed"), "held here"),
+        AnchorFault::NoWay => Diagnostic::error(code::NOT_COVERED, message)
+            .label(call.at("from"), "from here")
+            .label(call.at("to"), "to here")
+            .label(call.at("fixed"), "while these stay")
+            .hint("fewer fixed cells or obstacles, or shapes in between, may let one be found"),
+    }
+    .into()
 }
 
 impl ReportFields for Report {

@@ -1,6 +1,7 @@
 //! `tosnake` and `reconfigure`: the planners of RoFI modules, as they are called.
 
 use super::Native;
+use super::unwind::no_snake;
 use crate::interpret::argument::{Auto, Choice, Positive, WordOr, arguments};
 use crate::interpret::causes::PlanCauses;
 use crate::interpret::design::{Design, Instance, shorten};
@@ -21,7 +22,7 @@ use crate::planners::tosnake::{
     self, Collisions, Dock, InvalidStart, NotRofi, Operation, Overload, Refusal, Report, SearchStatus,
     Settings, TOLERANCES,
 };
-use crate::planners::{Progress, Solution};
+use crate::planners::{Progress, Solution, unwind};
 use crate::source::{Diagnostic, Span, code};
 use crate::units::{Dimension, quantity};
 use std::rc::Rc;
@@ -168,6 +169,16 @@ impl Options {
         Settings { seed, budget, collisions, threads, ..Settings::default() }
     }
 
+    /// Returns true if robots of any modules can be planned for with these options.
+    fn is_for_any_module(&self) -> bool {
+        self.world == World::FREE && self.collisions == Collisions::Motion
+    }
+
+    /// Returns the settings of the planner for any modules.
+    fn unwinding(&self) -> unwind::Settings {
+        unwind::Settings { seed: self.seed, budget: self.budget, ..unwind::Settings::default() }
+    }
+
     /// Returns the plan of a motion that a search with these options found.
     fn plan(
         &self,
@@ -261,6 +272,16 @@ impl Subject {
         Ok(robot.map(|robot| Subject { parameter, design, robot }))
     }
 
+    /// Returns the problem of unwinding it, whatever its modules are.
+    fn unwinding(&self) -> unwind::Problem<'_> {
+        unwind::Problem { robot: &self.robot.assembly, start: &self.robot.start }
+    }
+
+    /// Returns the robot with its place in the text.
+    fn place(&self, call: &Call) -> (&Robot, Span) {
+        (&self.robot, call.at(self.parameter))
+    }
+
     fn configuration(&self) -> reconfigure::Configuration<'_> {
         reconfigure::Configuration { robot: &self.robot.assembly, state: &self.robot.start }
     }
@@ -278,8 +299,15 @@ fn native_tosnake(interpreter: &mut Interpreter, call: &Call) -> Eval<Value> {
     let problem = tosnake::Problem { robot: assembly, start, world: options.world };
     let solution =
         tosnake::plan_with_cache(&problem, &settings, &mut interpreter.memory.search_cache, &mut observer);
-    let Solution { body, program, report } =
-        solution.map_err(|refusal| refused(interpreter, call, &subject, &causes, &refusal))?;
+    let solution = match solution {
+        // Other modules have a planner of their own, which knows neither weight nor the paper's method.
+        Err(Refusal::NotRofi(_)) if options.is_for_any_module() => {
+            let found = unwind::plan(&subject.unwinding(), &options.unwinding(), &mut observer);
+            found.map_err(|refusal| no_snake(interpreter, call, subject.place(call), &causes, &refusal))?
+        }
+        other => other.map_err(|refusal| refused(interpreter, call, &subject, &causes, &refusal))?,
+    };
+    let Solution { body, program, report } = solution;
     let planner = options.collisions.planner();
     let plan = options.plan(interpreter, planner, (body, program), &subject.robot, &causes);
     let Subject { design, robot, .. } = subject;
@@ -310,11 +338,31 @@ fn native_reconfigure(interpreter: &mut Interpreter, call: &Call) -> Eval<Value>
         &mut interpreter.memory.search_cache,
         &mut observer,
     );
-    let Solution { body, program, report } = solution.map_err(|refusal| match refusal {
-        reconfigure::Refusal::From(refusal) => refused(interpreter, call, &from, &causes, &refusal),
-        reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
-        other => no_reconfiguration(call, &other),
-    })?;
+    let solution = match solution {
+        Err(
+            reconfigure::Refusal::From(Refusal::NotRofi(_)) | reconfigure::Refusal::To(Refusal::NotRofi(_)),
+        ) if options.is_for_any_module() => {
+            let ends = [&from, &to].map(|subject| subject.unwinding());
+            let found = unwind::between((&ends[0], &ends[1]), &options.unwinding(), judge, &mut observer);
+            found.map_err(|refusal| match refusal {
+                unwind::BetweenRefusal::From(refusal) => {
+                    no_snake(interpreter, call, from.place(call), &causes, &refusal)
+                }
+                unwind::BetweenRefusal::To(refusal) => {
+                    no_snake(interpreter, call, to.place(call), &causes, &refusal)
+                }
+                unwind::BetweenRefusal::DifferentSnakes(_) => {
+                    fault(code::NOT_COVERED, call.span, refusal.to_string(), "another `seed` may find one")
+                }
+            })?
+        }
+        other => other.map_err(|refusal| match refusal {
+            reconfigure::Refusal::From(refusal) => refused(interpreter, call, &from, &causes, &refusal),
+            reconfigure::Refusal::To(refusal) => refused(interpreter, call, &to, &causes, &refusal),
+            other => no_reconfiguration(call, &other),
+        })?,
+    };
+    let Solution { body, program, report } = solution;
     let mut plan = options.plan(interpreter, "reconfigure", (body, program), &from.robot, &causes);
     plan.provenance.history = report.history.clone();
     plan.provenance.shapes = Some((from.design.name.to_string(), to.design.name.to_string()));
@@ -385,7 +433,9 @@ fn not_rofi(at: Span, robot: &Robot, no: &NotRofi) -> Stop {
     let name = |module: usize| &robot.assembly.modules[module].name;
     let (message, label) = match no {
         NotRofi::Kind(module) => {
-            (format!("{} is no RoFI module", name(*module)), "only robots of `std.rofi.Rofi` are unwound")
+            let label =
+                "under gravity, and by the paper's own method, only robots of `std.rofi.Rofi` are unwound";
+            (format!("{} is no RoFI module", name(*module)), label)
         }
         NotRofi::Pitch(module) => {
             let message = format!("{} has another pitch than {}", name(*module), name(0));

@@ -124,6 +124,11 @@ impl Body {
         }
     }
 
+    /// Returns true if a plan file needs what version 3 added, of lattices.
+    pub(super) fn needs_version_3(&self) -> bool {
+        matches!(self, Body::Stages(stages) if stages.needs_version_3())
+    }
+
     /// Returns the motion in reverse, from its end to its start.
     pub(super) fn reversed(&self) -> Body {
         match self {
@@ -263,12 +268,16 @@ impl<'a> BodyJson<'a> {
         }
     }
 
-    /// Returns the body that stands in a file; `library`: the one that its indices refer to. Nothing is checked.
-    pub(super) fn into_body(self, library: &Arc<Library>) -> Body {
-        match self {
+    /// Returns the body that stands in a file; `library`: the one that its indices refer to. Nothing else is checked.
+    ///
+    /// # Errors
+    /// [`StagesFault::StageEnd`](super::StagesFault::StageEnd) for a stage of a lattice that states its end in no
+    /// way, or in two.
+    pub(super) fn into_body(self, library: &Arc<Library>) -> Result<Body, PlanFault> {
+        Ok(match self {
             BodyJson::Tracks(tracks) => tracks.into_tracks(library).into(),
-            BodyJson::Stages(stages) => stages.into_stages().into(),
+            BodyJson::Stages(stages) => stages.into_stages()?.into(),
             BodyJson::NodePaths(paths) => paths.into_node_paths().into(),
-        }
+        })
     }
 }

@@ -5,6 +5,7 @@
 //! positions in rad or m.
 
 use super::slope::SLOPE_RISE_MAX;
+use super::stages::StagesFault;
 use super::time::DURATION_MAX;
 use super::validation::{Unwritable, check_serialisable};
 use super::world::DynamicsModel;
@@ -282,51 +283,6 @@ pub enum TracksFault {
     },
 }
 
-/// A fault of the plan of a lattice.
-#[derive(Clone, Debug, PartialEq)]
-pub enum StagesFault {
-    /// More cells than a lattice may have.
-    CellCount {
-        /// The greatest number of cells that is allowed.
-        most: u64,
-    },
-    /// A unit of time of the lattice that is not positive.
-    TimeUnit,
-    /// A least size that is not in (0, 1], or a greatest speed that is not positive.
-    CellLimits,
-    /// A greatest contact force of the lattice's model that is not positive.
-    ContactForce,
-    /// A start whose runs name fewer cells than there are.
-    Start,
-    /// A stage whose squared duration is negative.
-    StageDuration {
-        /// The name of the stage, as the plan states it.
-        stage: String,
-    },
-    /// A ramp whose fraction of the time has too large a denominator.
-    RampTooFine,
-    /// A ramp that takes none of the time, or too much of it.
-    RampPart,
-    /// A run of no cells, or of more than there are.
-    RunSize,
-    /// A run that names cells which there are not: the lowest and the highest that it names.
-    RunCells {
-        /// The lowest number of a cell that the run names.
-        low: i128,
-        /// The highest number of a cell that the run names.
-        high: i128,
-        /// The number of cells of the lattice, which are numbered from 0.
-        count: u64,
-    },
-    /// A pair of numbers that is no rational number with a positive denominator.
-    Ratio {
-        /// The numerator that was found.
-        numerator: i64,
-        /// The denominator that was found.
-        denominator: i64,
-    },
-}
-
 /// A fault of the plan of a truss.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodePathsFault {
@@ -419,12 +375,6 @@ impl From<LibraryFault> for PlanFault {
 impl From<TracksFault> for PlanFault {
     fn from(fault: TracksFault) -> PlanFault {
         PlanFault::Tracks(fault)
-    }
-}
-
-impl From<StagesFault> for PlanFault {
-    fn from(fault: StagesFault) -> PlanFault {
-        PlanFault::Stages(fault)
     }
 }
 
@@ -548,28 +498,6 @@ impl fmt::Display for TracksFault {
             TracksFault::NoCommands { joint } => write!(f, "{joint} takes no commands"),
             TracksFault::PortTaken { port } => write!(f, "{port} is taken twice"),
             TracksFault::NoMate { a, b } => write!(f, "{a} does not mate with {b}"),
-        }
-    }
-}
-
-impl fmt::Display for StagesFault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StagesFault::CellCount { most } => write!(f, "more than {most} cells"),
-            StagesFault::TimeUnit => write!(f, "the unit of time must be positive"),
-            StagesFault::CellLimits => write!(f, "the limits of the cells are out of range"),
-            StagesFault::ContactForce => write!(f, "the greatest contact force must be positive"),
-            StagesFault::Start => write!(f, "the start does not say where every cell is"),
-            StagesFault::StageDuration { stage } => write!(f, "stage `{stage}` lasts no real time"),
-            StagesFault::RampTooFine => write!(f, "a ramp is too fine a part of the time"),
-            StagesFault::RampPart => write!(f, "a ramp takes none of the time, or too much"),
-            StagesFault::RunSize => write!(f, "a run of no cells, or of too many"),
-            StagesFault::RunCells { low, high, count } => {
-                write!(f, "a run holds the cells {low} to {high}: there are {count}")
-            }
-            StagesFault::Ratio { numerator, denominator } => {
-                write!(f, "{numerator} / {denominator} is no rational number with a positive denominator")
-            }
         }
     }
 }

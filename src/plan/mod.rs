@@ -44,7 +44,7 @@ pub mod verify;
 pub use body::{Body, Snapshot};
 pub use cause::{Cause, CauseId};
 pub use exceptions::{headline, headline_under};
-pub use fault::{NodePathsFault, PlanFault, StagesFault, TracksFault};
+pub use fault::{NodePathsFault, PlanFault, TracksFault};
 pub use goal::{Goal, GoalFrame, GoalKind, LineEnd};
 pub(crate) use listing::listed;
 pub use motion_plan::Plan;
@@ -57,7 +57,8 @@ pub use program::{Action, Command, Compare, Condition, Node, Otherwise, Profile,
 pub use provenance::{Change, ObjectiveValue, Provenance};
 pub use slope::SLOPE_RISE_MAX;
 pub use stages::{
-    ArithmeticRun, CellBox, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages, arithmetic_runs,
+    Anchor, ArithmeticRun, CellBox, CellLimits, CellMove, CellSpan, Counter, Law, Model, Moves, Ratio, Run,
+    Stage, StageEnd, Stages, StagesFault, arithmetic_runs,
 };
 pub use stated_path::StatedPath;
 pub use tolerances::{TOLERANCES, Tolerances};

@@ -14,15 +14,26 @@ pub fn value(control: &[f64], u: f64) -> f64 {
     if u >= 1.0 {
         return control[control.len() - 1];
     }
+    value_and_rate(control, u).0
+}
+
+/// Returns the value at the argument `u` as [`value`] does, and the derivative with respect to the argument there.
+pub fn value_and_rate(control: &[f64], u: f64) -> (f64, f64) {
+    let degree = control.len() - 1;
+    if degree == 0 {
+        return (control[0], 0.0);
+    }
+    let u = u.clamp(0.0, 1.0);
     let mut stack = [0.0; DEGREE_MAX + 1];
-    let points = &mut stack[..control.len()];
+    let points = &mut stack[..=degree];
     points.copy_from_slice(control);
-    for last in (1..points.len()).rev() {
+    for last in (2..=degree).rev() {
         for i in 0..last {
             points[i] = mix(points[i], points[i + 1], u);
         }
     }
-    points[0]
+    // The last two points are on the tangent.
+    (mix(points[0], points[1], u), degree as f64 * (points[1] - points[0]))
 }
 
 /// Returns (before, after): the parts of a polynomial before and after the argument `u` (0 to 1) as Bernstein control

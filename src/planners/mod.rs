@@ -19,6 +19,7 @@ pub mod refold;
 pub mod squeeze;
 pub mod tosnake;
 pub mod truss;
+pub mod unwind;
 
 use crate::interrupt;
 use crate::plan;

@@ -19,13 +19,18 @@ pub enum Attachment {
     Held,
     /// A joint carries the body on the body of this index.
     Joint(usize),
-    /// The body is fixed to the body of this index.
+    /// The body is fixed to the body of this index, by something whose wrench may be asked for.
     Fixed(usize),
+    /// The body is a part of the body of this index: both are one.
+    Part(usize),
 }
 
 /// A body on the way through the passes.
 #[derive(Clone, Copy, Debug)]
 struct Body {
+    /// The index by which the body goes.
+    index: usize,
+    /// The way in which the body hangs on others, by their slots.
     attachment: Attachment,
     /// True if the body carries others; if not, its articulated inertia is its own.
     carries: bool,
@@ -84,8 +89,11 @@ impl Body {
 /// carry come before those that they carry.
 #[derive(Clone, Debug)]
 pub struct ArticulatedBodies {
+    /// The bodies but for those that are parts of others.
     bodies: Vec<Body>,
-    /// The bases, with the decomposition of their articulated inertia where they float.
+    /// The slot in `bodies` of each body, by its index; of a part that of the whole.
+    slots: Vec<u32>,
+    /// The slots of the bases, with the decomposition of their articulated inertia where they float.
     bases: Vec<(usize, Option<Cholesky<f64, Const<6>>>)>,
 }
 
@@ -93,12 +101,26 @@ impl ArticulatedBodies {
     /// Returns the trees in which bodies are attached so, by their indices; all without inertia. Panics if a body does
     /// not come after that which carries it.
     pub fn new(attachments: &[Attachment]) -> ArticulatedBodies {
-        let body = |(index, attachment): (usize, &Attachment)| {
-            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = attachment {
-                assert!(*parent < index, "bodies come after those that carry them");
-            }
-            Body {
-                attachment: *attachment,
+        let mut bodies: Vec<Body> = Vec::with_capacity(attachments.len());
+        let mut slots: Vec<u32> = Vec::with_capacity(attachments.len());
+        for (index, attachment) in attachments.iter().enumerate() {
+            let slot = |parent: usize| {
+                assert!(parent < index, "bodies come after those that carry them");
+                slots[parent] as usize
+            };
+            let attachment = match *attachment {
+                Attachment::Joint(parent) => Attachment::Joint(slot(parent)),
+                Attachment::Fixed(parent) => Attachment::Fixed(slot(parent)),
+                Attachment::Part(whole) => {
+                    slots.push(slot(whole) as u32);
+                    continue;
+                }
+                base => base,
+            };
+            slots.push(bodies.len() as u32);
+            bodies.push(Body {
+                index,
+                attachment,
                 carries: false,
                 begins: false,
                 axis: SpatialVector::default(),
@@ -116,45 +138,61 @@ impl ArticulatedBodies {
                 joint_effort: 0.0,
                 acceleration: SpatialVector::default(),
                 joint_acceleration: 0.0,
-            }
-        };
-        let mut bodies: Vec<Body> = attachments.iter().enumerate().map(body).collect();
-        for (index, attachment) in attachments.iter().enumerate().rev() {
-            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = attachment {
-                bodies[index].begins = !bodies[*parent].carries;
-                bodies[*parent].carries = true;
+            });
+        }
+        for slot in (0..bodies.len()).rev() {
+            if let Attachment::Joint(parent) | Attachment::Fixed(parent) = bodies[slot].attachment {
+                bodies[slot].begins = !bodies[parent].carries;
+                bodies[parent].carries = true;
             }
         }
         let base = |b: &Body| matches!(b.attachment, Attachment::Floating | Attachment::Held);
         let bases = (0..bodies.len()).filter(|&b| base(&bodies[b])).map(|b| (b, None)).collect();
-        ArticulatedBodies { bodies, bases }
+        ArticulatedBodies { bodies, slots, bases }
+    }
+
+    /// Returns the body of an index; of a part the whole.
+    #[inline(always)]
+    fn body(&self, index: usize) -> &Body {
+        &self.bodies[self.slots[index] as usize]
+    }
+
+    /// Returns the body of an index to be changed; of a part the whole.
+    #[inline(always)]
+    fn body_mut(&mut self, index: usize) -> &mut Body {
+        &mut self.bodies[self.slots[index] as usize]
     }
 
     /// Sets the motion of a base: its twist (rad/s, m/s), which it keeps if `held` is true, whatever force that takes.
     /// `mid_twist`: the twist of which velocity products are taken; that of the middle of a step makes steps of the second
     /// order.
     pub fn set_base(&mut self, body: usize, twist: SpatialVector, mid_twist: SpatialVector, held: bool) {
-        self.bodies[body].attachment = if held { Attachment::Held } else { Attachment::Floating };
-        self.bodies[body].velocity = twist;
-        self.bodies[body].mid_velocity = mid_twist;
-        self.bodies[body].product = SpatialVector::default();
+        let body = self.body_mut(body);
+        body.attachment = if held { Attachment::Held } else { Attachment::Floating };
+        body.velocity = twist;
+        body.mid_velocity = mid_twist;
+        body.product = SpatialVector::default();
     }
 
     /// Sets the spatial acceleration of a held base about O, rad/s² and m/s²: minus `ω × v` where its point at O keeps its
     /// velocity; it is 0 unless set.
     pub fn set_held_acceleration(&mut self, body: usize, acceleration: SpatialVector) {
-        self.bodies[body].acceleration = acceleration;
+        self.body_mut(body).acceleration = acceleration;
     }
 
     /// Sets the motion of a body that others carry, whose own must have been set: `axis` is its twist for a unit
     /// velocity of its joint, `rate` that velocity, rad/s or m/s, and `mid_rate` the one of which velocity products are taken.
+    /// The motion of a part is that of the whole.
     #[inline(always)]
     pub fn set_joint(&mut self, body: usize, axis: SpatialVector, rate: f64, mid_rate: f64) {
-        let (before, after) = self.bodies.split_at_mut(body);
-        let body = &mut after[0];
+        let (before, after) = self.bodies.split_at_mut(self.slots[body] as usize);
+        let (index, body) = (body, &mut after[0]);
         let (Attachment::Joint(parent) | Attachment::Fixed(parent)) = body.attachment else {
             return;
         };
+        if body.index != index {
+            return;
+        }
         let Body { velocity, mid_velocity: carried, .. } = &before[parent];
         body.axis = axis;
         body.velocity = velocity.plus(&axis, rate);
@@ -164,17 +202,25 @@ impl ArticulatedBodies {
     }
 
     /// Sets the rigid inertia of a body, whose motion must have been set, and the outer wrench on it (N·m, N). The bias
-    /// force follows; what was added to the body before is gone.
+    /// force follows; what was added to the body before is gone. Those of a part are added to those of the whole, which must
+    /// have been set.
     #[inline]
     pub fn set_inertia(&mut self, body: usize, inertia: SpatialInertia, wrench: &SpatialVector) {
-        let body = &mut self.bodies[body];
-        body.own_bias = body.mid_velocity.cross_force(&inertia.times(&body.mid_velocity)).plus(wrench, -1.0);
-        body.own_inertia = inertia;
+        let index = body;
+        let body = self.body_mut(index);
+        let bias = body.mid_velocity.cross_force(&inertia.times(&body.mid_velocity)).plus(wrench, -1.0);
+        if body.index == index {
+            body.own_bias = bias;
+            body.own_inertia = inertia;
+        } else {
+            body.own_bias = body.own_bias.plus(&bias, 1.0);
+            body.own_inertia.add(&inertia);
+        }
     }
 
-    /// Sets inertia and weight of a rigid body, whose motion must have been set; what was added to it before is gone. `R`: the
-    /// rotation from its frame to the world; `com`: its centre of mass, from O in the world (m); `gravity`: the acceleration
-    /// of free fall in the world, m/s².
+    /// Sets inertia and weight of a rigid body with all its parts, whose motion must have been set; what was added to it before
+    /// is gone. `R`: the rotation from its frame to the world; `com`: its centre of mass, from O in the world (m); `gravity`:
+    /// the acceleration of free fall in the world, m/s².
     #[inline(always)]
     pub fn set_rigid(
         &mut self,
@@ -184,22 +230,21 @@ impl ArticulatedBodies {
         com: &Vec3,
         gravity: &Vec3,
     ) {
-        let body = &mut self.bodies[body];
-        body.own_inertia = SpatialInertia::of_rigid(rigid, R, com);
+        let body = self.body_mut(body);
+        let (inertia, central) = SpatialInertia::of_rigid(rigid, R, com);
+        body.own_inertia = inertia;
         let SpatialVector { angular, linear } = body.mid_velocity;
-        let (mass, first) = (rigid.mass, com * rigid.mass);
-        let momentum = SpatialVector {
-            angular: body.own_inertia.angular.times(&angular) + first.cross(&linear),
-            linear: linear * mass + angular.cross(&first),
-        };
-        let weight = SpatialVector { angular: first.cross(gravity), linear: gravity * mass };
-        body.own_bias = body.mid_velocity.cross_force(&momentum).plus(&weight, -1.0);
+        // The force that the centre of mass takes, and the moment about it (Newton-Euler).
+        let momentum = (linear + angular.cross(com)) * rigid.mass;
+        let force = angular.cross(&momentum) - gravity * rigid.mass;
+        let moment = angular.cross(&central.times(&angular));
+        body.own_bias = SpatialVector { angular: moment + com.cross(&force), linear: force };
     }
 
     /// Adds an inertia, such as that of an implicit contact, to a body, and a wrench that acts on it (N·m, N).
     #[inline(always)]
     pub fn add(&mut self, body: usize, inertia: &SpatialInertia, wrench: &SpatialVector) {
-        let body = &mut self.bodies[body];
+        let body = self.body_mut(body);
         body.own_inertia.add(inertia);
         body.own_bias = body.own_bias.plus(wrench, -1.0);
     }
@@ -208,33 +253,34 @@ impl ArticulatedBodies {
     /// of the bodies, of its rotor or of an implicit servo.
     #[inline(always)]
     pub fn set_effort(&mut self, body: usize, effort: f64, armature: f64) {
-        self.bodies[body].effort = effort;
-        self.bodies[body].armature = armature;
+        let body = self.body_mut(body);
+        body.effort = effort;
+        body.armature = armature;
     }
 
     /// Returns the twist of a body about O, rad/s and m/s.
     #[inline]
     pub fn velocity(&self, body: usize) -> &SpatialVector {
-        &self.bodies[body].velocity
+        &self.body(body).velocity
     }
 
     /// Returns the spatial acceleration of a body about O, rad/s² and m/s², as found last. The acceleration of the body's
     /// point at `p` is that of [`SpatialVector::at`] with `ω × v` of that point besides.
     #[inline]
     pub fn acceleration(&self, body: usize) -> &SpatialVector {
-        &self.bodies[body].acceleration
+        &self.body(body).acceleration
     }
 
     /// Returns the acceleration of a body's joint, rad/s² or m/s², as found last; 0 without a joint.
     #[inline]
     pub fn joint_acceleration(&self, body: usize) -> f64 {
-        self.bodies[body].joint_acceleration
+        self.body(body).joint_acceleration
     }
 
     /// Returns the wrench about O that a body's joint or fixing exerts on it, N·m and N, as found last; for a base what
-    /// holds it, which is zero if it floats.
+    /// holds it, which is zero if it floats. For a part it is that on the whole.
     pub fn transmitted(&self, body: usize) -> SpatialVector {
-        let body = &self.bodies[body];
+        let body = self.body(body);
         body.articulated().times(&body.acceleration).plus(&body.bias, 1.0)
     }
 
@@ -270,7 +316,7 @@ impl ArticulatedBodies {
                 Attachment::Fixed(parent) => {
                     before[parent].carry(body.articulated(), &body.bias, body.begins);
                 }
-                Attachment::Floating | Attachment::Held => {}
+                Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
             }
         }
         for (base, decomposed) in &mut self.bases {
@@ -294,7 +340,7 @@ impl ArticulatedBodies {
                     body.acceleration = carried.plus(&body.axis, relative);
                 }
                 Attachment::Fixed(parent) => body.acceleration = before[parent].acceleration,
-                Attachment::Floating | Attachment::Held => {}
+                Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
             }
         }
         Some(())
@@ -302,8 +348,7 @@ impl ArticulatedBodies {
 
     /// Adds to the accelerations found last what wrenches on bodies (N·m and N about O, by the index of the body), and
     /// efforts of joints (N·m or N), change in them. `out` receives the changes of all bodies' accelerations and of
-    /// their joints', by index; it is resized. The inertias are those of the last call of
-    /// [`accelerate`](Self::accelerate).
+    /// their joints'; it is resized. The inertias are those of the last call of [`accelerate`](Self::accelerate).
     pub fn respond(&self, loads: &[Load], out: &mut Response) {
         out.bias.clear();
         out.bias.resize(self.bodies.len(), SpatialVector::default());
@@ -313,8 +358,11 @@ impl ArticulatedBodies {
         out.joints.resize(self.bodies.len(), 0.0);
         for load in loads {
             match *load {
-                Load::Wrench(body, wrench) => out.bias[body] = out.bias[body].plus(&wrench, -1.0),
-                Load::Effort(body, effort) => out.efforts[body] += effort,
+                Load::Wrench(body, wrench) => {
+                    let bias = &mut out.bias[self.slots[body] as usize];
+                    *bias = bias.plus(&wrench, -1.0);
+                }
+                Load::Effort(body, effort) => out.efforts[self.slots[body] as usize] += effort,
             }
         }
         for (index, body) in self.bodies.iter().enumerate().rev() {
@@ -327,7 +375,7 @@ impl ArticulatedBodies {
                     out.bias[parent] = out.bias[parent].plus(&pushed, 1.0);
                 }
                 Attachment::Fixed(parent) => out.bias[parent] = out.bias[parent].plus(&bias, 1.0),
-                Attachment::Floating | Attachment::Held => {}
+                Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
             }
         }
         for (base, cholesky) in &self.bases {
@@ -344,9 +392,21 @@ impl ArticulatedBodies {
                     out.bodies[index] = carried.plus(&body.axis, relative);
                 }
                 Attachment::Fixed(parent) => out.bodies[index] = out.bodies[parent],
-                Attachment::Floating | Attachment::Held => {}
+                Attachment::Floating | Attachment::Held | Attachment::Part(_) => {}
             }
         }
+    }
+
+    /// Returns the change of the spatial acceleration of a body about O that [`respond`](Self::respond) found, rad/s² and
+    /// m/s².
+    pub fn change<'r>(&self, response: &'r Response, body: usize) -> &'r SpatialVector {
+        &response.bodies[self.slots[body] as usize]
+    }
+
+    /// Returns the change of the acceleration of a body's joint that [`respond`](Self::respond) found, rad/s² or m/s²; 0
+    /// without a joint.
+    pub fn joint_change(&self, response: &Response, body: usize) -> f64 {
+        response.joints[self.slots[body] as usize]
     }
 
     /// Adds changes of accelerations, as [`respond`](Self::respond) finds them, to those found last.
@@ -372,10 +432,9 @@ pub enum Load {
 /// The changes of accelerations under additional loads, with the memory that they are found in.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
-    /// The change of the spatial acceleration of each body about O, rad/s² and m/s².
-    pub bodies: Vec<SpatialVector>,
-    /// The change of the acceleration of each body's joint, rad/s² or m/s²; 0 without a joint.
-    pub joints: Vec<f64>,
+    /// The changes of the bodies' accelerations and of those of their joints, by slot.
+    bodies: Vec<SpatialVector>,
+    joints: Vec<f64>,
     bias: Vec<SpatialVector>,
     efforts: Vec<f64>,
 }
@@ -426,7 +485,7 @@ impl ForwardDynamics {
             body_of[step.link] = attachments.len();
             let parent = body_of[step.parent];
             let moves = !step.terms().is_empty();
-            attachments.push(if moves { Attachment::Joint(parent) } else { Attachment::Fixed(parent) });
+            attachments.push(if moves { Attachment::Joint(parent) } else { Attachment::Part(parent) });
         }
         let bodies = simple.then(|| ArticulatedBodies::new(&attachments));
         ForwardDynamics { dynamics, kinematics, bodies }

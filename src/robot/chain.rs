@@ -113,6 +113,24 @@ const CORRECTION_MAX: f64 = 0.7;
 /// A descent that has lessened the least error by this factor counts as going on.
 const PROGRESS: f64 = 0.9;
 
+impl ChainJoint {
+    /// Returns the joint of an owner with its limits if it takes commands; `joint`: the number in its [`super::JointId`]. Panics
+    /// if there is no such module, joint or bond.
+    pub fn commanded(robot: &Assembly, owner: JointOwner, joint: usize) -> Option<ChainJoint> {
+        let range = match owner {
+            JointOwner::Bond(bond) => robot.hinge(bond)?.limits.range,
+            JointOwner::Module { module, joint } => {
+                let declared = &robot.module_type(module).joints[joint];
+                let moves =
+                    declared.kind != JointKind::Fixed && !declared.passive && declared.mimic.is_none();
+                moves.then_some(declared.limits.range)?
+            }
+        };
+        let limits = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        Some(ChainJoint { joint, limits, slides: robot.slides(owner) })
+    }
+}
+
 impl PoseError {
     /// Returns true if neither part is greater than that of `tolerance`.
     pub fn is_within(&self, tolerance: &PoseError) -> bool {
@@ -138,7 +156,7 @@ impl Chain {
         for leg in &legs {
             for &(joint, _) in leg.step.terms() {
                 let known = joints.iter().any(|known| known.joint == joint);
-                joints.extend(movable(robot, owners[joint], joint).filter(|_| !known));
+                joints.extend(ChainJoint::commanded(robot, owners[joint], joint).filter(|_| !known));
             }
         }
         let length = length(&legs, frame, &joints);
@@ -438,20 +456,6 @@ impl Leg {
             at * self.step.child_pose(&Pose::identity(), joints).inverse()
         }
     }
-}
-
-/// Returns a joint with its limits if it takes commands.
-fn movable(robot: &Assembly, owner: JointOwner, joint: usize) -> Option<ChainJoint> {
-    let range = match owner {
-        JointOwner::Bond(bond) => robot.hinge(bond)?.limits.range,
-        JointOwner::Module { module, joint } => {
-            let declared = &robot.module_type(module).joints[joint];
-            let moves = declared.kind != JointKind::Fixed && !declared.passive && declared.mimic.is_none();
-            moves.then_some(declared.limits.range)?
-        }
-    };
-    let limits = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-    Some(ChainJoint { joint, limits, slides: robot.slides(owner) })
 }
 
 /// Returns the sum of the distances from axis to axis, and of the travels of slides, m.

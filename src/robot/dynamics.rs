@@ -12,6 +12,9 @@ use super::kinematics::Kinematics;
 use crate::geometry::{Pose, Vec3};
 use nalgebra::{DMatrix, Matrix3};
 
+/// Threshold: the part of the sum of the moments of inertia up to which a product of inertia is zero.
+const TOL_PRODUCT: f64 = 1e-14;
+
 /// The mass of a link and its distribution, in the link's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBody {
@@ -24,6 +27,19 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
+    /// Returns the body that parts make which hang together, each with the pose of its frame in that of the whole (m).
+    pub fn of_parts(parts: &[(RigidBody, Pose)]) -> RigidBody {
+        let mass: f64 = parts.iter().map(|(part, _)| part.mass).sum();
+        let first: Vec3 =
+            parts.iter().map(|(part, pose)| pose.transform_point(&part.com.into()).coords * part.mass).sum();
+        let com = if mass > 0.0 { first / mass } else { Vec3::zeros() };
+        let inertia: Matrix3<f64> = parts.iter().map(|(part, pose)| part.composite(pose, &com).inertia).sum();
+        // Products that are the rounding of zero are zero: bodies with the axes of their frames take less.
+        let zero = TOL_PRODUCT * inertia.trace();
+        let inertia = inertia.map_with_location(|i, j, x| if i != j && x.abs() <= zero { 0.0 } else { x });
+        RigidBody { mass, com, inertia }
+    }
+
     /// Returns the body as a composite about the point `origin` (m, in the world), with its link at the world pose
     /// `pose`.
     pub fn composite(&self, pose: &Pose, origin: &Vec3) -> Composite {

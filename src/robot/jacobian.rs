@@ -56,6 +56,7 @@ pub enum JointAxis {
 impl JointAxis {
     /// Returns the velocity, in the world, of a carried frame with its origin at `p` (m) for a joint velocity of 1
     /// rad/s or 1 m/s, as (linear, angular): in m/s and rad/s.
+    #[inline(always)]
     pub fn velocity(&self, p: &Vec3) -> (Vec3, Vec3) {
         match self {
             JointAxis::Revolute { axis, point } => (axis.cross(&(p - point)), *axis),

@@ -23,24 +23,26 @@ pub struct SpatialVector {
 impl SpatialVector {
     /// Returns the twist of a body that a joint with this axis moves at 1 rad/s or 1 m/s; `origin`: the point O in the
     /// world, m.
+    #[inline(always)]
     pub fn of_axis(axis: &JointAxis, origin: &Vec3) -> SpatialVector {
         let (linear, angular) = axis.velocity(origin);
         SpatialVector { angular, linear }
     }
 
     /// Returns a wrench from its force (N) and the point on its line of action, from O (m).
+    #[inline(always)]
     pub fn of_force(force: Vec3, point: &Vec3) -> SpatialVector {
         SpatialVector { angular: point.cross(&force), linear: force }
     }
 
     /// Returns the scalar product of a twist with a wrench, their power (W), or of a wrench with a twist.
-    #[inline]
+    #[inline(always)]
     pub fn dot(&self, other: &SpatialVector) -> f64 {
         self.angular.dot(&other.angular) + self.linear.dot(&other.linear)
     }
 
     /// Returns the sum of this vector and a multiple of another.
-    #[inline]
+    #[inline(always)]
     pub fn plus(&self, other: &SpatialVector, factor: f64) -> SpatialVector {
         SpatialVector {
             angular: self.angular + other.angular * factor,
@@ -49,13 +51,13 @@ impl SpatialVector {
     }
 
     /// Returns the velocity, in the world, of the point of the body that is at `point` (from O, m) for this twist, m/s.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, point: &Vec3) -> Vec3 {
         self.linear + self.angular.cross(point)
     }
 
     /// Returns the cross product of this twist with another (Featherstone 2008, eq. 2.31).
-    #[inline]
+    #[inline(always)]
     pub fn cross(&self, other: &SpatialVector) -> SpatialVector {
         SpatialVector {
             angular: self.angular.cross(&other.angular),
@@ -64,7 +66,7 @@ impl SpatialVector {
     }
 
     /// Returns the cross product of this twist with a wrench or momentum (Featherstone 2008, eq. 2.32).
-    #[inline]
+    #[inline(always)]
     pub fn cross_force(&self, force: &SpatialVector) -> SpatialVector {
         SpatialVector {
             angular: self.angular.cross(&force.angular) + self.linear.cross(&force.linear),
@@ -89,13 +91,13 @@ pub struct Symmetric {
 
 impl Symmetric {
     /// Returns the matrix with the upper triangle of another.
-    #[inline]
+    #[inline(always)]
     pub fn of_upper(m: &Matrix3<f64>) -> Symmetric {
         Symmetric { entries: [m[(0, 0)], m[(0, 1)], m[(0, 2)], m[(1, 1)], m[(1, 2)], m[(2, 2)]] }
     }
 
     /// Returns the product with a vector.
-    #[inline]
+    #[inline(always)]
     pub fn times(&self, v: &Vec3) -> Vec3 {
         let [xx, xy, xz, yy, yz, zz] = self.entries;
         Vec3::new(
@@ -106,19 +108,19 @@ impl Symmetric {
     }
 
     /// Returns the sum with another matrix.
-    #[inline]
+    #[inline(always)]
     pub fn plus(&self, other: &Symmetric) -> Symmetric {
         Symmetric { entries: std::array::from_fn(|entry| self.entries[entry] + other.entries[entry]) }
     }
 
     /// Adds another matrix.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: &Symmetric) {
         self.entries.iter_mut().zip(other.entries).for_each(|(sum, entry)| *sum += entry);
     }
 
     /// Returns the matrix less `u uᵀ` times a factor.
-    #[inline]
+    #[inline(always)]
     pub fn less(&self, u: &Vec3, factor: f64) -> Symmetric {
         let f = u * factor;
         let [xx, xy, xz, yy, yz, zz] = self.entries;
@@ -156,7 +158,7 @@ pub struct SpatialInertia {
 impl SpatialInertia {
     /// Returns the inertia that one point of a body makes which is as heavy as `across` (kg), and by `along` (kg) heavier along
     /// a unit vector `normal`; `point`: that point, from O (m).
-    #[inline]
+    #[inline(always)]
     pub fn at_point(across: f64, along: f64, normal: &Vec3, point: &Vec3) -> SpatialInertia {
         let arm = point.cross(normal);
         let even = Symmetric { entries: [across, 0.0, 0.0, across, 0.0, across] };
@@ -169,40 +171,82 @@ impl SpatialInertia {
         }
     }
 
-    /// Returns the inertia of a rigid body about O; `R`: the rotation from its frame to the world; `com`: its centre of mass,
-    /// from O in the world (m).
-    #[inline]
-    pub fn of_rigid(body: &RigidBody, R: &Matrix3<f64>, com: &Vec3) -> SpatialInertia {
-        let I = &body.inertia;
-        let row = |i: usize| {
-            let (x, y, z) = (R[(i, 0)], R[(i, 1)], R[(i, 2)]);
-            let turned = Vec3::new(
-                x * I[(0, 0)] + y * I[(0, 1)] + z * I[(0, 2)],
-                x * I[(0, 1)] + y * I[(1, 1)] + z * I[(1, 2)],
-                x * I[(0, 2)] + y * I[(1, 2)] + z * I[(2, 2)],
-            );
-            (turned, Vec3::new(x, y, z))
-        };
-        let ((ax, x), (ay, y), (az, z)) = (row(0), row(1), row(2));
-        let first = com * body.mass;
-        let about = first.dot(com);
-        let entries = [
-            ax.dot(&x) + about - first.x * com.x,
-            ax.dot(&y) - first.x * com.y,
-            ax.dot(&z) - first.x * com.z,
-            ay.dot(&y) + about - first.y * com.y,
-            ay.dot(&z) - first.y * com.z,
-            az.dot(&z) + about - first.z * com.z,
-        ];
+    /// Returns the inertia as [`at_point`](Self::at_point) does, for the vertical as the unit vector.
+    #[inline(always)]
+    pub fn at_point_of_level(across: f64, along: f64, point: &Vec3) -> SpatialInertia {
+        let f = point * across;
+        let all = across + along;
+        let (xx, yy, zz) = (f.x * point.x, f.y * point.y, f.z * point.z);
         SpatialInertia {
-            angular: Symmetric { entries },
-            mixed: first.cross_matrix(),
-            linear: Symmetric { entries: [body.mass, 0.0, 0.0, body.mass, 0.0, body.mass] },
+            angular: Symmetric {
+                entries: [
+                    all * point.y * point.y + zz,
+                    -(all * point.x * point.y),
+                    -(f.x * point.z),
+                    all * point.x * point.x + zz,
+                    -(f.y * point.z),
+                    xx + yy,
+                ],
+            },
+            mixed: Matrix3::new(0.0, -f.z, all * point.y, f.z, 0.0, -(all * point.x), -f.y, f.x, 0.0),
+            linear: Symmetric { entries: [across, 0.0, 0.0, across, 0.0, all] },
         }
     }
 
+    /// Returns the inertia of a rigid body about O, and that about its centre of mass along the axes of the world; `R`: the
+    /// rotation from its frame to the world; `com`: its centre of mass, from O in the world (m).
+    #[inline(always)]
+    pub fn of_rigid(body: &RigidBody, R: &Matrix3<f64>, com: &Vec3) -> (SpatialInertia, Symmetric) {
+        let I = &body.inertia;
+        let central = if I[(0, 1)] == 0.0 && I[(0, 2)] == 0.0 && I[(1, 2)] == 0.0 {
+            // The moments about x and y beyond that about z, which is the same about all axes.
+            let (about_x, about_y, all) = (I[(0, 0)] - I[(2, 2)], I[(1, 1)] - I[(2, 2)], I[(2, 2)]);
+            let (x, y) = (R.column(0), R.column(1));
+            let (fx, fy) = (x * about_x, y * about_y);
+            Symmetric {
+                entries: [
+                    fx.x * x.x + fy.x * y.x + all,
+                    fx.x * x.y + fy.x * y.y,
+                    fx.x * x.z + fy.x * y.z,
+                    fx.y * x.y + fy.y * y.y + all,
+                    fx.y * x.z + fy.y * y.z,
+                    fx.z * x.z + fy.z * y.z + all,
+                ],
+            }
+        } else {
+            let row = |i: usize| {
+                let (x, y, z) = (R[(i, 0)], R[(i, 1)], R[(i, 2)]);
+                let turned = Vec3::new(
+                    x * I[(0, 0)] + y * I[(0, 1)] + z * I[(0, 2)],
+                    x * I[(0, 1)] + y * I[(1, 1)] + z * I[(1, 2)],
+                    x * I[(0, 2)] + y * I[(1, 2)] + z * I[(2, 2)],
+                );
+                (turned, Vec3::new(x, y, z))
+            };
+            let ((ax, x), (ay, y), (az, z)) = (row(0), row(1), row(2));
+            Symmetric { entries: [ax.dot(&x), ax.dot(&y), ax.dot(&z), ay.dot(&y), ay.dot(&z), az.dot(&z)] }
+        };
+        let first = com * body.mass;
+        let about = first.dot(com);
+        let [xx, xy, xz, yy, yz, zz] = central.entries;
+        let entries = [
+            xx + about - first.x * com.x,
+            xy - first.x * com.y,
+            xz - first.x * com.z,
+            yy + about - first.y * com.y,
+            yz - first.y * com.z,
+            zz + about - first.z * com.z,
+        ];
+        let inertia = SpatialInertia {
+            angular: Symmetric { entries },
+            mixed: first.cross_matrix(),
+            linear: Symmetric { entries: [body.mass, 0.0, 0.0, body.mass, 0.0, body.mass] },
+        };
+        (inertia, central)
+    }
+
     /// Returns the momentum of a twist, or the wrench of an acceleration.
-    #[inline]
+    #[inline(always)]
     pub fn times(&self, v: &SpatialVector) -> SpatialVector {
         SpatialVector {
             angular: self.angular.times(&v.angular) + self.mixed * v.linear,
@@ -211,7 +255,7 @@ impl SpatialInertia {
     }
 
     /// Returns the sum with another inertia.
-    #[inline]
+    #[inline(always)]
     pub fn plus(&self, other: &SpatialInertia) -> SpatialInertia {
         SpatialInertia {
             angular: self.angular.plus(&other.angular),
@@ -221,7 +265,7 @@ impl SpatialInertia {
     }
 
     /// Adds another inertia.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: &SpatialInertia) {
         self.angular.add(&other.angular);
         self.mixed += other.mixed;
@@ -229,7 +273,7 @@ impl SpatialInertia {
     }
 
     /// Returns the inertia less `u uᵀ` times a factor.
-    #[inline]
+    #[inline(always)]
     pub fn less(&self, u: &SpatialVector, factor: f64) -> SpatialInertia {
         let angular = u.angular * factor;
         SpatialInertia {

@@ -5,7 +5,7 @@
 
 use super::library::{JointKind, ModuleType};
 use crate::geometry::{Pose, Vec3, sin_cos};
-use nalgebra::{Quaternion, UnitQuaternion};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 
 /// Threshold: a component of a unit axis (without unit) or of an offset (m), or an angle (rad), counts as zero if its
 /// absolute value is below this, because it is then the rounding of a declared zero.
@@ -171,13 +171,7 @@ impl Step {
     /// m) of its own, whatever its joints are at.
     #[inline(always)]
     pub fn child_pose_at(&self, X_WA: &Pose, position: f64) -> Pose {
-        let mut shift = self.shift;
-        let mut rotation = if self.turned { X_WA.rotation * self.turn } else { X_WA.rotation };
-        match self.motion {
-            Motion::Fixed => {}
-            Motion::Along(direction) => shift += direction * position,
-            _ => rotation = self.rotated(rotation, position),
-        }
+        let (shift, rotation) = self.displacement(X_WA.rotation, position);
         let mut p = X_WA.translation.vector;
         if shift != Vec3::zeros() {
             p += X_WA.rotation * shift;
@@ -186,6 +180,31 @@ impl Step {
             p += rotation * self.offset;
         }
         Pose::from_parts(p.into(), rotation)
+    }
+
+    /// Returns the world pose of the child as [`child_pose_at`](Self::child_pose_at) does, with its rotation as a matrix as
+    /// well; `R_WA`: that of the parent's.
+    #[inline(always)]
+    pub fn child_pose_turned(&self, X_WA: &Pose, R_WA: &Matrix3<f64>, position: f64) -> (Pose, Matrix3<f64>) {
+        let (shift, rotation) = self.displacement(X_WA.rotation, position);
+        let R_WB = *rotation.to_rotation_matrix().matrix();
+        let mut p = X_WA.translation.vector + R_WA * shift;
+        if self.offset_from_axis {
+            p += R_WB * self.offset;
+        }
+        (Pose::from_parts(p.into(), rotation), R_WB)
+    }
+
+    /// Returns the position of the joint's axis in the parent's frame (m) with the step at a position, rad or m, and the
+    /// rotation of the child in the world; `R_WA`: that of the parent.
+    #[inline(always)]
+    fn displacement(&self, R_WA: UnitQuaternion<f64>, position: f64) -> (Vec3, UnitQuaternion<f64>) {
+        let rotation = if self.turned { R_WA * self.turn } else { R_WA };
+        match self.motion {
+            Motion::Fixed => (self.shift, rotation),
+            Motion::Along(direction) => (self.shift + direction * position, rotation),
+            _ => (self.shift, self.rotated(rotation, position)),
+        }
     }
 
     /// Returns `R · Rot(axis, angle)`; an axis of the frame costs half the products.

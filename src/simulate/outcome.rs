@@ -256,7 +256,7 @@ impl<'a> Recorder<'a> {
             self.out.work += (stepper.efforts[at] * stepper.rates[at]).max(0.0) * self.step;
             if let Some(limit) = servo.limit {
                 if limit > 0.0 {
-                    keep(&mut self.out.effort, self.sums[at].abs() / window / limit, joint.id, time);
+                    keep(&mut self.out.effort, self.sums[at].abs() / (window * limit), joint.id, time);
                 }
                 if stepper.efforts[at].abs() >= limit {
                     self.saturated[at] += self.step;

@@ -116,12 +116,16 @@ fn cells(stages: &Stages, library: &Library, time: f64, width: usize) -> Vec<Dra
     let size = library.cells.get(stages.cell).map_or(1.0, |cell| cell.size);
     let cells = stages.state(time);
     let low = |cell: &CellBox| cell.center[2] - cell.size[2] / 2.0;
-    let floor = cells.iter().map(low).fold(f64::INFINITY, f64::min);
+    let obstacles = stages.obstacles();
+    let floor = cells.iter().chain(&obstacles).map(low).fold(f64::INFINITY, f64::min);
     let stride = cells.len().div_ceil(CELLS_MAX).max(1);
     let plated = cells.len() <= CELLS_PLATED_MAX;
-    let cube = |cell: &CellBox| {
+    let place = |cell: &CellBox| {
         let at = shifted((Vec3::from(cell.center) - Vec3::new(0.0, 0.0, floor)) * size);
-        let whole = Vec3::from(cell.size) * size;
+        (at, Vec3::from(cell.size) * size)
+    };
+    let cube = |cell: &CellBox| {
+        let (at, whole) = place(cell);
         let colour = Rgb::ramp(cell.size.iter().product());
         let mut body = Mesh::for_width(width);
         body.rounded_box(&at, &(whole * 0.97));
@@ -133,7 +137,14 @@ fn cells(stages: &Stages, library: &Library, time: f64, width: usize) -> Vec<Dra
         }
         [Drawn::painted(body, colour), Drawn::painted(plates, colour.shaded(PLATE_SHADE))]
     };
-    cells.iter().step_by(stride).flat_map(cube).filter(|drawn| !drawn.mesh.triangles.is_empty()).collect()
+    let around = |obstacle: &CellBox| {
+        let (at, whole) = place(obstacle);
+        let mut body = Mesh::for_width(width);
+        body.rounded_box(&at, &whole);
+        Drawn::painted(body, AROUND)
+    };
+    let drawn = cells.iter().step_by(stride).flat_map(cube).chain(obstacles.iter().map(around));
+    drawn.filter(|drawn| !drawn.mesh.triangles.is_empty()).collect()
 }
 
 /// Returns the struts of a truss as cylinders and its nodes as balls.

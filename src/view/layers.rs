@@ -1,6 +1,6 @@
 //! Lattice and truss plans as SVG: one small drawing per stage, in a view from a corner.
 
-use super::colour::Rgb;
+use super::colour::{AROUND, Rgb};
 use super::drawing::{Drawing, INK, SOFT, around};
 use super::input::RenderInput;
 use super::tolerances::TOLERANCES;
@@ -39,8 +39,10 @@ pub(super) fn lattice(input: &RenderInput, stages: &Stages) -> String {
         Some(stage) => format!("{i}. {}", stages.stages[stage].name),
     };
     let shown = instants.len().min(PANELS_MAX);
-    let panels =
-        (0..shown).map(|i| Panel { name: name(i), pieces: cubes(&stages.state(instants[i])) }).collect();
+    let obstacles = stages.obstacles();
+    let panels = (0..shown)
+        .map(|i| Panel { name: name(i), pieces: cubes(&stages.state(instants[i]), &obstacles) })
+        .collect();
     laid_out(input, panels, instants.len() - shown)
 }
 
@@ -68,20 +70,22 @@ fn flat(p: &Vec3) -> [f64; 2] {
     [p.dot(&right), -p.dot(&back.cross(&right))]
 }
 
-/// Returns the three visible faces of each cube, the farthest cubes first.
-fn cubes(cells: &[CellBox]) -> Vec<Flat> {
+/// Returns the three visible faces of each cube, cells and obstacles, the farthest cubes first.
+fn cubes(cells: &[CellBox], obstacles: &[CellBox]) -> Vec<Flat> {
     let back = Vec3::new(0.57, -0.71, 0.52);
-    let mut order: Vec<&CellBox> = cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1)).collect();
-    order.sort_by(|a, b| {
+    let colour = |cell: &CellBox| Rgb::ramp(cell.size.iter().product());
+    let some = cells.iter().step_by(cells.len().div_ceil(CELLS_MAX).max(1));
+    let mut order: Vec<(&CellBox, Rgb)> = some.map(|cell| (cell, colour(cell))).collect();
+    order.extend(obstacles.iter().map(|obstacle| (obstacle, AROUND)));
+    order.sort_by(|(a, _), (b, _)| {
         let near = |c: &CellBox| Vec3::from(c.center).dot(&back);
         near(a).total_cmp(&near(b))
     });
-    order.into_iter().flat_map(faces).collect()
+    order.into_iter().flat_map(|(cube, colour)| faces(cube, colour)).collect()
 }
 
 /// Returns the three faces of a cube that face the viewer.
-fn faces(cell: &CellBox) -> [Flat; 3] {
-    let full = cell.size.iter().product();
+fn faces(cell: &CellBox, colour: Rgb) -> [Flat; 3] {
     // The sides towards +x, -y and +z, which the view from the corner shows.
     [(0, 1.0, 0.78), (1, -1.0, 0.62), (2, 1.0, 1.0)].map(|(axis, side, light)| {
         let corner = |u: f64, v: f64| {
@@ -92,7 +96,7 @@ fn faces(cell: &CellBox) -> [Flat; 3] {
             flat(&p)
         };
         let points = vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-        let fill = Rgb::ramp(full).mixed(Rgb([1.0; 3]), 0.25).0.map(|c| c * light);
+        let fill = colour.mixed(Rgb([1.0; 3]), 0.25).0.map(|c| c * light);
         Flat { points, look: format!("fill=\"{}\" stroke=\"{INK}\"", Rgb(fill).code()) }
     })
 }

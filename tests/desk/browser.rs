@@ -85,7 +85,7 @@ fn lattice() -> Plan {
         name: name.into(),
         time_squared: Ratio(4, 1),
         law: Law::BangBang,
-        end: vec![block(sizes, 10)],
+        end: vec![block(sizes, 10)].into(),
         cause: CauseId(0),
     };
     let one = Ratio::ONE;
@@ -95,6 +95,7 @@ fn lattice() -> Plan {
         time_unit: 0.5,
         limits: CellLimits::default(),
         model: Model::default(),
+        anchor: None,
         start: vec![block([one; 3], 10)],
         stages: vec![
             stage("x-squeeze", [half, one, one]),

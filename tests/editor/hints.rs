@@ -1,4 +1,4 @@
-//! What is shown between the words of a text.
+//! Hints that an editor shows between the words of a text.
 
 use super::client::{Client, uri};
 use serde_json::{Value, json};

@@ -2,7 +2,7 @@
 
 use crate::planners::squeeze::{to_halves, truth};
 use crate::support::lattices::{
-    BALANCED, Flat, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, stages_by_hand, stages_of,
+    BALANCED, Flat, PAPER, TERMS, UNIT, judged, judged_plan, plan_of, runs_of, stages_by_hand, stages_of,
 };
 use modl::plan::verify::verify;
 use modl::plan::{
@@ -228,7 +228,7 @@ fn corrupted_plans_are_rejected_each_for_its_reason() {
     // Some cells a quarter further in one of the stages.
     for stage in 0..whole.stages.len() {
         let mut stages = whole.clone();
-        let center = &mut stages.stages[stage].end[0].center[0];
+        let center = &mut runs_of(&mut stages.stages[stage])[0].center[0];
         *center = ratio(4 * center.0 + center.1, 4 * center.1);
         let found = faults(stages);
         assert!(found.contains(&CheckKind::Momentum), "{stage}: {found:?}");
@@ -237,7 +237,7 @@ fn corrupted_plans_are_rejected_each_for_its_reason() {
     let mut stages = whole.clone();
     let snapshot = stages.state(stages.instants()[2]);
     let (a, b) = (2, 3);
-    stages.stages[1].end.extend([(a, b), (b, a)].map(|(cell, place): (usize, usize)| {
+    runs_of(&mut stages.stages[1]).extend([(a, b), (b, a)].map(|(cell, place): (usize, usize)| {
         let center = [snapshot[cell].center[0], snapshot[place].center[1], 0.0];
         Run {
             first: cell as u64,
@@ -255,7 +255,7 @@ fn corrupted_plans_are_rejected_each_for_its_reason() {
     assert_eq!(kinds(&verdict), [CheckKind::Form]);
     for stage in 0..whole.stages.len() {
         let mut stages = whole.clone();
-        stages.stages[stage].end.remove(0);
+        runs_of(&mut stages.stages[stage]).remove(0);
         assert!(!faults(stages).is_empty(), "{stage}");
     }
     // A jump: no time at all.
@@ -363,7 +363,16 @@ fn crowd_with_a_twin() -> Stages {
         row,
     ];
     let limits = CellLimits { smallest: small, ..UNIT };
-    Stages { cell: 0, count: count + 1503, time_unit: 1.0, limits, model: PAPER, start, stages: vec![] }
+    Stages {
+        cell: 0,
+        count: count + 1503,
+        time_unit: 1.0,
+        limits,
+        model: PAPER,
+        anchor: None,
+        start,
+        stages: vec![],
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use modl::plan::lattice::lanes::Overlap;
 use modl::plan::lattice::law::{Change, TimeScaling, velocities_continue};
 use modl::plan::lattice::transient::{contact_intervals, transient_contacts};
 use modl::plan::lattice::{Cube, boxes, lanes};
-use modl::plan::{CauseId, Law, Ratio, Stage};
+use modl::plan::{CauseId, Law, Ratio, Stage, StageEnd};
 use std::cmp::Ordering;
 
 /// Returns a whole number from `low` to `high`.
@@ -86,7 +86,7 @@ fn changes_are_the_sums_and_extremes_over_all_cells() {
 }
 
 fn stage(law: Law, time_squared: Ratio) -> Stage {
-    Stage { name: "by hand".into(), time_squared, law, end: vec![], cause: CauseId(0) }
+    Stage { name: "by hand".into(), time_squared, law, end: StageEnd::Runs(vec![]), cause: CauseId(0) }
 }
 
 /// Returns a law of each kind with ramps of twelfths.

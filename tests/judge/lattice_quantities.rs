@@ -1,6 +1,6 @@
 //! Quantities that verdicts on lattices state, in SI units, by closed forms and by differences of the cells' places.
 
-use crate::support::lattices::{BALANCED, Flat, PAPER, TERMS, plan_of, stages_by_hand, stages_of};
+use crate::support::lattices::{BALANCED, Flat, PAPER, TERMS, plan_of, runs_of, stages_by_hand, stages_of};
 use modl::plan::lattice::{peak_forces, time_lower_bound};
 use modl::plan::verify::verify;
 use modl::plan::{Body, CheckKind, Failure, Law, Model, Plan, Ratio, Stage, Stages, Verdict};
@@ -45,7 +45,7 @@ const TURNS: [usize; 3] = [0, 1, 2];
 /// Returns the stages with their axes exchanged in turn: x becomes the axis of this number.
 fn turned(mut stages: Stages, by: usize) -> Stages {
     let turn = |v: &mut [Ratio; 3]| v.rotate_right(by);
-    for run in stages.start.iter_mut().chain(stages.stages.iter_mut().flat_map(|stage| &mut stage.end)) {
+    for run in stages.start.iter_mut().chain(stages.stages.iter_mut().flat_map(runs_of)) {
         turn(&mut run.center);
         turn(&mut run.size);
         run.counters.iter_mut().for_each(|counter| turn(&mut counter.step));

@@ -170,6 +170,7 @@ fn reads(program: &Program, kind: Kind, ty: &Type) -> bool {
         | (Kind::Condition, Type::Condition)
         | (Kind::Shape, Type::Shape)
         | (Kind::Mesh, Type::Mesh)
+        | (Kind::Cells, Type::Cells)
         | (Kind::Terrain, Type::Terrain) => true,
         (Kind::Record(name), Type::Record(def)) => program.def(*def).name.as_str() == name,
         _ => false,

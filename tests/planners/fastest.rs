@@ -78,6 +78,20 @@ fn near(found: f64, wanted: f64, part: f64) {
 }
 
 #[test]
+fn a_polynomial_has_the_value_and_the_derivative_of_its_powers() {
+    let mut numbers = Numbers(11);
+    for degree in 0..=polynomial::DEGREE_MAX {
+        let control: Vec<f64> = (0..=degree).map(|_| numbers.next() - 0.5).collect();
+        let rates = polynomial::derivative(&control);
+        for u in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let (value, rate) = polynomial::value_and_rate(&control, u);
+            assert!((value - polynomial::value(&control, u)).abs() < 1e-13, "degree {degree} at {u}");
+            assert!((rate - polynomial::value(&rates, u)).abs() < 1e-12, "degree {degree} at {u}");
+        }
+    }
+}
+
+#[test]
 fn a_composed_polynomial_is_that_of_its_time_law() {
     let mut numbers = Numbers(1);
     for degree in 1..=7 {

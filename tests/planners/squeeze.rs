@@ -83,11 +83,13 @@ fn small_plans_are_those_of_the_reference_to_the_last_fraction() {
         let way = construction(TERMS, n).expect("there is a way");
         let ends = std::iter::once(&plan["start"])
             .chain(plan["stages"].as_array().expect("a list").iter().map(|stage| &stage["end"]));
-        for (found, expected) in way.configurations.iter().zip(ends) {
+        let stages = stages_of(way.clone(), PAPER);
+        for (k, expected) in ends.enumerate() {
+            let found = stages.before(k).expect("small numbers");
             let mut boxes: Vec<[Ratio; 4]> = (0..n as usize)
                 .map(|i| ["x", "y", "w", "h"].map(|key| fraction(&expected[key][i])))
                 .collect();
-            let mut here: Vec<[Ratio; 4]> = cells(found, n);
+            let mut here: Vec<[Ratio; 4]> = cells(&found, n);
             let key = |b: &[Ratio; 4]| b.map(|r| (r.to_f64() * 1e9) as i64);
             boxes.sort_by_key(key);
             here.sort_by_key(key);
@@ -262,7 +264,13 @@ struct Found {
 
 fn squeeze(cell: &Cell, task: &Task) -> Result<Found, Refusal> {
     let Task { method, demand: model, profile, max_force, euclidean, .. } = *task;
-    let problem = Problem { cell: cell.clone(), start: task.from.to_vec(), goal: task.to.to_vec() };
+    let problem = Problem {
+        cell: cell.clone(),
+        start: task.from.to_vec(),
+        goal: task.to.to_vec(),
+        fixed: vec![],
+        obstacles: vec![],
+    };
     let norm = if euclidean { Norm::Euclidean } else { Norm::EachAxis };
     let settings = Settings { method, model, profile, max_force, norm };
     let solution = modl::planners::squeeze::plan(&problem, &settings, &mut NoProgress)?;

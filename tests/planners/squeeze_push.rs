@@ -17,7 +17,7 @@ struct Found {
 }
 
 fn found(cell: Cell, from: &[Place], to: &[Place], settings: &Settings) -> Found {
-    let problem = Problem { cell, start: from.to_vec(), goal: to.to_vec() };
+    let problem = Problem { cell, start: from.to_vec(), goal: to.to_vec(), fixed: vec![], obstacles: vec![] };
     let solution = plan(&problem, settings, &mut NoProgress).expect("there is a way");
     let Body::Stages(stages) = solution.body else { panic!("it is a lattice") };
     Found { method: solution.report.method, stages, lower_bound: solution.report.lower_bound }
@@ -142,7 +142,7 @@ fn cells_that_keep_their_size_are_pushed_too() {
     let corner = moved(square.clone(), [0, 0, 0], [5, 3, 0]);
     let found = found(cell, &square, &corner, &Settings::default());
     sampled(&found.stages, &square, &corner);
-    let whole = found.stages.stages.iter().flat_map(|stage| &stage.end).flat_map(|run| run.size);
-    assert!(whole.into_iter().all(|side| side.to_f64() == 1.0));
+    let instants = found.stages.instants();
+    assert!(instants.iter().all(|&t| found.stages.state(t).iter().all(|cell| cell.size == [1.0; 3])));
     assert_eq!(found.method, Method::Push);
 }

@@ -84,10 +84,10 @@ fn what_can_not_be_unwound_is_refused_with_the_reason() {
                        E 1 B -Z S -Z A 2\nE 2 B -Z S -Z A 3\nE 3 B -Z S -Z A 4\n";
     for (call, wanted, words) in [
         ("tosnake(Star, budget: 500)", code::NO_WAY, "0 of 4 connections were made"),
-        ("tosnake(Smores())", code::NOT_COVERED, "no RoFI module"),
+        ("tosnake(Smores(), gravity: on)", code::NOT_COVERED, "no RoFI module"),
         ("tosnake(load(\"x.rofi\"))", code::NO_WAY, "in each other"),
         ("reconfigure(Snake(n: 3), Snake(n: 4))", code::NO_WAY, "3 modules can't become one of 4"),
-        ("tosnake(Mixed)", code::NOT_COVERED, "another pitch"),
+        ("tosnake(Mixed, gravity: on)", code::NOT_COVERED, "another pitch"),
         ("tosnake(Star, gravity: 200m/s^2)", code::NO_WAY, "too heavy: "),
     ] {
         let text = format!(

@@ -7,7 +7,8 @@ use crate::support::robots::{LEFT, TILT, chain, reel, walk4};
 use modl::plan::file::{FileError, read, schema, write};
 use modl::plan::{
     Action, Body, CauseId, Change, Check, CheckKind, Command, Compare, Condition, Exemption, ExemptionKind,
-    Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, Status, Track, Verdict, World, WorldFrom, Worst,
+    Ground, Node, ObjectiveValue, Otherwise, Plan, Segment, StageEnd, Status, Track, Verdict, World,
+    WorldFrom, Worst,
 };
 use modl::robot::{Cell, JointId, Library, PortRef};
 use proptest::prelude::*;
@@ -165,13 +166,13 @@ fn faults_of_the_text_have_a_line_and_a_column() {
 
 #[test]
 fn a_later_version_is_read_unless_it_uses_what_was_added() {
-    let text = written(&rich()).replacen("\"version\": 2", "\"version\": 3", 1);
+    let text = written(&rich()).replacen("\"version\": 2", "\"version\": 4", 1);
     assert_eq!(read(&text).expect("versions only add fields"), rich());
     let added = refused(&text.replacen("\"nominal\"", "\"added\": 1, \"nominal\"", 1));
     assert!(added.message.contains("unknown field `added`"), "{added}");
-    assert!(added.message.contains("version is 3") && added.message.contains("newer modl"), "{added}");
+    assert!(added.message.contains("version is 4") && added.message.contains("newer modl"), "{added}");
     assert!(added.line > 1);
-    let unsaid = refused(&text.replacen("\"version\": 3,", "", 1));
+    let unsaid = refused(&text.replacen("\"version\": 4,", "", 1));
     assert!(unsaid.message.contains("does not say its `version`"), "{unsaid}");
 }
 
@@ -326,7 +327,8 @@ fn what_points_nowhere_is_refused() {
     assert!(forward.message.contains("no node"), "{forward}");
     let mut odd = lattice();
     let Body::Stages(stages) = &mut odd.body else { panic!("it is a lattice") };
-    stages.stages[0].end[0].first = 3;
+    let StageEnd::Runs(runs) = &mut stages.stages[0].end else { panic!("it states positions") };
+    runs[0].first = 3;
     assert!(refused(&written(&odd)).message.contains("cells 3 to 6"));
 }
 

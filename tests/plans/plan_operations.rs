@@ -320,8 +320,13 @@ pub fn squeezing() -> Stages {
         center: [center, Ratio::ZERO, Ratio::ZERO],
         size: [size, Ratio::ONE, Ratio::ONE],
     };
-    let stage =
-        |end, law| Stage { name: "x-squeeze".into(), time_squared: Ratio(3, 1), law, end, cause: CauseId(0) };
+    let stage = |end: Vec<Run>, law| Stage {
+        name: "x-squeeze".into(),
+        time_squared: Ratio(3, 1),
+        law,
+        end: end.into(),
+        cause: CauseId(0),
+    };
     let up = Run { counters: vec![], ..cells(Ratio(-3, 4), Ratio::ZERO, Ratio(1, 2)) };
     let up = Run { center: [Ratio(-3, 4), Ratio(1, 1), Ratio::ZERO], ..up };
     Stages {
@@ -330,6 +335,7 @@ pub fn squeezing() -> Stages {
         time_unit: 2.0,
         limits: CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE },
         model: Model::default(),
+        anchor: None,
         start: vec![cells(Ratio(-3, 2), Ratio::ONE, Ratio::ONE)],
         stages: vec![
             stage(vec![cells(Ratio(-3, 4), Ratio(1, 2), Ratio(1, 2))], Law::BangBang),

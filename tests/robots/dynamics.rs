@@ -10,9 +10,10 @@ use crate::support::robots;
 use modl::geometry::{Pose, Vec3};
 use modl::plan::Plan;
 use modl::robot::articulated_bodies::{ForcedState, ForwardDynamics};
-use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, Twist, Wrench};
+use modl::robot::dynamics::{Dynamics, InverseDynamics, MotionState, RigidBody, Twist, Wrench};
+use modl::robot::spatial::SpatialInertia;
 use modl::robot::{Assembly, Kinematics};
-use nalgebra::{DVector, Translation3, UnitQuaternion};
+use nalgebra::{DVector, Matrix3, Point3, Translation3, UnitQuaternion};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -281,6 +282,60 @@ fn the_efforts_of_a_motion_give_back_the_motion() {
             assert!(error < 1e-8, "{} held {held}: {error:e}", robot.name);
         }
     }
+}
+
+/// Returns a random symmetric inertia that a body can have, kg·m²; with the axes of the frame if `aligned` is true.
+fn random_inertia(numbers: &mut Numbers, aligned: bool) -> Matrix3<f64> {
+    let size = random_vec(numbers, 1.0).map(f64::abs);
+    let moments = Vec3::new(size.y + size.z, size.x + size.z, size.x + size.y);
+    let turn = if aligned { Vec3::zeros() } else { random_vec(numbers, 4.0) };
+    let R = UnitQuaternion::from_scaled_axis(turn).to_rotation_matrix();
+    R.matrix() * Matrix3::from_diagonal(&moments) * R.matrix().transpose()
+}
+
+#[test]
+fn inertias_of_bodies_parts_and_points_are_those_of_their_matrices() {
+    let mut numbers = Numbers(5);
+    let close = |a: &SpatialInertia, b: &SpatialInertia| {
+        let off = (a.matrix() - b.matrix()).abs().max();
+        assert!(off < 1e-13 * (1.0 + b.matrix().abs().max()), "{off}");
+    };
+    for round in 0..40 {
+        let aligned = round % 2 == 0;
+        let mut body = || RigidBody {
+            mass: 0.1 + numbers.next(),
+            com: random_vec(&mut numbers, 1.0),
+            inertia: random_inertia(&mut numbers, aligned),
+        };
+        let (first, second) = (body(), body());
+        let mut pose = || {
+            let turn = UnitQuaternion::from_scaled_axis(random_vec(&mut numbers, 4.0));
+            Pose::from_parts(Translation3::from(random_vec(&mut numbers, 2.0)), turn)
+        };
+        let (X_WA, X_AB) = (pose(), pose());
+        let origin = random_vec(&mut numbers, 1.0);
+        let of = |body: &RigidBody, pose: &Pose| SpatialInertia::from(body.composite(pose, &origin));
+        let (R, com) =
+            (X_WA.rotation.to_rotation_matrix(), X_WA * Point3::from(first.com) - Point3::from(origin));
+        close(&SpatialInertia::of_rigid(&first, R.matrix(), &com).0, &of(&first, &X_WA));
+        let both = RigidBody::of_parts(&[(first, Pose::identity()), (second, X_AB)]);
+        close(&of(&both, &X_WA), &of(&first, &X_WA).plus(&of(&second, &(X_WA * X_AB))));
+        let (across, along) = (numbers.next(), numbers.next());
+        close(
+            &SpatialInertia::at_point_of_level(across, along, &origin),
+            &SpatialInertia::at_point(across, along, &Vec3::z(), &origin),
+        );
+    }
+    // Boxes that hang together at right angles keep the axes of their frames, although a quarter turn is rounded.
+    let box_of = |x: f64| RigidBody {
+        mass: 1.0,
+        com: Vec3::new(x, 0.0, 0.0),
+        inertia: Matrix3::from_diagonal(&(Vec3::new(1.0, 2.0, 2.5) * 1e-3)),
+    };
+    let quarter = UnitQuaternion::from_scaled_axis(Vec3::x() * std::f64::consts::FRAC_PI_2);
+    let pose = Pose::from_parts(Translation3::new(0.1, 0.0, 0.0), quarter);
+    let both = RigidBody::of_parts(&[(box_of(0.02), Pose::identity()), (box_of(-0.03), pose)]);
+    assert_eq!(both.inertia, Matrix3::from_diagonal(&both.inertia.diagonal()));
 }
 
 #[test]

@@ -75,6 +75,46 @@ fn a_bond_breaks_when_its_load_is_accelerated() {
     assert!(time > 0.03 && time < 0.2113 * 0.5, "{time}");
 }
 
+#[test]
+fn modules_that_hang_together_move_as_one_body() {
+    // A bond whose strength is stated is a joint that does not move; without one, both modules are one body. They turn about
+    // skew axes, with products of inertia.
+    let swung = |holds: &str| {
+        let program = format!(
+            "connector Face {{ mates Face, turns 4{holds} }}
+module Post {{ link foot = box(60mm, 60mm, 60mm, mass: 2kg)
+  link arm = box(200mm, 20mm, 20mm, mass: 500g) at [100mm, 0mm, 0mm]
+  touching foot arm
+  joint turn : foot -> arm = revolute(axis: [1, 2, 2], passive: true)
+  port end : Face on arm at [100mm, 0mm, 0mm] facing +X up +Z }}
+module Club {{ link head = box(40mm, 90mm, 20mm, mass: 700g)
+  link side = box(30mm, 30mm, 80mm, mass: 300g) at [0mm, 40mm, 50mm]
+  link tip = box(20mm, 20mm, 60mm, mass: 200g) at [0mm, 0mm, 80mm]
+  touching head tip
+  touching side tip
+  joint glue : head -> side = fixed()
+  joint swing : head -> tip = revolute(axis: [2, 1, 0], passive: true)
+  port grip : Face on head at [-20mm, 0mm, 0mm] facing -X up +Z }}
+config Swings {{ part p: Post part c: Club connect p.end -- c.grip
+  base p
+  behavior rest = wait(1s) }}
+let b = Swings().rest()
+"
+        );
+        play(&plan(&program, HELD), &Settings { link_contacts: false, ..Settings::default() })
+    };
+    let (one, two) = (swung(""), swung(", holds 1000000N"));
+    assert!(one.bond_load.is_none() && two.bond_load.is_some());
+    for (a, b) in one.motion.iter().zip(&two.motion) {
+        for (x, y) in a.joints.iter().zip(&b.joints) {
+            close(*x, *y, 1e-9);
+        }
+    }
+    let turned =
+        one.motion.last().expect("it moves").joints.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
+    assert!(turned > 0.5, "{turned}");
+}
+
 /// A module that is held, with a port to which the end of an arm docks that is 300 mm long and weighs 500 g.
 const CRANE: &str = "connector Hook { mates Hook, turns 4, capture 5mm 5deg }
 module Crane {

@@ -384,6 +384,41 @@ fn the_work_of_a_motor_is_the_energy_that_it_gives() {
     assert!((1.7..2.3).contains(&(coarse / fine)), "{coarse} J, {fine} J");
 }
 
+#[test]
+fn a_servo_too_stiff_for_its_motor_does_not_chatter() {
+    // In a step of 0.5 ms the motor's 4 N·m change the rate by 0.04 rad/s, against which the servo would need 1600 N·m. They do
+    // not suffice for the way up; then the servo holds the arm as its spring does.
+    let program = format!(
+        "{}let b = Sc(x.lifts(60deg, 300ms), x.rest(2s))\n",
+        arm(", stiffness: 1000000N*m/rad, armature: 0.000000001kg*m^2, max_torque: 4N*m")
+    );
+    let simulation = play(&plan(&program, HELD), &Settings::default());
+    assert!(simulation.lag.expect("it is driven").value > 0.01, "{:?}", simulation.lag);
+    let saturated = simulation.saturated.expect("its motor has a limit").value;
+    assert!((0.05..0.5).contains(&saturated), "{saturated} s");
+    let last = simulation.motion.last().expect("it moves");
+    let weight = GRAVITY * 0.2 * libm::cos(60_f64.to_radians());
+    close(last.joints[0], 60_f64.to_radians() - weight / 1e6, 1e-7);
+    close(last.efforts[0], weight, 1e-3);
+}
+
+#[test]
+fn a_joint_leaves_its_stop_without_delay() {
+    // It lies on its stop under the weight until the motor lifts it: the servo yields as it does without the stop.
+    let lifted = |range: &str| {
+        let program =
+            format!("{}let b = x.lifts(30deg, 1s)\n", arm(&format!("{range}, stiffness: 500N*m/rad")));
+        play(&plan(&program, HELD), &Settings::default())
+    };
+    let (free, stopped) = (lifted(""), lifted(", range: -0.01deg..60deg"));
+    let angle = |simulation: &Simulation, time: f64| at(simulation, time).joints[0];
+    // The weight bends the servo by 0.22 degrees, of which the stop leaves 0.01 and its own yielding.
+    assert!(angle(&free, 0.0) < -3.5e-3 && angle(&stopped, 0.0) > -1.5e-3);
+    for time in [0.5, 0.8, 1.2] {
+        close(angle(&stopped, time), angle(&free, time), 1e-5);
+    }
+}
+
 /// Returns the greatest difference of the energy of an arm with a servo of 500 N·m/rad to what its motor has given, J,
 /// for a time step, s; fails if the simulation states another work.
 fn most_energy_missed(plan: &Plan, h: f64) -> f64 {

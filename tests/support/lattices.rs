@@ -3,8 +3,8 @@
 
 use modl::plan::verify::verify;
 use modl::plan::{
-    Body, Cause, CauseId, CellLimits, Law, Model, Plan, Provenance, Ratio, Run, Settings, Stage, Stages,
-    Verdict, World, WorldFrom,
+    Body, Cause, CauseId, CellLimits, Law, Model, Plan, Provenance, Ratio, Run, Settings, Stage, StageEnd,
+    Stages, Verdict, World, WorldFrom,
 };
 use modl::planners::squeeze::{Motion, PlanHeader, PlanLimits, Profile};
 use modl::robot::{Cell, Library};
@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 /// Limits of 1 in units of 1.
 pub const UNIT: CellLimits = CellLimits { smallest: Ratio(1, 2), speed_squared: Ratio::ONE };
-pub const TERMS: PlanLimits = PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false };
+pub const TERMS: PlanLimits =
+    PlanLimits { cell: UNIT, profile: Profile::BangBang, euclidean: false, anchored: false };
 pub const BALANCED: Model = Model { balanced: true, contact_force: None, euclidean: false };
 pub const PAPER: Model = Model { balanced: false, contact_force: None, euclidean: false };
 
@@ -40,7 +41,7 @@ pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: M
         name: "by hand".into(),
         time_squared: *time_squared,
         law: *law,
-        end: runs(end),
+        end: runs(end).into(),
         cause: CauseId(0),
     };
     Stages {
@@ -49,8 +50,17 @@ pub fn stages_by_hand(start: &[Flat], ends: &[(Law, Ratio, Vec<Flat>)], model: M
         time_unit: 1.0,
         limits: UNIT,
         model,
+        anchor: None,
         start: runs(start),
         stages: ends.iter().map(stage).collect(),
+    }
+}
+
+/// Returns the runs that a stage states.
+pub fn runs_of(stage: &mut Stage) -> &mut Vec<Run> {
+    match &mut stage.end {
+        StageEnd::Runs(runs) => runs,
+        StageEnd::Moves(_) => panic!("the stage states moves"),
     }
 }
 

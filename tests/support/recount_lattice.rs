@@ -1,6 +1,6 @@
 //! A second look at plans of lattices: cells in floating point, at samples of each stage.
 
-use modl::plan::{Body, CellBox, Law, Plan, Ratio};
+use modl::plan::{Body, CellBox, Law, Plan, Ratio, StageEnd};
 
 /// The deviation that rounding explains, in cell sizes.
 const SLACK: f64 = 1e-9;
@@ -21,7 +21,7 @@ pub fn recount(plan: &Plan, found: &mut Vec<String>) {
     place(&mut before, &stages.start);
     for stage in &stages.stages {
         let mut after = before.clone();
-        place(&mut after, &stage.end);
+        advance(&mut after, &stage.end);
         let seconds = number(stage.time_squared).sqrt();
         let pairs: Vec<(CellBox, CellBox)> =
             before.iter().zip(&after).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
@@ -46,12 +46,28 @@ pub fn recount(plan: &Plan, found: &mut Vec<String>) {
         }
         let drift =
             |axis: usize| pairs.iter().map(|(a, b)| b.center[axis] - a.center[axis]).sum::<f64>().abs();
-        if (0..3).any(|axis| drift(axis) > 1e-6) {
-            found.push(format!("{} moves the centre of mass", stage.name));
+        match &stages.anchor {
+            None if (0..3).any(|axis| drift(axis) > 1e-6) => {
+                found.push(format!("{} moves the centre of mass", stage.name));
+            }
+            Some(anchor)
+                if anchor.cells.iter().any(|&cell| pairs[cell as usize].0 != pairs[cell as usize].1) =>
+            {
+                found.push(format!("{} moves what is fixed", stage.name));
+            }
+            _ => {}
         }
+        let mut obstacles = vec![None; stages.obstacles().len()];
+        place(&mut obstacles, stages.anchor.as_ref().map_or(&[][..], |anchor| &anchor.obstacles[..]));
         for k in 0..=6 {
             let u = f64::from(k) / 6.0;
             let now: Vec<CellBox> = pairs.iter().map(|(a, b)| between(a, b, u)).collect();
+            if now
+                .iter()
+                .any(|cell| obstacles.iter().flatten().any(|o| (0..3).all(|k| overlap(cell, o, k) > 1e-7)))
+            {
+                found.push(format!("{} runs into an obstacle", stage.name));
+            }
             crowd(&stage.name, &now, smallest, k == 0 || k == 6, found);
         }
         before = after;
@@ -73,9 +89,6 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
     if cells.iter().flat_map(|c| c.size).any(|s| !(smallest - SLACK..=1.0 + SLACK).contains(&s)) {
         found.push(format!("{stage}: a cell is too small or too large"));
     }
-    let overlap = |a: &CellBox, b: &CellBox, axis: usize| {
-        (a.size[axis] + b.size[axis]) / 2.0 - (a.center[axis] - b.center[axis]).abs()
-    };
     let mut reached = vec![false; cells.len()];
     let mut open = vec![0];
     if !cells.is_empty() {
@@ -103,9 +116,33 @@ fn crowd(stage: &str, cells: &[CellBox], smallest: f64, at_end: bool, found: &mu
     }
 }
 
+/// Returns the length by which two cells overlap along an axis; negative for a gap.
+fn overlap(a: &CellBox, b: &CellBox, axis: usize) -> f64 {
+    (a.size[axis] + b.size[axis]) / 2.0 - (a.center[axis] - b.center[axis]).abs()
+}
+
 fn between(a: &CellBox, b: &CellBox, u: f64) -> CellBox {
     let mix = |x: [f64; 3], y: [f64; 3]| [0, 1, 2].map(|axis| x[axis] + (y[axis] - x[axis]) * u);
     CellBox { center: mix(a.center, b.center), size: mix(a.size, b.size) }
+}
+
+fn advance(cells: &mut [Option<CellBox>], end: &StageEnd) {
+    let moves = match end {
+        StageEnd::Runs(runs) => return place(cells, runs),
+        StageEnd::Moves(moves) => moves,
+    };
+    let mut first = 0;
+    for span in moves.cells.iter() {
+        let (class, next) = (&moves.classes[span.class as usize], first + span.count as usize);
+        for cell in cells[first..next].iter_mut().flatten() {
+            for axis in 0..3 {
+                let number = |Ratio(a, b): Ratio| a as f64 / b as f64;
+                cell.center[axis] += number(class.displacement[axis]);
+                cell.size[axis] += number(class.growth[axis]);
+            }
+        }
+        first = next;
+    }
 }
 
 fn place(cells: &mut [Option<CellBox>], runs: &[modl::plan::Run]) {

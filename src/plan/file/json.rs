@@ -31,8 +31,9 @@ use std::sync::Arc;
 
 /// The text of the first field of every plan file.
 pub(super) const FORMAT: &str = "modl plan";
-/// The version of the schema that is written.
-pub(super) const VERSION: u32 = 2;
+/// The version of the schema: 3 added moves and anchors of lattices. A plan without any is written as one of
+/// [`VERSION_MIN`], which every tool reads.
+pub(super) const VERSION: u32 = 3;
 /// The oldest version of the schema that is read.
 pub(super) const VERSION_MIN: u32 = 2;
 
@@ -44,7 +45,7 @@ pub(super) const VERSION_MIN: u32 = 2;
 pub(super) struct PlanJson<'a> {
     /// The format, always `modl plan`.
     format: Cow<'a, str>,
-    /// 2. Later versions only add fields.
+    /// 2, or 3 if a lattice has an `anchor` or states `moves`. Later versions only add fields.
     version: u32,
     provenance: Cow<'a, Provenance>,
     /// The worlds, in order of time.
@@ -163,7 +164,7 @@ impl<'a> PlanJson<'a> {
         };
         PlanJson {
             format: Cow::Borrowed(FORMAT),
-            version: VERSION,
+            version: if plan.body.needs_version_3() { VERSION } else { VERSION_MIN },
             provenance: Cow::Borrowed(&plan.provenance),
             worlds: plan.worlds.iter().map(world).collect(),
             settings: plan.settings,
@@ -224,7 +225,7 @@ impl<'a> PlanJson<'a> {
         };
         let exemption = |e: ExemptionJson| Exemption { kind: e.kind, from: e.from, to: e.to, cause: e.cause };
         let program = self.program.map(ProgramJson::into_program).transpose()?;
-        let body = self.body.into_body(&self.library);
+        let body = self.body.into_body(&self.library)?;
         Ok(Plan {
             provenance: self.provenance.into_owned(),
             worlds: self.worlds.into_iter().map(world).collect(),

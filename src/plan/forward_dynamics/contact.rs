@@ -8,6 +8,7 @@
 use super::model::Surface;
 use super::parameters::PARAMETERS;
 use crate::geometry::Vec3;
+use crate::geometry::pose::length;
 
 /// The spring across a contact, from one step to the next.
 #[derive(Clone, Copy, Debug, Default)]
@@ -91,7 +92,7 @@ impl Contact {
         let before = (self.pushes, self.share);
         self.pushes = pressing > 0.0;
         let pressing = pressing.max(0.0);
-        let ([slides, sticks], size) = (self.friction.map(|friction| friction * pressing), tried.norm());
+        let ([slides, sticks], size) = (self.friction.map(|friction| friction * pressing), length(&tried));
         self.share = if size <= sticks { 1.0 } else { slides / size };
         self.changed = before != (self.pushes, self.share);
         (self.normal * pressing + tried * self.share - self.force).norm_squared()
@@ -100,7 +101,7 @@ impl Contact {
     /// Returns the speed at which it slides, m/s, for the velocity (m/s) at the end of the step; 0 while it sticks or does not
     /// push.
     pub(crate) fn slip(&self, velocity: &Vec3) -> f64 {
-        if self.pushes && self.share < 1.0 { across(&self.normal, velocity).norm() } else { 0.0 }
+        if self.pushes && self.share < 1.0 { length(&across(&self.normal, velocity)) } else { 0.0 }
     }
 
     /// Returns the spring as the step after that of number `now` finds it, for the velocity (m/s) at the end of this one;

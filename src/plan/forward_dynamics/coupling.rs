@@ -9,7 +9,7 @@ use super::link_contact::LinkContacts;
 use super::model::Model;
 use super::parameters::PARAMETERS;
 use crate::geometry::pose::turned;
-use crate::geometry::{Pose, Vec3};
+use crate::geometry::{Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Load, Response};
 use crate::robot::spatial::SpatialVector;
 use crate::robot::{Assembly, mate};
@@ -83,6 +83,8 @@ pub(crate) struct Instant<'a> {
     pub step: f64,
     /// The world poses of the bodies.
     pub poses: &'a [Pose],
+    /// Their rotations as matrices.
+    pub turns: &'a [Mat3],
     /// The point that spatial vectors are about, m.
     pub origin: Vec3,
     /// The coordinates of the joints of the bodies.
@@ -219,8 +221,7 @@ impl Couplings {
             row.loads(model, 1.0, &mut self.loads);
             bodies.respond(&self.loads, &mut self.response);
             for (other, reacting) in self.rows.iter().enumerate() {
-                matrix[(other, index)] =
-                    step * reacting.rate(model, &self.response.bodies, &self.response.joints);
+                matrix[(other, index)] = step * reacting.rate(model, bodies, &self.response);
             }
             matrix[(index, index)] += 1.0 / row.resistance;
             right[index] = row.offset / row.resistance - row.free(model, bodies, step, rates);
@@ -366,14 +367,18 @@ impl Row {
         }
     }
 
-    /// Returns the rate of this row for the rates of bodies (spatial vectors) and of their joints.
-    fn rate(&self, model: &Model, bodies: &[SpatialVector], joints: &[f64]) -> f64 {
+    /// Returns the change of this row's acceleration that a response makes.
+    fn rate(&self, model: &Model, bodies: &ArticulatedBodies, response: &Response) -> f64 {
         match self.kind {
-            RowKind::Wrench { first, second, unit } => unit.dot(&bodies[second].plus(&bodies[first], -1.0)),
+            RowKind::Wrench { first, second, unit } => {
+                let change = |body| bodies.change(response, body);
+                unit.dot(&change(second).plus(change(first), -1.0))
+            }
             RowKind::Follower(index) => {
                 let follower = &model.followers[index];
-                let sum: f64 = follower.terms.iter().map(|(body, factor)| factor * joints[*body]).sum();
-                joints[follower.body] - sum
+                let change = |body: usize| bodies.joint_change(response, body);
+                let sum: f64 = follower.terms.iter().map(|(body, factor)| factor * change(*body)).sum();
+                change(follower.body) - sum
             }
         }
     }

@@ -4,9 +4,9 @@
 //! that it comes between them, is not felt.
 
 use super::contact::{Contact, Spring};
-use super::model::{Model, Surface};
+use super::model::Model;
 use crate::geometry::ground_features::{CIRCLE_POINTS, CirclePlane, Feature, tread};
-use crate::geometry::{HeightField, Pose, Vec3};
+use crate::geometry::{HeightField, Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::ArticulatedBodies;
 use crate::robot::spatial::{SpatialInertia, SpatialVector};
 use std::sync::Arc;
@@ -14,8 +14,9 @@ use std::sync::Arc;
 /// A point of a link that touches the ground.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroundContact {
-    /// The index of the body.
+    /// The index of the body, and that of the body that it is a part of.
     pub body: usize,
+    whole: usize,
     /// The index of the contact's spring.
     spring: usize,
     /// The position from the point that spatial vectors are about, m.
@@ -32,13 +33,13 @@ pub(crate) struct GroundContact {
 /// The greatest number of points of a feature: those of a circle, and one between two rims.
 const FEATURE_POINTS: usize = CIRCLE_POINTS as usize + 1;
 
-/// A point of a body below the ground: its number among those of the body, its position in the world (m), the centre of its
-/// feature there (m), and the ground's normal there and the depth along it, m.
+/// A point of a body below the ground: its number among those of the body, its position in the world (m), what the step adds to
+/// its velocity as the centre of its feature turns with the body (m/s), and the ground's normal there and the depth along it, m.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     point: usize,
     at: Vec3,
-    centre: Vec3,
+    turning: Vec3,
     normal: Vec3,
     depth: f64,
 }
@@ -48,13 +49,15 @@ struct Touch {
 pub(crate) struct GroundContacts {
     /// The springs of all points of all ground features, in the order of the bodies.
     springs: Vec<Spring>,
+    /// The bodies that have features, each with the index of its first spring; parts of one body follow each other.
+    order: Vec<(usize, usize)>,
     /// The points that touch now.
     pub contacts: Vec<GroundContact>,
-    /// The number of the last step in which each body touched the ground; 0: none.
-    touched: Vec<u64>,
     /// The memory in which the points of one feature, and of one body, are found.
     points: Vec<(u8, Vec3)>,
     touches: Vec<Touch>,
+    /// The number of the last step in which each body touched the ground; 0: none.
+    touched: Vec<u64>,
     /// The height field with its greatest height, m; `None`: the ground is level.
     terrain: Option<(Arc<HeightField>, f64)>,
     /// The way that each body has slid over the ground since the start, m: of its points that slide, the fastest counts.
@@ -66,10 +69,16 @@ pub(crate) struct GroundContacts {
 impl GroundContacts {
     /// Returns the ground under a robot that touches it nowhere, level if there is no height field; `step`: the time step, s.
     pub(crate) fn new(model: &Model, terrain: Option<&Arc<HeightField>>, step: f64) -> GroundContacts {
-        let points = |features: &Vec<_>| features.len() * FEATURE_POINTS;
-        let springs = model.bodies.iter().map(|body| points(&body.features)).sum();
+        let mut springs = 0;
+        let mut order = Vec::new();
+        for (index, body) in model.bodies.iter().enumerate().filter(|(_, body)| !body.features.is_empty()) {
+            order.push((index, springs));
+            springs += body.features.len() * FEATURE_POINTS;
+        }
+        order.sort_by_key(|(index, _)| model.bodies[*index].whole);
         GroundContacts {
             springs: vec![Spring::default(); springs],
+            order,
             contacts: Vec::new(),
             points: Vec::new(),
             touches: Vec::new(),
@@ -80,76 +89,58 @@ impl GroundContacts {
         }
     }
 
-    /// Finds the points below the ground. `bodies`: the bodies with their velocities; `poses`: their world poses;
-    /// `origin`: the point that spatial vectors are about; `now`: the number of the step, from 1.
+    /// Finds the points below the ground. `bodies`: the bodies with their velocities; `poses`: their world poses, with the
+    /// rotations as matrices; `origin`: the point that spatial vectors are about; `now`: the number of the step, from 1.
     #[inline(always)]
     pub(crate) fn find(
         &mut self,
         model: &Model,
         bodies: &ArticulatedBodies,
-        poses: &[Pose],
+        (poses, turns): (&[Pose], &[Mat3]),
         origin: &Vec3,
         now: u64,
     ) {
-        self.contacts.clear();
-        let terrain = self.terrain.take();
-        let (mut points, mut touches) = (std::mem::take(&mut self.points), std::mem::take(&mut self.touches));
-        let mut first = 0;
-        for (index, body) in model.bodies.iter().enumerate() {
-            let own = first;
-            first += body.features.len() * FEATURE_POINTS;
-            let pose = &poses[index];
-            let highest = terrain.as_ref().map_or(0.0, |(_, highest)| *highest);
-            let own_up = pose.rotation.inverse_transform_vector(&Vec3::z());
-            let height = pose.translation.vector.z;
-            if body.features.is_empty() || height + body.bounds.lowest(&own_up) >= highest {
+        let GroundContacts { springs, order, contacts, touched, points, touches, terrain, step, .. } = self;
+        contacts.clear();
+        let highest = terrain.as_ref().map_or(0.0, |(_, highest)| *highest);
+        for &(index, first) in &*order {
+            let body = &model.bodies[index];
+            let (p, turn) = (&poses[index].translation.vector, &turns[index]);
+            let own_up = Vec3::new(turn[(2, 0)], turn[(2, 1)], turn[(2, 2)]);
+            if p.z + body.bounds.lowest(&own_up) >= highest {
                 continue;
             }
+            let twist = bodies.velocity(index);
+            // The touching point of a round feature goes with its centre, not with the material.
+            let turning = |centre: &Vec3| twist.angular.cross(&twist.at(&(centre - origin))) * *step;
             touches.clear();
             match &terrain {
-                None => level(&body.features, pose, &own_up, &mut points, &mut touches),
-                Some((field, _)) => uneven(&body.features, pose, field, &mut touches),
+                None => level(&body.features, (p, turn), &own_up, turning, points, touches),
+                Some((field, _)) => uneven(&body.features, (p, turn), field, turning, touches),
             }
-            for touch in &touches {
-                let spring = own + touch.point;
-                self.contacts.push(self.contact((index, spring), touch, bodies, &body.surface, origin, now));
+            let is_new = touched[index] == 0 || touched[index] + 1 < now;
+            for touch in touches.iter() {
+                let (spring, point) = (first + touch.point, touch.at - origin);
+                contacts.push(GroundContact {
+                    body: index,
+                    whole: body.whole,
+                    spring,
+                    point,
+                    coasting: twist.at(&point) + touch.turning,
+                    velocity: Vec3::zeros(),
+                    is_new,
+                    contact: Contact::new(
+                        touch.normal,
+                        touch.depth,
+                        &body.surface,
+                        (&springs[spring], now),
+                        *step,
+                    ),
+                });
             }
-            if self.contacts.last().is_some_and(|contact| contact.body == index) {
-                self.touched[index] = now;
+            if !touches.is_empty() {
+                touched[index] = now;
             }
-        }
-        (self.terrain, self.points, self.touches) = (terrain, points, touches);
-    }
-
-    /// Returns the contact of a point of a body with a spring, both by their indices.
-    #[inline(always)]
-    fn contact(
-        &self,
-        (body, spring): (usize, usize),
-        touch: &Touch,
-        bodies: &ArticulatedBodies,
-        surface: &Surface,
-        origin: &Vec3,
-        now: u64,
-    ) -> GroundContact {
-        let twist = bodies.velocity(body);
-        // The touching point of a round feature goes with its centre, not with the material.
-        let turning = twist.angular.cross(&twist.at(&(touch.centre - origin))) * self.step;
-        let point = touch.at - origin;
-        GroundContact {
-            body,
-            spring,
-            point,
-            coasting: twist.at(&point) + turning,
-            velocity: Vec3::zeros(),
-            is_new: self.touched[body] == 0 || self.touched[body] + 1 < now,
-            contact: Contact::new(
-                touch.normal,
-                touch.depth,
-                surface,
-                (&self.springs[spring], now),
-                self.step,
-            ),
         }
     }
 
@@ -173,16 +164,28 @@ impl GroundContacts {
         again: bool,
         restore: impl Fn(&mut ArticulatedBodies, usize),
     ) {
-        for of_body in self.contacts.chunk_by(|a, b| a.body == b.body) {
+        for of_body in self.contacts.chunk_by(|a, b| a.whole == b.whole) {
             if again {
                 if !of_body.iter().any(|contact| contact.contact.changed) {
                     continue;
                 }
-                restore(bodies, of_body[0].body);
+                restore(bodies, of_body[0].whole);
             }
-            for contact in of_body {
-                contact.add_to(bodies, self.step);
+            let (mut inertia, mut wrench) = (SpatialInertia::default(), SpatialVector::default());
+            for contact in of_body.iter().filter(|contact| contact.contact.pushes) {
+                let (of_contact, force) = match self.terrain {
+                    None => contact.impedance(SpatialInertia::at_point_of_level, self.step),
+                    Some(_) => contact.impedance(
+                        |across, along, point| {
+                            SpatialInertia::at_point(across, along, &contact.contact.normal, point)
+                        },
+                        self.step,
+                    ),
+                };
+                inertia.add(&of_contact);
+                wrench = wrench.plus(&force, 1.0);
             }
+            bodies.add(of_body[0].whole, &inertia, &wrench);
         }
     }
 
@@ -215,14 +218,20 @@ impl GroundContacts {
 }
 
 /// Adds the points of a body's features below level ground to `out`. `up`: the vertical in the frame of the link; `points`:
-/// memory.
+/// memory; `turning`: see [`Touch`], for the centre of a feature in the world.
 #[inline(always)]
-fn level(features: &[Feature], pose: &Pose, up: &Vec3, points: &mut Vec<(u8, Vec3)>, out: &mut Vec<Touch>) {
-    let height = pose.translation.vector.z;
+fn level(
+    features: &[Feature],
+    (p, R): (&Vec3, &Mat3),
+    up: &Vec3,
+    turning: impl Fn(&Vec3) -> Vec3,
+    points: &mut Vec<(u8, Vec3)>,
+    out: &mut Vec<Touch>,
+) {
     let mut plane = None;
     for (number, feature) in features.iter().enumerate() {
         points.clear();
-        if feature.points_below(up, -height, &mut plane, points)
+        if feature.points_below(up, -p.z, &mut plane, points)
             && let Some(between) = between_rims(features, number, up, &mut plane)
         {
             points.push(between);
@@ -230,31 +239,37 @@ fn level(features: &[Feature], pose: &Pose, up: &Vec3, points: &mut Vec<(u8, Vec
         if points.is_empty() {
             continue;
         }
-        let centre = pose.transform_point(&feature.centre.into()).coords;
-        for (k, p) in points.iter() {
-            let at = pose.transform_point(&(*p).into()).coords;
+        let turning = turning(&(p + R * feature.centre));
+        for (k, own) in points.iter() {
+            let at = p + R * own;
             if at.z < 0.0 {
                 let point = number * FEATURE_POINTS + usize::from(*k);
-                out.push(Touch { point, at, centre, normal: Vec3::z(), depth: -at.z });
+                out.push(Touch { point, at, turning, normal: Vec3::z(), depth: -at.z });
             }
         }
     }
 }
 
 /// Adds the points of a body's features below uneven ground to `out`. Round features touch it where they are lowest along
-/// the ground's normal under their centre.
-fn uneven(features: &[Feature], pose: &Pose, field: &HeightField, out: &mut Vec<Touch>) {
+/// the ground's normal under their centre. `turning`: see [`Touch`], for the centre of a feature in the world.
+fn uneven(
+    features: &[Feature],
+    (p, R): (&Vec3, &Mat3),
+    field: &HeightField,
+    turning: impl Fn(&Vec3) -> Vec3,
+    out: &mut Vec<Touch>,
+) {
     for (number, feature) in features.iter().enumerate() {
-        let centre = pose.transform_point(&feature.centre.into()).coords;
-        let up = pose.rotation.inverse_transform_vector(&field.normal(centre.x, centre.y));
+        let centre = p + R * feature.centre;
+        let up = R.tr_mul(&field.normal(centre.x, centre.y));
         let points = (0..feature.points()).map(|k| (k, feature.point(k, &up)));
-        for (k, p) in points.chain(between_rims(features, number, &up, &mut None)) {
-            let at = pose.transform_point(&p.into()).coords;
+        for (k, own) in points.chain(between_rims(features, number, &up, &mut None)) {
+            let at = p + R * own;
             let above = field.above(at);
             if above < 0.0 {
                 let normal = field.normal(at.x, at.y);
                 let point = number * FEATURE_POINTS + usize::from(k);
-                out.push(Touch { point, at, centre, normal, depth: -above * normal.z });
+                out.push(Touch { point, at, turning: turning(&centre), normal, depth: -above * normal.z });
             }
         }
     }
@@ -273,21 +288,20 @@ fn between_rims(
 }
 
 impl GroundContact {
-    /// Adds the contact to its body.
+    /// Returns the inertia as which the contact counts, and its wrench on the body besides. `at_point`: the inertia that a
+    /// point makes which is as heavy as this across the normal, and by this heavier along it.
     #[inline(always)]
-    fn add_to(&self, bodies: &mut ArticulatedBodies, step: f64) {
-        let Contact { normal, depth, stiffness, resistance, shift, pushes, share, .. } = self.contact;
-        if !pushes {
-            return;
-        }
+    fn impedance(
+        &self,
+        at_point: impl Fn(f64, f64, &Vec3) -> SpatialInertia,
+        step: f64,
+    ) -> (SpatialInertia, SpatialVector) {
+        let Contact { normal, depth, stiffness, resistance, shift, share, .. } = self.contact;
         let across = share * resistance;
         let along = resistance - across;
         let offset = normal * (stiffness * depth) - shift * (share * stiffness);
         let resisted = self.coasting * across + normal * (along * normal.dot(&self.coasting));
-        bodies.add(
-            self.body,
-            &SpatialInertia::at_point(across * step, along * step, &normal, &self.point),
-            &SpatialVector::of_force(offset - resisted, &self.point),
-        );
+        let inertia = at_point(across * step, along * step, &self.point);
+        (inertia, SpatialVector::of_force(offset - resisted, &self.point))
     }
 }

@@ -6,10 +6,12 @@ use super::model::Model;
 use super::parameters::PARAMETERS;
 use crate::geometry::broad_phase::{Aabb, near_boxes};
 use crate::geometry::distance::signed_distance_within;
+use crate::geometry::pose::length;
 use crate::geometry::{Part, Placed, Pose, Solid, Unsound, Vec3, contact_point};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::spatial::SpatialVector;
 use crate::robot::{Assembly, Bond};
+use nalgebra::UnitQuaternion;
 use std::collections::BTreeSet;
 
 /// A convex part of a link, in the frame of the link.
@@ -26,16 +28,34 @@ struct Shape {
 struct Pair {
     first: usize,
     second: usize,
-    /// Their distance when it was last computed, or a lower bound on it, m; negative before, and where they touch.
-    gap: f64,
-    /// The pose of the second body in the frame of the first then.
-    X_AB: Pose,
-    /// The sphere around the second shape, in the frame of its body: the centre and the radius, m.
-    around: (Vec3, f64),
-    /// The direction of their distance then, in the frame of the first.
+    /// The direction of their distance when it was last computed, in the frame of the first.
     normal: Option<Vec3>,
     /// The spring across the contact.
     spring: Spring,
+}
+
+/// The distance of two shapes that are near each other, as far as it is known.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    /// The bodies of the shapes.
+    bodies: (u32, u32),
+    /// Their distance when it was last computed, or a lower bound on it, m; negative before, and where they touch.
+    gap: f64,
+    /// The centre of the sphere around the second shape in the frame of the first body, m, and the rotation of the second
+    /// body's frame in it, then.
+    centre: Vec3,
+    rotation: UnitQuaternion<f64>,
+    /// The centre in the frame of the second body, and the radius of the sphere, m.
+    around: (Vec3, f64),
+}
+
+/// A sphere that goes with a body.
+#[derive(Clone, Copy, Debug)]
+struct Sphere {
+    body: usize,
+    /// The centre in the frame of the body, and the radius, m.
+    centre: Vec3,
+    radius: f64,
 }
 
 /// A contact of two links.
@@ -68,19 +88,22 @@ pub(crate) struct LinkContacts {
     shapes: Vec<Shape>,
     /// The number of shapes that stand fast, which come before those of links.
     standing: usize,
-    /// The radius about the origin of each body within which its shapes lie, m; 0 of a body without shapes.
-    reaches: Vec<f64>,
+    /// The spheres around the shapes of all bodies with their parts.
+    spheres: Vec<Sphere>,
     /// The pairs of bodies that never push each other, the lesser index first.
     excluded: BTreeSet<(usize, usize)>,
     /// The pairs of bodies that bonds in no tree hold together now, likewise.
     bonded: BTreeSet<(usize, usize)>,
     /// The pairs that are near each other, ascending by their shapes.
     pairs: Vec<Pair>,
-    /// The bodies of each pair in that order, and the length of both their paths together up to which its shapes can't meet,
-    /// m.
+    /// Their distances as far as they are known, in that order.
+    known: Vec<Known>,
+    /// The bodies of each pair in that order, of parts the wholes, and the length of both their paths together up to which
+    /// its shapes can't meet, m.
     asleep: Vec<(u32, u32, f64)>,
-    /// Both as they were before the last listing; only their memory is used.
+    /// All three as they were before the last listing; only their memory is used.
     pairs_before: Vec<Pair>,
+    known_before: Vec<Known>,
     asleep_before: Vec<(u32, u32, f64)>,
     /// The places in `pairs` of those that may wake before `gone_most` is `alert_until`, ascending.
     alert: Vec<u32>,
@@ -89,7 +112,8 @@ pub(crate) struct LinkContacts {
     awake: Vec<u32>,
     /// The sum of the longest paths of any body in each step since the start, m.
     gone_most: f64,
-    /// The length of the path of each body since the start, m, with [`TURNING`]: no point of its shapes has gone farther.
+    /// The length of the path of each body since the start, m, with [`TURNING`]: no point of its shapes has gone farther. Those
+    /// of parts are those of the wholes, and stand there.
     gone: Vec<f64>,
     /// The lengths of the paths when the pairs were listed, m; -∞ where they must be listed anew.
     gone_listed: Vec<f64>,
@@ -148,20 +172,16 @@ impl LinkContacts {
                     .map(|(a, b)| pair(model.body(module, a), model.body(module, b))),
             );
         }
-        all.reaches = vec![0.0; model.bodies.len()];
         all.gone = vec![0.0; model.bodies.len()];
         all.gone_listed = vec![f64::NEG_INFINITY; model.bodies.len()];
-        for shape in &all.shapes {
-            let reach = shape.part.centre.norm() + shape.part.radius;
-            all.reaches[shape.body] = all.reaches[shape.body].max(reach);
-        }
+        all.spheres = all.spheres_around(model);
         let bodies = |bond: &Bond| pair(model.port(robot, bond.a).0, model.port(robot, bond.b).0);
         let lasting = robot.bonds.iter().enumerate().filter(|(bond, _)| !model.constraints.contains(bond));
         all.excluded.extend(lasting.map(|(_, bond)| bodies(bond)));
         // Links that hang together are one body.
         let mut whole: Vec<usize> = (0..model.bodies.len()).collect();
         for (at, body) in model.bodies.iter().enumerate() {
-            if let Attachment::Fixed(parent) = body.attachment {
+            if let Attachment::Fixed(parent) | Attachment::Part(parent) = body.attachment {
                 whole[at] = whole[parent];
             }
         }
@@ -184,6 +204,25 @@ impl LinkContacts {
             }
         }
         Ok(all)
+    }
+
+    /// Returns the spheres around the shapes of all bodies that may move.
+    fn spheres_around(&self, model: &Model) -> Vec<Sphere> {
+        // The spheres around the shapes of each whole, in its frame.
+        let mut of: Vec<Vec<(Vec3, f64)>> = vec![Vec::new(); model.bodies.len()];
+        for shape in &self.shapes[self.standing..] {
+            let whole = model.bodies[shape.body].whole;
+            let X_HB = model.start[whole].inv_mul(&model.start[shape.body]);
+            of[whole].push((X_HB.transform_point(&shape.part.centre.into()).coords, shape.part.radius));
+        }
+        let around = |(body, shapes): (usize, &Vec<(Vec3, f64)>)| {
+            let corners = shapes.iter().flat_map(|(c, r)| [c.add_scalar(-r), c.add_scalar(*r)]);
+            let all = Aabb::around(corners);
+            let centre = (all.low + all.high) / 2.0;
+            let radius = shapes.iter().map(|(c, r)| (c - centre).norm() + r).fold(0.0, f64::max);
+            (!shapes.is_empty()).then_some(Sphere { body, centre, radius })
+        };
+        of.iter().enumerate().filter_map(around).collect()
     }
 
     /// Returns the pairs of shapes of different bodies whose boxes are near each other.
@@ -232,9 +271,10 @@ impl LinkContacts {
     pub(crate) fn find(&mut self, model: &Model, bodies: &ArticulatedBodies, at: &Instant, now: u64) {
         self.contacts.clear();
         let (mut farthest, mut most): (f64, f64) = (0.0, 0.0);
-        for (body, reach) in self.reaches.iter().enumerate().filter(|(_, reach)| **reach > 0.0) {
-            let (twist, centre) = (bodies.velocity(body), at.poses[body].translation.vector - at.origin);
-            let speed = twist.at(&centre).norm() + twist.angular.norm() * reach;
+        for &Sphere { body, centre, radius } in &self.spheres {
+            let centre = at.poses[body].translation.vector + at.turns[body] * centre - at.origin;
+            let twist = bodies.velocity(body);
+            let speed = length(&twist.at(&centre)) + length(&twist.angular) * radius;
             let path = TURNING * speed * at.step;
             self.gone[body] += path;
             most = most.max(path);
@@ -242,7 +282,7 @@ impl LinkContacts {
         }
         self.gone_most += most;
         if 2.0 * farthest >= NEAR {
-            self.list(at);
+            self.list(model, at);
         }
         if self.gone_most >= self.alert_until {
             self.find_alert(ALERT_STEPS * most);
@@ -257,34 +297,41 @@ impl LinkContacts {
         }
         for awake in 0..count {
             let number = self.awake[awake] as usize;
-            let (first, second) = (self.asleep[number].0 as usize, self.asleep[number].1 as usize);
-            let gone = self.gone[first] + self.gone[second];
-            let pair = &self.pairs[number];
-            let X_AB = at.poses[first].inv_mul(&at.poses[second]);
-            if pair.gap > 0.0 {
-                let left = pair.gap - displacement(&pair.around, &pair.X_AB, &X_AB);
+            let (first, second, _) = self.asleep[number];
+            let gone = self.gone[first as usize] + self.gone[second as usize];
+            let known = &self.known[number];
+            let (first, second) = (known.bodies.0 as usize, known.bodies.1 as usize);
+            let (X_WA, X_WB) = (&at.poses[first], &at.poses[second]);
+            let rotation = X_WA.rotation.inverse() * X_WB.rotation;
+            let shift = X_WB.translation.vector - X_WA.translation.vector;
+            let centre = at.turns[first].tr_mul(&(shift + at.turns[second] * known.around.0));
+            if known.gap > 0.0 {
+                let left = known.gap - known.displacement(&centre, &rotation);
                 if left > 0.0 {
                     self.asleep[number].2 = gone + left;
                     continue;
                 }
             }
+            let pair = &self.pairs[number];
             let (a, b) = (&self.shapes[pair.first], &self.shapes[pair.second]);
+            let X_AB = X_WA.inv_mul(X_WB);
             let found = signed_distance_within(&a.part, &b.part, &X_AB, pair.normal, NEAR);
             let depth = -found.distance - a.touch.min(b.touch);
             if depth > 0.0 {
-                let normal = at.poses[a.body].rotation * found.normal;
+                let normal = X_WA.rotation * found.normal;
                 let on_a = contact_point(&a.part, &b.part, &X_AB);
                 let surface = model.bodies[a.body].surface.against(&model.bodies[b.body].surface);
                 self.contacts.push(LinkContact {
                     pair: number,
                     first: a.body,
                     second: b.body,
-                    point: at.poses[a.body].transform_point(&on_a.into()).coords - at.origin,
+                    point: X_WA.transform_point(&on_a.into()).coords - at.origin,
                     contact: Contact::new(normal, depth, &surface, (&pair.spring, now), at.step),
                 });
             }
-            let pair = &mut self.pairs[number];
-            (pair.gap, pair.X_AB, pair.normal) = (-depth, X_AB, Some(found.normal));
+            self.pairs[number].normal = Some(found.normal);
+            let known = &mut self.known[number];
+            (known.gap, known.centre, known.rotation) = (-depth, centre, rotation);
             self.asleep[number].2 = if depth < 0.0 { gone - depth } else { 0.0 };
         }
     }
@@ -306,28 +353,38 @@ impl LinkContacts {
     }
 
     /// Lists the pairs that are near each other now; of those that were listed all that is known stays, and they sleep on.
-    fn list(&mut self, at: &Instant) {
+    fn list(&mut self, model: &Model, at: &Instant) {
         let mut near = self.near(at.poses);
         near.sort_unstable();
         std::mem::swap(&mut self.pairs, &mut self.pairs_before);
+        std::mem::swap(&mut self.known, &mut self.known_before);
         std::mem::swap(&mut self.asleep, &mut self.asleep_before);
         self.pairs.clear();
+        self.known.clear();
         self.asleep.clear();
-        let mut before = self.pairs_before.iter().zip(&self.asleep_before).peekable();
+        let mut before = self.pairs_before.iter().zip(&self.known_before).zip(&self.asleep_before).peekable();
         for (first, second) in near {
-            let shapes = |(known, _): &(&Pair, _)| (known.first, known.second);
-            while before.next_if(|known| shapes(known) < (first, second)).is_some() {}
-            if let Some((known, asleep)) = before.next_if(|known| shapes(known) == (first, second)) {
-                self.pairs.push(known.clone());
+            let shapes = |((pair, _), _): &((&Pair, _), _)| (pair.first, pair.second);
+            while before.next_if(|listed| shapes(listed) < (first, second)).is_some() {}
+            if let Some(((pair, known), asleep)) = before.next_if(|listed| shapes(listed) == (first, second))
+            {
+                self.pairs.push(pair.clone());
+                self.known.push(*known);
                 self.asleep.push(*asleep);
                 continue;
             }
             let part = &self.shapes[second].part;
-            let around = (part.centre, part.radius);
-            let (X_AB, spring) = (Pose::identity(), Spring::default());
-            self.pairs.push(Pair { first, second, gap: -1.0, X_AB, around, normal: None, spring });
-            let body = |shape: usize| self.shapes[shape].body as u32;
-            self.asleep.push((body(first), body(second), 0.0));
+            self.pairs.push(Pair { first, second, normal: None, spring: Spring::default() });
+            let bodies = (self.shapes[first].body, self.shapes[second].body);
+            self.known.push(Known {
+                bodies: (bodies.0 as u32, bodies.1 as u32),
+                gap: -1.0,
+                centre: Vec3::zeros(),
+                rotation: UnitQuaternion::identity(),
+                around: (part.centre, part.radius),
+            });
+            let whole = |body: usize| model.bodies[body].whole as u32;
+            self.asleep.push((whole(bodies.0), whole(bodies.1), 0.0));
         }
         self.gone_listed.clone_from(&self.gone);
         self.alert_until = f64::NEG_INFINITY;
@@ -387,14 +444,15 @@ impl LinkContact {
     }
 }
 
-/// Returns an upper bound on the distance (m) by which a point within a sphere, given by its centre and radius (m), moves from
-/// one pose of its frame to another.
-#[inline(always)]
-fn displacement((centre, radius): &(Vec3, f64), before: &Pose, after: &Pose) -> f64 {
-    let shift = after.transform_point(&(*centre).into()) - before.transform_point(&(*centre).into());
-    // A turn by θ moves a point at the distance r by 2 r sin(θ / 2), which is at most 4 r sin(θ / 4); quaternions that
-    // are so far apart differ by 2 sin(θ / 4), and have either sign.
-    let (q, p) = (after.rotation.coords, before.rotation.coords);
-    let apart = (q - p).norm_squared().min((q + p).norm_squared());
-    shift.norm() + 2.0 * radius * apart.sqrt()
+impl Known {
+    /// Returns an upper bound on the distance (m) by which a point within the sphere has moved in the frame of the first body;
+    /// `centre` (m) and `rotation`: those now.
+    #[inline(always)]
+    fn displacement(&self, centre: &Vec3, rotation: &UnitQuaternion<f64>) -> f64 {
+        // A turn by θ moves a point at the distance r by 2 r sin(θ / 2), which is at most 4 r sin(θ / 4); quaternions that
+        // are so far apart differ by 2 sin(θ / 4), and have either sign.
+        let (q, p) = (rotation.coords, self.rotation.coords);
+        let apart = (q - p).norm_squared().min((q + p).norm_squared());
+        length(&(centre - self.centre)) + 2.0 * self.around.1 * apart.sqrt()
+    }
 }

@@ -19,9 +19,11 @@ use std::collections::BTreeSet;
 pub(crate) struct Body {
     /// The way in which the body hangs on others, by their indices in [`Model::bodies`].
     pub attachment: Attachment,
+    /// The index of the body that it is a part of, or its own.
+    pub whole: usize,
     /// The step from the body that carries it; `None` for a base.
     pub step: Option<Step>,
-    /// Mass, centre of mass and inertia.
+    /// Mass, centre of mass and inertia, with those of all its parts; those of a part are its own.
     pub rigid: RigidBody,
     /// The joint that moves the body.
     pub joint: Option<Joint>,
@@ -48,6 +50,8 @@ pub(crate) struct Joint {
     pub armature: f64,
     /// The damping of its bearing, N·m·s/rad or N·s/m; 0 with a servo, whose own counts.
     pub damping: f64,
+    /// True if motors with limits drive it together with others.
+    pub is_coupled: bool,
     /// The least and greatest coordinate, rad or m; `None` without ends, and for one that follows others.
     pub range: Option<(f64, f64)>,
 }
@@ -249,6 +253,7 @@ impl Model {
                 model.start.push(lasting.poses[link]);
                 model.bodies.push(Body {
                     attachment,
+                    whole: at,
                     step: step.cloned(),
                     rigid: heavier(&rigid.bodies()[link], settings.mass),
                     joint,
@@ -268,6 +273,7 @@ impl Model {
             let carried = model.port(robot, if b.module == module { b } else { a }).0;
             model.carrying.push(CarryingBond { bond, carried, port: model.port(robot, a) });
         }
+        model.unite();
         model.follow();
         if !gains.unlimited {
             model.couple(robot, gains);
@@ -286,6 +292,7 @@ impl Model {
         self.start.push(Pose::identity());
         self.bodies.push(Body {
             attachment: Attachment::Held,
+            whole: self.bodies.len(),
             step: None,
             rigid: RigidBody { mass: 0.0, com: Vec3::zeros(), inertia: Mat3::zeros() },
             joint: None,
@@ -311,6 +318,31 @@ impl Model {
     pub(crate) fn port(&self, robot: &Assembly, port: PortRef) -> (usize, Pose) {
         let link = self.kinematics.port_link(robot, port);
         (self.body_of[link], robot.module_type(port.module).ports[port.port].pose)
+    }
+
+    /// Makes links that are fixed to each other one body, but for those that bonds carry which state what they hold.
+    fn unite(&mut self) {
+        let carried: BTreeSet<usize> = self.carrying.iter().map(|bond| bond.carried).collect();
+        let mut parts: Vec<Vec<(RigidBody, Pose)>> = Vec::with_capacity(self.bodies.len());
+        // The poses of the bodies in the frames of their wholes.
+        let mut within: Vec<Pose> = Vec::with_capacity(self.bodies.len());
+        for at in 0..self.bodies.len() {
+            parts.push(Vec::new());
+            within.push(Pose::identity());
+            if let (Attachment::Fixed(parent), Some(step)) =
+                (self.bodies[at].attachment, &self.bodies[at].step)
+                && !carried.contains(&at)
+            {
+                let whole = self.bodies[parent].whole;
+                within[at] = step.child_pose_at(&within[parent], 0.0);
+                self.bodies[at].attachment = Attachment::Part(parent);
+                self.bodies[at].whole = whole;
+            }
+            parts[self.bodies[at].whole].push((self.bodies[at].rigid, within[at]));
+        }
+        for (body, parts) in self.bodies.iter_mut().zip(&parts).filter(|(_, parts)| parts.len() > 1) {
+            body.rigid = RigidBody::of_parts(parts);
+        }
     }
 
     /// Finds the joints that follow others.
@@ -358,7 +390,13 @@ impl Model {
                 factors: of(&motor.joints),
                 shares: of(effort),
             });
-            self.coupled.push(Coupled { bodies, motors: motors.collect() });
+            let motors = motors.collect();
+            for (body, _) in &bodies {
+                if let Some(joint) = &mut self.bodies[*body].joint {
+                    joint.is_coupled = true;
+                }
+            }
+            self.coupled.push(Coupled { bodies, motors });
         }
     }
 
@@ -433,6 +471,7 @@ fn joint_of(robot: &Assembly, owner: JointOwner, id: usize, step: &Step, gains: 
         servo,
         armature: if driven { armature } else { 0.0 },
         damping: stated.damping.filter(|_| passive).unwrap_or(0.0),
+        is_coupled: false,
         range,
     }
 }

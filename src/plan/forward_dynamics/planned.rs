@@ -7,8 +7,6 @@ pub(crate) struct Planned<'a> {
     tracks: &'a Tracks,
     /// The index of the segment of each track that has begun last, or that comes first.
     current: Vec<usize>,
-    /// The derivative of that segment by its argument, as control points; empty until it is needed.
-    rates: Vec<Vec<f64>>,
     /// The number of events that have been told.
     told: usize,
 }
@@ -16,8 +14,7 @@ pub(crate) struct Planned<'a> {
 impl<'a> Planned<'a> {
     /// Returns the motion at its start.
     pub(crate) fn new(tracks: &'a Tracks) -> Planned<'a> {
-        let count = tracks.tracks.len();
-        Planned { tracks, current: vec![0; count], rates: vec![Vec::new(); count], told: 0 }
+        Planned { tracks, current: vec![0; tracks.tracks.len()], told: 0 }
     }
 
     /// Returns its duration, s.
@@ -36,10 +33,9 @@ impl<'a> Planned<'a> {
     /// asked for last. Before the start and after the end joints are at rest.
     pub(crate) fn advance(&mut self, time: f64, joints: &mut [(f64, f64)]) {
         let tracks: &[Track] = &self.tracks.tracks;
-        for ((track, current), rates) in tracks.iter().zip(&mut self.current).zip(&mut self.rates) {
+        for (track, current) in tracks.iter().zip(&mut self.current) {
             while track.segments.get(*current + 1).is_some_and(|next| next.start <= time) {
                 *current += 1;
-                rates.clear();
             }
             let Some(segment) = track.segments.get(*current) else { continue };
             if time < segment.start {
@@ -50,12 +46,8 @@ impl<'a> Planned<'a> {
                 *joint = (segment.last(), 0.0);
                 continue;
             }
-            if rates.is_empty() {
-                *rates = polynomial::derivative(&segment.control);
-            }
-            let argument = segment.argument(time);
-            let rate = polynomial::value(rates, argument) / (segment.end - segment.start);
-            *joint = (polynomial::value(&segment.control, argument), rate);
+            let (position, rate) = polynomial::value_and_rate(&segment.control, segment.argument(time));
+            *joint = (position, rate / (segment.end - segment.start));
         }
     }
 }

@@ -12,7 +12,7 @@ use super::ground_contact::GroundContacts;
 use super::link_contact::LinkContacts;
 use super::model::{CarryingBond, CoupledMotor, DrivenServo, Model};
 use super::parameters::PARAMETERS;
-use crate::geometry::pose::turned;
+use crate::geometry::pose::{length, turned};
 use crate::geometry::{Mat3, Pose, Vec3};
 use crate::robot::articulated_bodies::{ArticulatedBodies, Attachment};
 use crate::robot::dynamics::Twist;
@@ -27,6 +27,14 @@ struct ServoState {
     limited: Option<(f64, f64)>,
     /// The end of its range that the joint is at.
     stop: Option<f64>,
+}
+
+impl ServoState {
+    /// Returns false if the motor is at its limit in one direction and this limit is in the other: the effort that it needs
+    /// is between them, where it is a spring with a damper.
+    fn leads_to(&self, (limit, _): &(f64, f64)) -> bool {
+        self.limited.is_none_or(|(now, _)| now * limit >= 0.0)
+    }
 }
 
 /// A robot in motion.
@@ -45,6 +53,8 @@ pub(crate) struct Stepper<'a> {
     pub couplings: Couplings,
     /// The world poses of the bodies at the start of the step taken last.
     poses: Vec<Pose>,
+    /// Their rotations as matrices.
+    turns: Vec<Mat3>,
     /// The poses of the bases now, by body; of other bodies they are of no use.
     bases: Vec<Pose>,
     /// The velocities of the bases, by body.
@@ -60,6 +70,8 @@ pub(crate) struct Stepper<'a> {
     /// The efforts of the servos in the step taken last, by body, N·m or N, along the coordinates.
     pub efforts: Vec<f64>,
     servos: Vec<ServoState>,
+    /// The states that a round found for servos whose motors drive several joints, before the limits of those motors.
+    coupled_servos: Vec<ServoState>,
     /// The point that spatial vectors were about in the step taken last, m.
     pub origin: Vec3,
     /// The height of the centre of mass at the start of the step taken last, m.
@@ -93,6 +105,7 @@ impl<'a> Stepper<'a> {
             ground,
             couplings,
             poses: model.start.clone(),
+            turns: vec![Mat3::identity(); count],
             bases: model.start.clone(),
             twists: vec![Twist::default(); count],
             coordinates: model.coordinates(joints),
@@ -101,6 +114,7 @@ impl<'a> Stepper<'a> {
             mid_rates: vec![0.0; count],
             efforts: vec![0.0; count],
             servos: vec![ServoState::default(); count],
+            coupled_servos: vec![ServoState::default(); count],
             origin: Vec3::zeros(),
             centre_height: 0.0,
             number: 0,
@@ -135,24 +149,26 @@ impl<'a> Stepper<'a> {
         self.number += 1;
         let origin = self.bases[0].translation.vector;
         self.origin = origin;
-        self.place(&origin);
+        self.place(&origin, commands);
         if let Some(ground) = &mut self.ground {
-            ground.find(self.model, &self.bodies, &self.poses, &origin, self.number);
+            ground.find(self.model, &self.bodies, (&self.poses, &self.turns), &origin, self.number);
         }
-        let at =
-            Instant { time, step: self.step, poses: &self.poses, origin, coordinates: &self.coordinates };
+        let at = Instant {
+            time,
+            step: self.step,
+            poses: &self.poses,
+            turns: &self.turns,
+            origin,
+            coordinates: &self.coordinates,
+        };
         self.couplings.find(self.model, &self.bodies, &at, commands, self.number);
-        self.servos.iter_mut().for_each(|servo| servo.stop = None);
-        let weight = self.model.mass * self.gravity.norm().max(1.0);
-        for at in 0..self.servos.len() {
-            self.set_servo(at, commands);
-        }
+        let weight = self.model.mass * length(&self.gravity).max(1.0);
         for round in 0..PARAMETERS.rounds_max {
             if let Some(ground) = &self.ground {
-                let (model, poses, gravity) = (self.model, &self.poses, &self.gravity);
+                let (model, poses, turns) = (self.model, &self.poses, &self.turns);
+                let gravity = &self.gravity;
                 ground.add_to(&mut self.bodies, round > 0, |bodies, body| {
-                    let turn = *poses[body].rotation.to_rotation_matrix().matrix();
-                    set_rigid(bodies, body, model, (&poses[body], &turn), &origin, gravity);
+                    set_rigid(bodies, body, model, (&poses[body], &turns[body]), &origin, gravity);
                 });
             }
             self.bodies.accelerate().ok_or(NoInertia)?;
@@ -163,7 +179,7 @@ impl<'a> Stepper<'a> {
                 None => 0.0,
             };
             let change = self.couplings.update(&self.bodies, self.step).max(of_ground);
-            let settled = self.update_servos(commands);
+            let settled = self.update_servos(commands, round == 0);
             if settled && change <= PARAMETERS.force_change * weight {
                 break;
             }
@@ -175,24 +191,34 @@ impl<'a> Stepper<'a> {
         self.move_on(&origin)
     }
 
-    /// Finds the poses, twists and rigid inertias of all bodies; spatial vectors are about `origin`.
+    /// Finds the poses, twists and rigid inertias of all bodies, and sets the efforts of their joints; spatial vectors are
+    /// about `origin`.
     #[inline(always)]
-    fn place(&mut self, origin: &Vec3) {
+    fn place(&mut self, origin: &Vec3, commands: &[(f64, f64)]) {
         let mut first = 0.0;
         for (at, body) in self.model.bodies.iter().enumerate() {
-            let turn: Mat3;
             match (&body.step, body.attachment) {
                 (Some(step), Attachment::Joint(parent) | Attachment::Fixed(parent)) => {
-                    self.poses[at] = step.child_pose_at(&self.poses[parent], self.coordinates[at]);
-                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
-                    let axis = step.axis_turned(&self.poses[parent], &self.poses[at], &turn);
+                    let (pose, turn) = step.child_pose_turned(
+                        &self.poses[parent],
+                        &self.turns[parent],
+                        self.coordinates[at],
+                    );
+                    let axis = step.axis_turned(&self.poses[parent], &pose, &turn);
                     let axis =
                         axis.map_or(SpatialVector::default(), |axis| SpatialVector::of_axis(&axis, origin));
                     self.bodies.set_joint(at, axis, self.rates[at], self.mid_rates[at]);
+                    (self.poses[at], self.turns[at]) = (pose, turn);
+                    self.set_servo(at, commands);
+                }
+                (Some(step), Attachment::Part(parent)) => {
+                    let whole = (&self.poses[parent], &self.turns[parent]);
+                    (self.poses[at], self.turns[at]) = step.child_pose_turned(whole.0, whole.1, 0.0);
+                    continue;
                 }
                 _ => {
                     self.poses[at] = self.bases[at];
-                    turn = *self.poses[at].rotation.to_rotation_matrix().matrix();
+                    self.turns[at] = *self.poses[at].rotation.to_rotation_matrix().matrix();
                     let from = origin - self.poses[at].translation.vector;
                     let about = |Twist { linear, angular }: Twist| SpatialVector {
                         angular,
@@ -202,7 +228,7 @@ impl<'a> Stepper<'a> {
                     self.bodies.set_base(at, about(self.twists[at]), about(self.mid_twists[at]), held);
                 }
             }
-            let pose = (&self.poses[at], &turn);
+            let pose = (&self.poses[at], &self.turns[at]);
             let com = set_rigid(&mut self.bodies, at, self.model, pose, origin, &self.gravity);
             first += com.z * body.rigid.mass;
         }
@@ -229,10 +255,8 @@ impl<'a> Stepper<'a> {
             (None, _) => {}
         }
         if let Some(end) = self.servos[at].stop {
-            let stiffness = PARAMETERS.stop_stiffness;
-            let damping = PARAMETERS.contact_damping * stiffness;
-            effort += stiffness * (end - q - h * v) - damping * v;
-            armature += h * (h * stiffness + damping);
+            effort += stop_effort(end, h, q, v);
+            armature += h * (h + PARAMETERS.contact_damping) * PARAMETERS.stop_stiffness;
         }
         self.bodies.set_effort(at, effort, armature);
     }
@@ -249,9 +273,10 @@ impl<'a> Stepper<'a> {
     }
 
     /// Finds which motors are at their limits and which joints at their stops, for the accelerations of a round. Returns
-    /// true if that was known.
+    /// true if that was known. `first`: true in the first round, in which stops are those of the step before: one that pulls
+    /// lets go.
     #[inline(always)]
-    fn update_servos(&mut self, commands: &[(f64, f64)]) -> bool {
+    fn update_servos(&mut self, commands: &[(f64, f64)], first: bool) -> bool {
         let h = self.step;
         let mut settled = true;
         for (at, body) in self.model.bodies.iter().enumerate() {
@@ -261,30 +286,39 @@ impl<'a> Stepper<'a> {
             let mut now = ServoState::default();
             if let Some(servo) = &joint.servo {
                 let effort = spring(servo, h, q, v, command(commands, joint.id, joint.factor));
-                now.limited = servo.limit_at(effort, v);
+                now.limited = servo.limit_at(effort, v).filter(|limit| self.servos[at].leads_to(limit));
                 self.efforts[at] = now.limited.map_or(effort, |(limited, falling)| limited - falling * v);
             }
             if let Some((low, high)) = joint.range {
                 let next = q + h * v;
                 now.stop = if next > high { Some(high) } else { (next < low).then_some(low) };
+                if first && let Some(end) = self.servos[at].stop.filter(|end| now.stop == Some(*end)) {
+                    let outwards = if end == high { 1.0 } else { -1.0 };
+                    now.stop = Some(end).filter(|_| stop_effort(end, h, q, v) * outwards < 0.0);
+                }
             }
-            settled &= self.change_servo(at, now, commands);
+            if joint.is_coupled {
+                self.coupled_servos[at] = now;
+            } else {
+                settled &= self.change_servo(at, now, commands);
+            }
         }
         for coupled in &self.model.coupled {
             let of = |(body, sign): &(usize, f64)| self.efforts[*body] * sign;
             let efforts: Vec<f64> = coupled.bodies.iter().map(of).collect();
             let needed: Vec<f64> = coupled.motors.iter().map(|motor| dot(&motor.shares, &efforts)).collect();
             let exceeds = |(motor, needed): (&CoupledMotor, &f64)| needed.abs() > motor.effort;
-            if !coupled.motors.iter().zip(&needed).any(exceeds) {
-                continue;
-            }
+            let limited = coupled.motors.iter().zip(&needed).any(exceeds);
             for (number, (body, sign)) in coupled.bodies.iter().enumerate() {
-                let drives = |(motor, needed): (&CoupledMotor, &f64)| {
-                    motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
-                };
-                let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
-                self.efforts[*body] = effort;
-                let now = ServoState { limited: Some((effort, 0.0)), ..self.servos[*body] };
+                let mut now = self.coupled_servos[*body];
+                if limited {
+                    let drives = |(motor, needed): (&CoupledMotor, &f64)| {
+                        motor.factors[number] * needed.clamp(-motor.effort, motor.effort)
+                    };
+                    let effort = sign * coupled.motors.iter().zip(&needed).map(drives).sum::<f64>();
+                    self.efforts[*body] = effort;
+                    now.limited = Some((effort, 0.0)).filter(|limit| self.servos[*body].leads_to(limit));
+                }
                 settled &= self.change_servo(*body, now, commands);
             }
         }
@@ -318,11 +352,11 @@ impl<'a> Stepper<'a> {
                     mid_twist.linear = twist.linear + linear / 2.0;
                     mid_twist.angular = twist.angular + angular / 2.0;
                     base.translation.vector += twist.linear * h;
-                    let turn = turned(twist.angular, twist.angular.norm() * h).rotation;
+                    let turn = turned(twist.angular, length(&twist.angular) * h).rotation;
                     base.rotation = nalgebra::UnitQuaternion::new_normalize(*(turn * base.rotation));
                     sum += base.translation.vector.sum();
                 }
-                Attachment::Held | Attachment::Fixed(_) => {}
+                Attachment::Held | Attachment::Fixed(_) | Attachment::Part(_) => {}
             }
         }
         if f64::is_finite(sum) { Ok(()) } else { Err(NoInertia) }
@@ -444,4 +478,10 @@ fn command(commands: &[(f64, f64)], joint: usize, factor: f64) -> (f64, f64) {
 /// Returns the effort of a servo at the end of a step that begins at the coordinate `q` and has the rate `v`.
 fn spring(servo: &DrivenServo, step: f64, q: f64, v: f64, (wanted, rate): (f64, f64)) -> f64 {
     servo.stiffness * (wanted + servo.zero - q - step * v) + servo.damping * (rate - v)
+}
+
+/// Returns the effort of the stop at an end of a joint's range, N·m or N, at the end of a step that begins at the coordinate `q`
+/// and has the rate `v`.
+fn stop_effort(end: f64, step: f64, q: f64, v: f64) -> f64 {
+    PARAMETERS.stop_stiffness * (end - q - step * v - PARAMETERS.contact_damping * v)
 }

@@ -109,6 +109,26 @@ pub fn for_swept_pairs(before: &[Cube], after: &[Cube], mut visit: impl FnMut(us
     visited.map(|_| ())
 }
 
+/// Checks that no cell overlaps an obstacle at any time of the stage. `before` and `after` are the cells by number at
+/// its two ends; `obstacles` rest. `None` if more pairs come near each other than are examined.
+///
+/// # Errors
+/// The inner result is the first overlap that is found, with the numbers of the cell and of the obstacle.
+pub fn examine_obstacles(before: &[Cube], after: &[Cube], obstacles: &[Cube]) -> Option<Result<(), Overlap>> {
+    let mut hulls = swept(before, after);
+    hulls.extend_from_slice(obstacles);
+    let count = before.len();
+    pairs_near(&hulls, |i, j| {
+        if i >= count || j < count {
+            return None;
+        }
+        let obstacle = &obstacles[j - count];
+        let at_start = overlap(&before[i], obstacle);
+        let found = at_start || overlaps_on_the_way((&before[i], &after[i]), (obstacle, obstacle));
+        found.then_some(Overlap { cells: (i as u32, (j - count) as u32), at_start })
+    })
+}
+
 /// Returns the bounding box of each cell's sweep.
 fn swept(before: &[Cube], after: &[Cube]) -> Vec<Cube> {
     before.iter().zip(after).map(|(a, b)| hull(a, b)).collect()

@@ -98,6 +98,21 @@ impl ContactForest {
     /// The sum that is left over at a root, if the displacements of a component do not add up to zero: then an
     /// external force would be needed.
     pub fn forces(&self, before: &[Cube], after: &[Cube], axis: usize) -> Result<(i128, (u32, u32)), i128> {
+        self.forces_from(None, before, after, axis)
+    }
+
+    /// Returns (force, edge) as [`forces`](Self::forces) does, where the cell of the number `anchor`, if there is one,
+    /// is held by something outside: it takes what the displacements of its component do not add up to.
+    ///
+    /// # Errors
+    /// As [`forces`](Self::forces), of components without that cell.
+    pub fn forces_from(
+        &self,
+        anchor: Option<u32>,
+        before: &[Cube],
+        after: &[Cube],
+        axis: usize,
+    ) -> Result<(i128, (u32, u32)), i128> {
         let moved = |(old, new): (&Cube, &Cube)| ForceNode {
             behind: i128::from(new.middle(axis) - old.middle(axis)),
             degree: 0,
@@ -110,6 +125,10 @@ impl ContactForest {
             nodes[p].neighbours ^= b;
             nodes[q].degree += 1;
             nodes[q].neighbours ^= a;
+        }
+        // The anchor is the root of its tree: it is never a leaf, for a part of it hangs on nothing else.
+        if let Some(anchor) = anchor {
+            nodes[anchor as usize].degree += 2;
         }
         // Leaves are removed one by one; each passes its force on to its only neighbour.
         let mut worst = (0, (0, 0));
@@ -129,8 +148,9 @@ impl ContactForest {
             }
         }
         // Force that was not passed on is left at the roots.
-        match nodes.iter().find(|node| node.behind != 0) {
-            Some(node) => Err(node.behind),
+        let is_anchor = |cell: usize| anchor.is_some_and(|anchor| anchor as usize == cell);
+        match nodes.iter().enumerate().find(|(cell, node)| node.behind != 0 && !is_anchor(*cell)) {
+            Some((_, node)) => Err(node.behind),
             None => Ok(worst),
         }
     }

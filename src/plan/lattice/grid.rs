@@ -1,8 +1,9 @@
 //! The integer grid that every face of every cell lies on, so that nothing is rounded.
 
 use super::fault::LatticeFault;
-use crate::plan::stages::motion::{Run, Stages};
+use crate::plan::stages::motion::{Run, StageEnd, Stages};
 use crate::plan::stages::ratio::Ratio;
+use crate::plan::stages::{CellMove, Moves};
 
 /// An axis-aligned cell at one end of a stage: the coordinates of its lower and upper faces along x, y and z, in
 /// grid lines.
@@ -52,27 +53,24 @@ impl Grid {
     /// # Errors
     /// [`LatticeFault::GridTooFine`], as [`Grid::over`].
     pub fn of(stages: &Stages) -> Result<Grid, LatticeFault> {
-        Grid::over(stages.start.iter().chain(stages.stages.iter().flat_map(|stage| &stage.end)))
+        Grid::over(stages.ratios())
     }
 
-    /// Returns the coarsest grid of the faces of all cells of `runs`: the least common multiple of their
-    /// denominators.
+    /// Returns the coarsest grid of the faces of cells whose centres and sizes are sums of whole multiples of these
+    /// numbers, in cell sizes: the least common multiple of their denominators, which must be positive.
     ///
     /// # Errors
     /// [`LatticeFault::GridTooFine`] if a cell would take more than `LINES_MAX` lines.
-    pub fn over<'a>(runs: impl Iterator<Item = &'a Run>) -> Result<Grid, LatticeFault> {
+    pub fn over(ratios: impl Iterator<Item = Ratio>) -> Result<Grid, LatticeFault> {
         let mut lines: i128 = 2;
-        for run in runs {
-            let steps = run.counters.iter().flat_map(|counter| counter.step);
-            for Ratio(_, denominator) in run.center.into_iter().chain(run.size).chain(steps) {
-                // Faces lie half a size from the centre.
-                let denominator = 2 * i128::from(denominator);
-                if lines % denominator != 0 {
-                    lines = lines / gcd(lines, denominator) * denominator;
-                }
-                if lines > LINES_MAX {
-                    return Err(LatticeFault::GridTooFine);
-                }
+        for Ratio(_, denominator) in ratios {
+            // Faces lie half a size from the centre.
+            let denominator = 2 * i128::from(denominator);
+            if lines % denominator != 0 {
+                lines = lines / gcd(lines, denominator) * denominator;
+            }
+            if lines > LINES_MAX {
+                return Err(LatticeFault::GridTooFine);
             }
         }
         Ok(Grid { lines: lines as i64 })
@@ -90,6 +88,51 @@ impl Grid {
     /// [`LatticeFault::CellsTooFar`] if a face would lie more than `FACE_MAX` lines from the origin.
     pub fn place(self, runs: &[Run], cubes: &mut [Cube]) -> Result<(), LatticeFault> {
         runs.iter().try_for_each(|run| self.place_run(run, cubes))
+    }
+
+    /// Takes all cells, by number, from before a stage to its end. The numbers of the stage must be among those that the
+    /// grid was made of. Panics for runs of a cell, or moves of a class, that there is not.
+    ///
+    /// # Errors
+    /// [`LatticeFault::CellsTooFar`] if a face would lie more than `FACE_MAX` lines from the origin.
+    pub fn advance(self, end: &StageEnd, cubes: &mut [Cube]) -> Result<(), LatticeFault> {
+        match end {
+            StageEnd::Runs(runs) => self.place(runs, cubes),
+            StageEnd::Moves(moves) => self.shift(moves, cubes),
+        }
+    }
+
+    fn shift(self, moves: &Moves, cubes: &mut [Cube]) -> Result<(), LatticeFault> {
+        let steps = moves.classes.iter().map(|class| self.steps(class)).collect::<Result<Vec<_>, _>>()?;
+        let mut cubes = cubes.iter_mut();
+        for span in &*moves.cells {
+            let (lo, hi) = steps[span.class as usize];
+            for cube in cubes.by_ref().take(span.count as usize) {
+                for axis in 0..3 {
+                    cube.lo[axis] += lo[axis];
+                    cube.hi[axis] += hi[axis];
+                    let reach = cube.lo[axis].abs().max(cube.hi[axis].abs());
+                    if i128::from(reach) > FACE_MAX {
+                        return Err(LatticeFault::CellsTooFar);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns (low, high): the displacements of a cell's lower and upper faces along x, y and z, in grid lines.
+    fn steps(self, class: &CellMove) -> Result<([i64; 3], [i64; 3]), LatticeFault> {
+        let (mut lo, mut hi) = ([0; 3], [0; 3]);
+        for axis in 0..3 {
+            let (displacement, growth) = (self.line(class.displacement[axis]), self.line(class.growth[axis]));
+            if displacement.abs().saturating_add(growth.abs()) > 2 * FACE_MAX {
+                return Err(LatticeFault::CellsTooFar);
+            }
+            lo[axis] = (displacement - growth / 2) as i64;
+            hi[axis] = (displacement + growth / 2) as i64;
+        }
+        Ok((lo, hi))
     }
 
     fn place_run(self, run: &Run, cubes: &mut [Cube]) -> Result<(), LatticeFault> {

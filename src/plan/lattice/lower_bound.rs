@@ -52,8 +52,37 @@ pub fn lower_bound(
             square = square.max(2.0 * change / (CONTACTS * count as f64 * force.to_f64()));
         }
     }
+    least_time(distance, greatest_speed).max(libm::sqrt(square))
+}
+
+/// Returns a duration, in time units, below which no motion takes cells from one shape to the other while others stand
+/// fast; `before`, `after` and `lines` are those of [`lower_bound`], for the cells that may move. With the square of the
+/// greatest difference of speeds, in cells a unit of time, goes the greatest number of contacts that a cell is away from
+/// one that stands fast.
+///
+/// Nothing recoils, so displacements count as they are; and over `k` contacts from a cell at rest no speed is greater
+/// than `k v`.
+pub fn anchored_lower_bound(
+    before: impl Fn(usize) -> Vec<i64>,
+    after: impl Fn(usize) -> Vec<i64>,
+    lines: i64,
+    (speed_squared, contacts): (Ratio, u64),
+) -> f64 {
+    let mut farthest = 0;
+    for axis in 0..3 {
+        let (mut before, mut after) = (before(axis), after(axis));
+        before.sort_unstable();
+        after.sort_unstable();
+        let apart = before.iter().zip(&after).map(|(a, b)| a.abs_diff(*b)).max();
+        farthest = farthest.max(apart.unwrap_or(0));
+    }
+    let greatest_speed = libm::sqrt(speed_squared.to_f64()) * contacts as f64;
+    least_time(farthest as f64 / (2.0 * lines as f64), greatest_speed)
+}
+
+/// Returns the least time, in time units, in which a cell gets from rest to rest at a distance (in cells), at an
+/// acceleration of at most 1 and a greatest speed (in cells a unit of time); 0 for no distance.
+fn least_time(distance: f64, greatest_speed: f64) -> f64 {
     let ramps = libm::sqrt(distance);
-    let moving =
-        if ramps <= greatest_speed { 2.0 * ramps } else { greatest_speed + distance / greatest_speed };
-    moving.max(libm::sqrt(square))
+    if ramps <= greatest_speed { 2.0 * ramps } else { greatest_speed + distance / greatest_speed }
 }

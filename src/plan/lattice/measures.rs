@@ -6,7 +6,7 @@ use super::fault::LatticeFault;
 use super::grid::{Cube, Grid};
 use super::lanes::Overlap;
 use super::law::{Change, TimeScaling};
-use super::lower_bound::lower_bound;
+use super::lower_bound::{anchored_lower_bound, lower_bound};
 use super::{boxes, lanes};
 use crate::plan::stages::motion::Stages;
 
@@ -32,13 +32,15 @@ pub fn peak_forces(stages: &Stages) -> Result<Vec<(i128, i128)>, LatticeFault> {
     let mut peaks = Vec::with_capacity(stages.stages.len());
     for stage in &stages.stages {
         let mut after = before.clone();
-        grid.place(&stage.end, &mut after)?;
+        grid.advance(&stage.end, &mut after)?;
         let change = Change::of(&before, &after);
         let mut forest = ContactForest::new(before.len());
         let _ = examine(&before, &after, &change, grid.lines, &mut forest).ok_or(LatticeFault::Entangled)?;
         let mut peak = 0;
         for axis in 0..3 {
-            let along = forest.forces(&before, &after, axis).map_err(|_| LatticeFault::CentreMoves)?;
+            let along = forest
+                .forces_from(stages.root(), &before, &after, axis)
+                .map_err(|_| LatticeFault::CentreMoves)?;
             peak = peak.max(along.0);
         }
         let (times, over) = TimeScaling::of(stage).acceleration_ratio();
@@ -59,16 +61,25 @@ pub fn time_lower_bound(stages: &Stages) -> Result<f64, LatticeFault> {
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = cubes.clone();
-    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
     Ok(time_between(stages, &start, &cubes, grid))
 }
 
 /// Returns the lower bound on the duration between two configurations, in seconds: those of `start` and `end`, on
 /// `grid`, under the unit of time and the limits of speed and force of `stages`.
 pub fn time_between(stages: &Stages, start: &[Cube], end: &[Cube], grid: Grid) -> f64 {
-    let middles = |cubes: &[Cube], axis: usize| cubes.iter().map(|cube| cube.middle(axis)).collect();
+    // Cells that stand fast are matched with themselves.
+    let fixed: &[u64] = stages.anchor.as_ref().map_or(&[], |anchor| &anchor.cells);
+    let middles = |cubes: &[Cube], axis: usize| {
+        let moving = cubes.iter().zip(0..).filter(|(_, number)| fixed.binary_search(number).is_err());
+        moving.map(|(cube, _)| cube.middle(axis)).collect()
+    };
     let (before, after) = (|axis| middles(start, axis), |axis| middles(end, axis));
     let (speed_squared, contact_force) = (stages.limits.speed_squared, stages.model.contact_force);
+    if stages.anchor.is_some() {
+        let contacts = stages.count.saturating_sub(1);
+        return anchored_lower_bound(before, after, grid.lines, (speed_squared, contacts)) * stages.time_unit;
+    }
     lower_bound(before, after, grid.lines, speed_squared, contact_force) * stages.time_unit
 }
 
@@ -86,7 +97,7 @@ pub fn end_shapes(stages: &Stages) -> Result<(Places, Places), LatticeFault> {
     let mut cubes = vec![Cube::default(); stages.count as usize];
     grid.place(&stages.start, &mut cubes)?;
     let start = places(&cubes, grid.lines)?;
-    stages.stages.iter().try_for_each(|stage| grid.place(&stage.end, &mut cubes))?;
+    stages.stages.iter().try_for_each(|stage| grid.advance(&stage.end, &mut cubes))?;
     Ok((start, places(&cubes, grid.lines)?))
 }
 

@@ -2,17 +2,19 @@
 //! exactly, up to a translation. Cells are alike, so those of the second take the numbers of the cells at
 //! whose positions they begin.
 
-use super::arithmetic_runs::{ArithmeticRun, arithmetic_runs};
-use super::motion::{Counter, Model, Run, Stage, Stages};
+use super::configurations::gathered;
+use super::motion::{Model, Run, Stage, StageEnd, Stages};
+use super::moves::Moves;
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
+use crate::plan::lattice::LatticeFault;
 use crate::plan::lattice::grid::{Cube, Grid};
 use crate::plan::operation_error::OperationError;
 
 /// Returns the stages of `a` followed by those of `b`, whose causes are numbered from `causes` on.
 ///
 /// # Errors
-/// [`OperationError`] for lattices of other cells, of another number of cells or of another shape where they meet,
+/// [`OperationError`] for lattices of other cells, of another number of cells, of another shape where they meet, or on another anchor,
 /// and for numbers that 64 bits do not hold.
 pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Stages, OperationError> {
     if a.count != b.count {
@@ -22,30 +24,34 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
         return Err(OperationError::Cells);
     }
     // The last cells of the first and the first cells of the second, on one grid of whole numbers.
-    let end = a.before(a.stages.len());
-    let others = b.start.iter().chain(b.stages.iter().flat_map(|stage| &stage.end));
-    let grid = Grid::over(end.iter().chain(others)).map_err(|_| OperationError::Inexact)?;
+    let inexact = |_: LatticeFault| OperationError::Inexact;
+    let end = a.before(a.stages.len()).map_err(inexact)?;
+    let grid = Grid::over(end.iter().flat_map(Run::ratios).chain(b.ratios())).map_err(inexact)?;
     let mut cubes = vec![Cube::default(); b.count as usize];
-    let placed =
-        |runs: &[Run], cubes: &mut Vec<Cube>| grid.place(runs, cubes).map_err(|_| OperationError::Inexact);
     let mut last = cubes.clone();
-    placed(&end, &mut last)?;
-    placed(&b.start, &mut cubes)?;
+    grid.place(&end, &mut last).map_err(inexact)?;
+    grid.place(&b.start, &mut cubes).map_err(inexact)?;
     // The bijection of the cells and the translation that take the second shape to the first.
     let (numbers, shift) = matched(&last, &cubes).ok_or(OperationError::Shapes)?;
-    let same = numbers.iter().enumerate().all(|(i, &number)| i == number as usize) && shift == [0; 3];
+    let same_numbers = numbers.iter().enumerate().all(|(i, &number)| i == number as usize);
+    if (a.anchor.is_some() || b.anchor.is_some()) && !same_anchor(a, b, &numbers, shift) {
+        return Err(OperationError::Surroundings);
+    }
     // The stages of the second, renumbered and translated; of the same numbering they stay as they are.
     let mut new = a.clone();
     for stage in &b.stages {
-        let end = if same {
-            stage.end.clone()
-        } else {
-            placed(&stage.end, &mut cubes)?;
-            let mut renumbered = last.clone();
-            for (cube, &number) in cubes.iter().zip(&numbers) {
-                renumbered[number as usize] = cube.shifted(shift);
+        grid.advance(&stage.end, &mut cubes).map_err(inexact)?;
+        let end = match &stage.end {
+            StageEnd::Moves(moves) if same_numbers => StageEnd::Moves(moves.clone()),
+            StageEnd::Moves(moves) => StageEnd::Moves(renumbered(moves, &numbers)),
+            StageEnd::Runs(runs) if same_numbers && shift == [0; 3] => runs.clone().into(),
+            StageEnd::Runs(_) => {
+                let mut moved = last.clone();
+                for (cube, &number) in cubes.iter().zip(&numbers) {
+                    moved[number as usize] = cube.shifted(shift);
+                }
+                gathered(&moved, grid).ok_or(OperationError::Inexact)?.into()
             }
-            gathered(&renumbered, grid).ok_or(OperationError::Inexact)?
         };
         new.stages.push(Stage { end, cause: CauseId(stage.cause.0 + causes), ..stage.clone() });
     }
@@ -61,6 +67,22 @@ pub(in crate::plan) fn joined(a: &Stages, b: &Stages, causes: u32) -> Result<Sta
         contact_force: a.model.contact_force.zip(b.model.contact_force).map(|(f, g)| looser(f, g, true)),
     };
     Ok(new)
+}
+
+/// Returns true if the same cells of two lattices stand fast, at the same places among the same obstacles: `numbers` and
+/// `shift` take the cells of the second to those of the first.
+fn same_anchor(a: &Stages, b: &Stages, numbers: &[u32], shift: [i64; 3]) -> bool {
+    let (Some(a), Some(b)) = (&a.anchor, &b.anchor) else { return false };
+    let mut cells: Vec<u64> = b.cells.iter().map(|&cell| u64::from(numbers[cell as usize])).collect();
+    cells.sort_unstable();
+    shift == [0; 3] && a.cells == cells && a.obstacles == b.obstacles
+}
+
+/// Returns moves with cell `i` as number `numbers[i]`, which must be a permutation of all cells.
+fn renumbered(moves: &Moves, numbers: &[u32]) -> Moves {
+    let mut classes = vec![0; numbers.len()];
+    moves.of_cells().zip(numbers).for_each(|(class, &number)| classes[number as usize] = class);
+    Moves::new(&moves.classes, classes.into_iter())
 }
 
 /// Returns for each of the second cubes the number of the first at its position, and the translation of the
@@ -85,36 +107,4 @@ fn matched(first: &[Cube], second: &[Cube]) -> Option<(Vec<u32>, [i64; 3])> {
         numbers[j as usize] = i;
     }
     Some((numbers, shift))
-}
-
-/// Returns runs that state the positions and sizes of all cells; `None` if 64 bits do not hold a number.
-fn gathered(cubes: &[Cube], grid: Grid) -> Option<Vec<Run>> {
-    let sizes = |i: usize| [0, 1, 2].map(|axis| cubes[i].size(axis));
-    let apart = |i: usize, j: usize| [0, 1, 2].map(|axis| cubes[j].middle(axis) - cubes[i].middle(axis));
-    let found = arithmetic_runs(cubes.len(), |i, j| (sizes(i) == sizes(j)).then(|| apart(i, j)));
-    let lines = i128::from(grid.lines);
-    let three = |values: [i64; 3], over: i128| {
-        let [x, y, z] = values.map(|value| Ratio::new(value.into(), over));
-        Some([x?, y?, z?])
-    };
-    let run = |s: ArithmeticRun| {
-        let counter = |count: usize, stride: usize| {
-            let step = three(apart(s.first, s.first + stride), 2 * lines)?;
-            Some(Counter { count: count as u64, stride: stride as i64, step })
-        };
-        let mut counters = Vec::new();
-        for (count, stride) in [(s.times, s.length), (s.length, 1)] {
-            if count > 1 {
-                counters.push(counter(count, stride)?);
-            }
-        }
-        let middle = [0, 1, 2].map(|axis| cubes[s.first].middle(axis));
-        Some(Run {
-            first: s.first as u64,
-            counters,
-            center: three(middle, 2 * lines)?,
-            size: three(sizes(s.first), lines)?,
-        })
-    };
-    found.into_iter().map(run).collect()
 }

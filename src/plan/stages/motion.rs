@@ -2,16 +2,17 @@
 //!
 //! In a stage every cell moves on a straight line, and its size changes linearly, by one time law that all share; so
 //! the two end configurations determine it. Configurations are given by runs of cells whose positions are affine in
-//! the run's indices, with rational numbers: a million cells take a few lines, and nothing is rounded.
+//! the run's indices, with rational numbers: a million cells take a few lines, and nothing is rounded. Stages of
+//! irregular shapes state the moves of cells in classes instead.
 
+use super::moves::{CellMove, Moves};
 use super::ratio::Ratio;
 use crate::plan::cause::CauseId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The trajectory of a lattice of cells, in stages. Lengths are in cell sizes; times in [`Stages::time_unit`].
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stages {
     /// The index of the cell type in [`Library::cells`](crate::robot::Library).
     pub cell: usize,
@@ -24,10 +25,23 @@ pub struct Stages {
     pub limits: CellLimits,
     /// The conditions on the forces of the cells and their contacts.
     pub model: Model,
+    /// The cells that stand fast, and the obstacles around them; `None` for a lattice that floats by itself.
+    pub anchor: Option<Anchor>,
     /// The position of every cell at the start. If two runs name a cell, the later holds.
     pub start: Vec<Run>,
     /// The stages of the motion, in order of time; they follow each other without pause.
     pub stages: Vec<Stage>,
+}
+
+/// The cells of a lattice that stand fast, so that the others push off from them and the centre of mass moves, and
+/// the obstacles, which stand fast too.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Anchor {
+    /// The numbers of the cells that neither move nor change their size, ascending; at least one.
+    pub cells: Vec<u64>,
+    /// The boxes that no cell overlaps at any time, numbered from 0 by themselves.
+    pub obstacles: Vec<Run>,
 }
 
 /// The limits of a cell, in units of its size and of [`Stages::time_unit`]; its greatest force gives it
@@ -60,10 +74,8 @@ pub struct Model {
     pub euclidean: bool,
 }
 
-/// One stage: from the configuration in which the one before ended to `end`. Cells that no run names stay; if two
-/// runs name a cell, the later holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+/// One stage: from the configuration in which the one before ended to the one that `end` states.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
     /// The name of the motion, in the planner's words, such as `x-squeeze`.
     pub name: String,
@@ -71,10 +83,25 @@ pub struct Stage {
     pub time_squared: Ratio,
     /// The time law that all cells share.
     pub law: Law,
-    /// The positions of cells at the end of the stage.
-    pub end: Vec<Run>,
+    /// The configuration at the end of the stage.
+    pub end: StageEnd,
     /// The index in the plan's causes of the source command that this stage comes from.
     pub cause: CauseId,
+}
+
+/// The configuration at the end of a stage, by positions or by moves from the configuration before.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StageEnd {
+    /// The positions of cells. Cells that no run names stay; if two runs name a cell, the later holds.
+    Runs(Vec<Run>),
+    /// The moves of all cells.
+    Moves(Moves),
+}
+
+impl From<Vec<Run>> for StageEnd {
+    fn from(runs: Vec<Run>) -> StageEnd {
+        StageEnd::Runs(runs)
+    }
 }
 
 /// The time law of a stage: its progress between its ends, `σ(u)` for `u` in 0..1 of its duration.
@@ -190,6 +217,14 @@ impl Stage {
     pub fn duration(&self) -> f64 {
         libm::sqrt(self.time_squared.to_f64())
     }
+
+    /// Returns the number of cells whose positions or moves the stage states, with repetition.
+    pub fn count(&self) -> u64 {
+        match &self.end {
+            StageEnd::Runs(runs) => runs.iter().map(Run::count).fold(0, u64::saturating_add),
+            StageEnd::Moves(moves) => moves.count(),
+        }
+    }
 }
 
 impl Run {
@@ -202,6 +237,12 @@ impl Run {
     /// Returns every cell of the run, as its number with its centre and size, in the order of the nested counters.
     pub fn cells(&self) -> impl Iterator<Item = (usize, CellBox)> + '_ {
         (0..self.count()).map(|n| self.cell(n))
+    }
+
+    /// Returns all numbers of the run: the centre, the size and the steps of the counters.
+    pub(in crate::plan) fn ratios(&self) -> impl Iterator<Item = Ratio> + '_ {
+        let steps = self.counters.iter().flat_map(|counter| counter.step);
+        self.center.into_iter().chain(self.size).chain(steps)
     }
 
     fn cell(&self, mut n: u64) -> (usize, CellBox) {
@@ -220,6 +261,14 @@ impl Run {
 }
 
 impl Stages {
+    /// Returns the boxes of all obstacles, by number.
+    pub fn obstacles(&self) -> Vec<CellBox> {
+        let runs = self.anchor.iter().flat_map(|anchor| &anchor.obstacles);
+        let mut named: Vec<(usize, CellBox)> = runs.flat_map(Run::cells).collect();
+        named.sort_by_key(|(number, _)| *number);
+        named.into_iter().map(|(_, obstacle)| obstacle).collect()
+    }
+
     /// Returns the duration of all stages, s.
     pub fn duration(&self) -> f64 {
         self.stages.iter().fold(0.0, |time, stage| time + stage.duration()) * self.time_unit
@@ -235,17 +284,9 @@ impl Stages {
         std::iter::once(0.0).chain(ends).collect()
     }
 
-    /// Returns runs that state the position of every cell before the stage of this index (from 0), or at the end if it
-    /// is the number of stages: those since the last configuration that named every cell, in order, so that if two
-    /// name a cell the later holds. Panics if the index is larger.
-    pub fn before(&self, stage: usize) -> Vec<Run> {
-        let named: Vec<&[Run]> = std::iter::once(&self.start)
-            .chain(self.stages[..stage].iter().map(|s| &s.end))
-            .map(Vec::as_slice)
-            .collect();
-        let all = |runs: &&[Run]| runs.iter().map(Run::count).sum::<u64>() >= self.count;
-        let first = named.iter().rposition(all).unwrap_or(0);
-        named[first..].concat()
+    /// Returns the number of the first of the cells that stand fast, on which the others hang; `None` if none does.
+    pub(in crate::plan) fn root(&self) -> Option<u32> {
+        self.anchor.as_ref().and_then(|anchor| anchor.cells.first()).map(|&cell| cell as u32)
     }
 
     /// Returns the box of every cell, by its number, at the time `t` (s); before the start and after the end, as at
@@ -258,11 +299,11 @@ impl Stages {
             let duration = stage.duration();
             if now < duration {
                 let before = cells.clone();
-                place(&mut cells, &stage.end);
+                advance(&mut cells, &stage.end);
                 blend(&before, &mut cells, stage.law.progress(now / duration));
                 break;
             }
-            place(&mut cells, &stage.end);
+            advance(&mut cells, &stage.end);
             now -= duration;
         }
         cells
@@ -272,6 +313,23 @@ impl Stages {
 fn place(cells: &mut [CellBox], runs: &[Run]) {
     for (index, cell) in runs.iter().flat_map(Run::cells) {
         cells[index] = cell;
+    }
+}
+
+/// Takes the boxes of all cells from before a stage to its end.
+fn advance(cells: &mut [CellBox], end: &StageEnd) {
+    let moves = match end {
+        StageEnd::Runs(runs) => return place(cells, runs),
+        StageEnd::Moves(moves) => moves,
+    };
+    let changes = |class: &CellMove| (class.displacement.map(Ratio::to_f64), class.growth.map(Ratio::to_f64));
+    let changes: Vec<_> = moves.classes.iter().map(changes).collect();
+    for (cell, class) in cells.iter_mut().zip(moves.of_cells()) {
+        let (displacement, growth) = &changes[class as usize];
+        for axis in 0..3 {
+            cell.center[axis] += displacement[axis];
+            cell.size[axis] += growth[axis];
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 //! The validation of stages: references and ranges, in whole numbers.
 
-use super::motion::{Law, Run, Stages};
+use super::fault::StagesFault;
+use super::motion::{Anchor, Law, Run, StageEnd, Stages};
+use super::moves::{CellMove, Moves};
 use super::ratio::Ratio;
-use crate::plan::fault::{PlanFault, StagesFault, need, need_index};
+use crate::plan::fault::{PlanFault, need, need_index};
 use crate::robot::Library;
 
 /// The greatest number of cells of a lattice.
@@ -12,9 +14,9 @@ const RAMP_DENOMINATOR_MAX: i64 = 1 << 60;
 
 impl Stages {
     /// Checks that the stages are well formed: that the cell type exists and there are not too many cells, that the
-    /// start names them all, that every run names cells there are, that every ratio is a number, and that unit of
-    /// time, limits, durations and ramps are in their ranges. `library`: that of the plan; `causes`: the number of
-    /// causes of the plan.
+    /// start names them all, that every run names cells there are, that moves are of every cell and lead to exact
+    /// positions, that an anchor has cells, that every ratio is a number, and that unit of time, limits, durations and ramps are in their
+    /// ranges. `library`: that of the plan; `causes`: the number of causes of the plan.
     ///
     /// # Errors
     /// The first [`PlanFault`] found.
@@ -26,15 +28,34 @@ impl Stages {
         let named = self.start.iter().map(|run| size_of(run).unwrap_or(0)).fold(0, u64::saturating_add);
         need(named >= self.count, || StagesFault::Start)?;
         self.start.iter().try_for_each(|run| self::run(run, self.count))?;
+        if let Some(anchor) = &self.anchor {
+            self.anchor(anchor)?;
+        }
         for stage in &self.stages {
             need_index(stage.cause.0 as usize, causes, "cause")?;
             ratio(stage.time_squared)?;
             let name = || stage.name.clone();
             need(stage.time_squared.0 >= 0, || StagesFault::StageDuration { stage: name() })?;
             law(stage.law).map_err(|fault| PlanFault::InStage { stage: name(), fault: Box::new(fault) })?;
-            stage.end.iter().try_for_each(|run| self::run(run, self.count))?;
+            match &stage.end {
+                StageEnd::Runs(runs) => runs.iter().try_for_each(|run| self::run(run, self.count))?,
+                StageEnd::Moves(moves) => self::moves(moves, self.count, &stage.name)?,
+            }
         }
-        Ok(())
+        // Whoever comes after may add up moves without asking.
+        Ok(self.for_configurations(|_| false, |_, _| {}).map_err(StagesFault::Inexact)?)
+    }
+
+    fn anchor(&self, anchor: &Anchor) -> Result<(), PlanFault> {
+        let ascending = anchor.cells.windows(2).all(|pair| pair[0] < pair[1]);
+        let there = anchor.cells.last().is_some_and(|&last| last < self.count);
+        need(ascending && there, || StagesFault::AnchorCells)?;
+        need(!self.model.balanced, || StagesFault::AnchorBalance)?;
+        let count = anchor.obstacles.iter().map(|run| size_of(run).unwrap_or(0)).fold(0, u64::saturating_add);
+        need(count <= CELLS_MAX, || StagesFault::CellCount { most: CELLS_MAX })?;
+        anchor.obstacles.iter().try_for_each(|run| self::run(run, count))?;
+        let positive = anchor.obstacles.iter().all(|run| run.size.iter().all(|side| side.0 > 0));
+        need(positive, || StagesFault::ObstacleSize)
     }
 
     fn limits(&self) -> Result<(), PlanFault> {
@@ -79,6 +100,18 @@ fn run(run: &Run, count: u64) -> Result<(), PlanFault> {
     let (low, high) = (i128::from(run.first) + low, i128::from(run.first) + high);
     let inside = low >= 0 && high < i128::from(count);
     need(inside, || StagesFault::RunCells { low, high, count })
+}
+
+/// Checks moves of a lattice of `count` cells in the stage of this name.
+fn moves(moves: &Moves, count: u64, stage: &str) -> Result<(), PlanFault> {
+    moves.classes.iter().flat_map(CellMove::ratios).try_for_each(ratio)?;
+    let classes = moves.classes.len();
+    let unfit = moves.cells.iter().find(|span| span.count == 0 || span.class as usize >= classes);
+    if let Some(span) = unfit {
+        return Err(StagesFault::MoveSpan { stage: stage.to_owned(), class: span.class, classes }.into());
+    }
+    let stated = moves.count();
+    need(stated == count, || StagesFault::MoveCells { stage: stage.to_owned(), stated, count })
 }
 
 fn ratio(ratio: Ratio) -> Result<(), PlanFault> {

@@ -50,15 +50,10 @@ pub fn weighted_fan(corners: &[Vec3]) -> impl Iterator<Item = ([Vec3; 3], f64)> 
 
 /// Returns the centroid of a flat convex outline of at least three corners, m.
 pub fn centroid(corners: &[Vec3]) -> Vec3 {
-    thrice_centroid(corners) / 3.0
-}
-
-/// Returns three times the centroid of a flat convex outline; of a triangle, the sum of its corners.
-pub fn thrice_centroid(corners: &[Vec3]) -> Vec3 {
     if let [a, b, c] = corners {
-        return a + b + c;
+        return (a + b + c) / 3.0;
     }
-    weighted_fan(corners).map(|([a, b, c], part)| (a + b + c) * part).fold(Vec3::zeros(), |sum, v| sum + v)
+    weighted_fan(corners).map(|([a, b, c], part)| (a + b + c) * part).sum::<Vec3>() / 3.0
 }
 
 /// Returns the lengths of the sides of an outline, m; entry k is that of side k, from corner k to the next.

@@ -32,3 +32,4 @@ mod tolerances;
 pub use free_space::{FreeSpace, Meeting, Surroundings};
 pub use front::Misplaced;
 pub use resolve::{GOALS_MAX, Placing, Problem, Reason, Refusal, Resolved, resolve};
+pub(super) use timing::together as least_time;

@@ -10,7 +10,12 @@ const LINE_SPARE: f64 = 0.02;
 
 /// Returns the least time, s, in which all joints come from rest in one posture to rest in another together; `None` if no
 /// limit bounds it. `from`, `to`: the positions of all joints, rad or m.
-pub(super) fn together(robot: &Assembly, from: &[f64], to: &[f64], profile: Profile) -> Option<f64> {
+pub(in crate::planners) fn together(
+    robot: &Assembly,
+    from: &[f64],
+    to: &[f64],
+    profile: Profile,
+) -> Option<f64> {
     let mut longest = None;
     let mut moves = false;
     for drive in drives(robot) {

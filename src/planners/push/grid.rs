@@ -52,6 +52,14 @@ impl Grid {
         (x + self.sides[0] * (y + self.sides[1] * z)) as usize
     }
 
+    /// Returns the numbers of those sites, given by coordinates in cells, that lie in the grid.
+    pub(super) fn sites_within<'a>(&'a self, places: &'a [[i64; 3]]) -> impl Iterator<Item = usize> + 'a {
+        let inside = move |place: &&[i64; 3]| {
+            (0..3).all(|axis| (0..self.sides[axis]).contains(&(place[axis] - self.low[axis])))
+        };
+        places.iter().filter(inside).map(move |place| self.site(*place))
+    }
+
     /// Returns the coordinates of a site, in cells.
     pub(super) fn place(&self, site: usize) -> [i64; 3] {
         let site = site as i64;

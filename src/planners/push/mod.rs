@@ -16,3 +16,12 @@ mod stage;
 
 pub(super) use boxes::Placed;
 pub(super) use runs::best;
+
+/// The lattice sites that bind a reconfiguration: those of cells that stand fast, and those of obstacles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds<'a> {
+    /// The sites of the cells that stand fast, of the start and of the goal, in cells. None for a lattice that floats.
+    pub(crate) fixed: &'a [[i64; 3]],
+    /// The sites that stay empty, in cells.
+    pub(crate) obstacles: &'a [[i64; 3]],
+}

@@ -1,5 +1,6 @@
 //! Many runs of the search, over several overlays of the goal on the start, of which the best is kept.
 
+use super::Bounds;
 use super::boxes::Placed;
 use super::grid::Grid;
 use super::search::{Found, Search};
@@ -40,9 +41,15 @@ impl Best {
 }
 
 /// Returns the fastest of many ways from one shape to another; `None` if none is found that takes less than
-/// `time_limit`, in units of time. `squeezes`: whether cells shrink to half their size.
-pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limit: f64) -> Option<Best> {
-    let mut overlays = overlays(from, to);
+/// `time_limit`, in units of time. The goal may be translated if nothing stands fast within the `bounds`; a cell that
+/// does must be one of both shapes. `squeezes`: whether cells shrink to half their size.
+pub(crate) fn best(
+    from: &[[i64; 3]],
+    to: &[[i64; 3]],
+    (squeezes, bounds): (bool, Bounds),
+    time_limit: f64,
+) -> Option<Best> {
+    let mut overlays = if bounds.fixed.is_empty() { overlays(from, to) } else { vec![[0; 3]] };
     let mut random = SplitMix64(from.len() as u64);
     let mut best: Option<Best> = None;
     // The search need not find a way at any price where another is known already.
@@ -67,7 +74,7 @@ pub(crate) fn best(from: &[[i64; 3]], to: &[[i64; 3]], squeezes: bool, time_limi
         if backwards {
             std::mem::swap(&mut start, &mut goal);
         }
-        let mut search = Search::new(&grid, &start, &goal, squeezes, &mut random);
+        let mut search = Search::new(&grid, &start, &goal, (squeezes, bounds), &mut random);
         let found = search.run(least, most);
         work += search.work();
         if let Some(found) = found {

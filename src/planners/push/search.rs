@@ -1,5 +1,6 @@
 //! The search itself: stage by stage holes are filled, lines of cells at once as many as can move beside each other.
 
+use super::Bounds;
 use super::boxes::{Boxes, Snapshot};
 use super::grid::{DIRECTIONS, Direction, Grid, axis_of, opposite};
 use super::routes::{Routes, UNREACHED};
@@ -91,15 +92,17 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Returns the search for a way from the sites `start` to the sites `goal` of a grid. `squeezes`: whether cells
-    /// shrink to half their size.
+    /// Returns the search for a way from the sites `start` to the sites `goal` of a grid within `bounds`. `squeezes`:
+    /// whether cells shrink to half their size.
     pub(super) fn new(
         grid: &'a Grid,
         start: &[usize],
         goal: &'a [usize],
-        squeezes: bool,
+        (squeezes, bounds): (bool, Bounds),
         random: &'a mut SplitMix64,
     ) -> Search<'a> {
+        let mut stage = Stage::new(grid.len());
+        stage.bind(grid.sites_within(bounds.fixed), grid.sites_within(bounds.obstacles));
         let mut is_goal = vec![false; grid.len()];
         goal.iter().for_each(|&site| is_goal[site] = true);
         let orders = [Order::Random, Order::NearestFirst, Order::FarthestFirst];
@@ -112,7 +115,7 @@ impl<'a> Search<'a> {
         Search {
             grid,
             boxes: Boxes::whole(grid.len(), start),
-            stage: Stage::new(grid.len()),
+            stage,
             routes: Routes::new(grid.len()),
             is_goal,
             goal,

@@ -49,8 +49,10 @@ impl Line {
 #[derive(Debug)]
 pub(super) struct Stage {
     roles: Vec<Role>,
-    /// True for sites that a line moves into.
+    /// True for sites that a line moves into, and for those of obstacles.
     claimed: Vec<bool>,
+    /// True for sites whose cells stand fast.
+    fixed: Vec<bool>,
     /// The sites that hold cells at the start of the stage, in ascending order.
     filled: Vec<usize>,
     /// The lines of the stage.
@@ -71,6 +73,7 @@ impl Stage {
         Stage {
             roles: vec![Role::Still; sites],
             claimed: vec![false; sites],
+            fixed: vec![false; sites],
             filled: vec![],
             lines: vec![],
             turns: vec![],
@@ -78,6 +81,16 @@ impl Stage {
             above: vec![],
             work: 0,
         }
+    }
+
+    /// Binds all stages: the cells of `fixed` sites stand fast, and those of `obstacles` stay empty.
+    pub(super) fn bind(
+        &mut self,
+        fixed: impl Iterator<Item = usize>,
+        obstacles: impl Iterator<Item = usize>,
+    ) {
+        fixed.for_each(|site| self.fixed[site] = true);
+        obstacles.for_each(|site| self.claimed[site] = true);
     }
 
     /// Begins a stage at the state `boxes`: turns that are half done are finished.
@@ -108,9 +121,9 @@ impl Stage {
         self.lines.is_empty() && self.turns.is_empty()
     }
 
-    /// Returns true if the cells of a site rest in the stage.
+    /// Returns true if the cells of a site rest in the stage, so far, and do not stand fast.
     pub(super) fn is_still(&self, site: usize) -> bool {
-        self.roles[site] == Role::Still
+        self.roles[site] == Role::Still && !self.fixed[site]
     }
 
     /// Returns true if a site holds one cell, which rests: a line may move through it.
@@ -118,7 +131,7 @@ impl Stage {
         self.is_still(site) && boxes.is_single(site)
     }
 
-    /// Returns true if a line moves into a site.
+    /// Returns true if a line moves into a site, or if it is that of an obstacle.
     pub(super) fn is_claimed(&self, site: usize) -> bool {
         self.claimed[site]
     }

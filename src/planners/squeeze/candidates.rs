@@ -14,6 +14,7 @@ use super::shape::Shape;
 use super::shear::shear;
 use super::unroll::{pile, unroll, unroll_pile};
 use super::{Method, Refusal};
+use crate::planners::push::Bounds;
 
 /// A motion between two shapes, or from one shape to the row that motions go through, with the method by which it was
 /// constructed.
@@ -104,6 +105,25 @@ pub(super) fn candidates(
 /// all cells move a little.
 pub(super) const MELT_MAX: usize = 400;
 
+/// The bounds of a lattice that floats among nothing.
+const FLOATING: Bounds = Bounds { fixed: &[], obstacles: &[] };
+
+/// Returns the motion by pushes from one shape to the other, both where they stand, while the cells of the bounds stand
+/// fast; empty if none is found.
+///
+/// # Errors
+/// [`Refusal::TooLarge`] if a number does not fit 64 bits, [`Refusal::Defect`] if the construction fails.
+pub(super) fn anchored_candidates(
+    limits: PlanLimits,
+    from: &Shape,
+    to: &Shape,
+    bounds: Bounds,
+) -> Result<Vec<Candidate>, Refusal> {
+    let numbers: Vec<u64> = (0..from.count()).collect();
+    let motion = push(limits, (from, to), &numbers, (bounds, f64::INFINITY))?;
+    Ok(motion.map(|motion| Candidate { method: Method::Push, motion }).into_iter().collect())
+}
+
 /// The greatest number of cells of a row that is piled up before it is pushed into shape.
 const PILE_MAX: u64 = 4096;
 
@@ -111,7 +131,7 @@ const PILE_MAX: u64 = 4096;
 /// first if that is faster.
 fn pushed(limits: PlanLimits, from: &Shape, to: &Shape, limit: f64) -> Result<Option<Motion>, Refusal> {
     let numbers: Vec<u64> = (0..from.count()).collect();
-    let direct = push(limits, (from, to), &numbers, limit)?;
+    let direct = push(limits, (from, to), &numbers, (FLOATING, limit))?;
     let limit = direct.as_ref().map_or(limit, Motion::duration).min(limit);
     let (row, other, backwards) = match [from, to].map(|shape| (0..3).find(|&axis| shape.is_row_along(axis)))
     {
@@ -159,7 +179,7 @@ fn piled(limits: PlanLimits, axis: usize, to: &Shape, mut limit: f64) -> Result<
         let (places, numbers): (Vec<[i64; 3]>, Vec<u64>) = piled.into_iter().unzip();
         let rest = limit - unrolled.duration();
         if rest > 0.0
-            && let Some(pushed) = push(limits, (&Shape::of(&places), to), &numbers, rest)?
+            && let Some(pushed) = push(limits, (&Shape::of(&places), to), &numbers, (FLOATING, rest))?
         {
             let motion = unrolled.reversed().then(pushed);
             if motion.duration() < limit {

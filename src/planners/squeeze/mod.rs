@@ -18,7 +18,7 @@
 //! let cell = Cell { name, size: 1.0, shrinks_to: 0.5, speed: 1.0, force: 1.0, mass: 1.0 };
 //! let row: Vec<[i64; 3]> = (0..16).map(|i| [i, 0, 0]).collect();
 //! let column: Vec<[i64; 3]> = (0..16).map(|i| [0, i, 0]).collect();
-//! let problem = Problem { cell, start: row, goal: column };
+//! let problem = Problem { cell, start: row, goal: column, fixed: vec![], obstacles: vec![] };
 //! let settings = Settings { method: Method::Accordion, ..Settings::default() };
 //! let solution = squeeze::plan(&problem, &settings, &mut NoProgress)?;
 //! assert!(solution.report.balanced);
@@ -27,6 +27,7 @@
 //! ```
 
 mod accordion;
+mod anchor;
 mod arms;
 mod candidates;
 mod domain;
@@ -46,6 +47,7 @@ mod tolerances;
 mod unroll;
 
 pub use accordion::accordion;
+pub use anchor::AnchorFault;
 pub use arms::arms;
 pub use domain::{CellState, Domain};
 pub use fold::fold;
@@ -118,8 +120,13 @@ pub struct Problem {
     /// faces.
     pub start: Vec<[i64; 3]>,
     /// The lattice sites of the cells at the end, in cell sizes, in any order: all different, connected over faces,
-    /// as many as at the start; a translation of all makes no difference.
+    /// as many as at the start; a translation of all makes no difference unless cells are fixed.
     pub goal: Vec<[i64; 3]>,
+    /// The lattice sites of the cells that stand fast, in cell sizes, of the start and of the goal; none for a robot
+    /// that floats, whose centre of mass stays instead.
+    pub fixed: Vec<[i64; 3]>,
+    /// The lattice sites of obstacles, in cell sizes, which no cell overlaps at any time; none without fixed cells.
+    pub obstacles: Vec<[i64; 3]>,
 }
 
 /// The settings of `squeeze`. By default the method and the model are chosen for the shapes, and the limits are those
@@ -187,6 +194,8 @@ pub enum Refusal {
         /// The method that the settings ask for.
         method: Method,
     },
+    /// Fixed cells and obstacles leave no way that is known.
+    Anchor(AnchorFault),
     /// A number of the plan, which is exact, does not fit 64 bits.
     TooLarge,
     /// The observer ended the search before there was a plan.
@@ -226,6 +235,7 @@ impl fmt::Display for Refusal {
             Refusal::Unbalanced { .. } => {
                 f.write_str("no way is known on which the angular momentum stays zero")
             }
+            Refusal::Anchor(fault) => fault.fmt(f),
             Refusal::TooLarge => f.write_str("the numbers of this plan are too large to be kept exactly"),
             Refusal::Cancelled => f.write_str("the search was ended before there was a plan"),
             Refusal::Defect(what) => write!(f, "the planner failed: {what}"),

@@ -2,7 +2,7 @@
 
 use super::Refusal;
 use super::domain::{CellState, Domain, WHOLE};
-use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Ratio, Run, Stage, Stages};
+use crate::plan::{CauseId, CellLimits, Counter, Law, Model, Moves, Ratio, Run, Stage, StageEnd, Stages};
 
 /// A motion (trajectory) of a lattice robot: configurations of all cells with the transitions between them. Lengths
 /// are in cell sizes; the unit of time is √(size · mass / force), in which the greatest acceleration of a cell is 1
@@ -12,8 +12,9 @@ pub struct Motion {
     /// The number of cells of the robot.
     pub count: u64,
     /// The configurations in order of time as arithmetic runs, in cell sizes relative to the centre of mass, which
-    /// rests; one more than there are transitions.
-    pub configurations: Vec<Vec<Run>>,
+    /// rests; one more than there are transitions. `None` between two transitions that state moves; the first and the
+    /// last are stated always.
+    pub configurations: Vec<Option<Vec<Run>>>,
     /// The transitions, of which number `k` leads from configuration `k` to `k + 1`.
     pub transitions: Vec<Transition>,
 }
@@ -29,6 +30,8 @@ pub struct Transition {
     pub law: Law,
     /// True if the angular momentum stays zero during the transition.
     pub balanced: bool,
+    /// The moves of all cells; `None` if the configurations before and after are stated instead.
+    pub moves: Option<Moves>,
 }
 
 /// The velocity profile of a stage: how its progress speeds up and slows down.
@@ -51,6 +54,9 @@ pub struct PlanLimits {
     pub profile: Profile,
     /// True if the Euclidean norm of an acceleration is bounded, not only its component along each axis.
     pub euclidean: bool,
+    /// True if some cells stand fast, so that nothing recoils: configurations are relative to the lattice, not to the
+    /// centre of mass.
+    pub anchored: bool,
 }
 
 /// The data about cells, limits and model that a motion needs to become the body of a plan.
@@ -96,8 +102,8 @@ impl<'a> Builder<'a> {
         domains: &[Domain],
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<Builder<'a>, Refusal> {
-        let start = runs(domains, count, &place)?;
-        let motion = Motion { count, configurations: vec![start], transitions: vec![] };
+        let start = runs(domains, count, limits.anchored, &place)?;
+        let motion = Motion { count, configurations: vec![Some(start)], transitions: vec![] };
         Ok(Builder { limits, motion, last: Box::new(place) })
     }
 
@@ -115,16 +121,61 @@ impl<'a> Builder<'a> {
         domains: &[Domain],
         place: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
-        let motion = Displacements::of(domains, self.motion.count, &self.last, &place);
+        self.stage_by(name, relative_displacement, domains, place, None)
+    }
+
+    /// Appends a stage as [`stage`](Self::stage) does, that is stated by these moves if there are any, else by the
+    /// configurations before and after. The moves must be the displacements relative to the centre of mass, and they
+    /// must lead to the states that `place` returns.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+    pub(super) fn stage_by(
+        &mut self,
+        name: &'static str,
+        relative_displacement: i64,
+        domains: &[Domain],
+        place: impl Fn(u64) -> CellState + 'a,
+        moves: Option<Moves>,
+    ) -> Result<(), Refusal> {
+        let motion = self.displacements(domains, &place);
         if motion.moves {
             let (time_squared, law) =
                 least_time(&self.limits, self.motion.count, &motion, relative_displacement)
                     .ok_or(Refusal::TooLarge)?;
-            self.motion.transitions.push(Transition { name, time_squared, law, balanced: motion.balanced });
-            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
+            let mut configuration = None;
+            if moves.is_none() {
+                self.state_last(domains)?;
+                configuration = Some(self.runs(domains, &place)?);
+            }
+            let balanced = motion.balanced;
+            self.motion.transitions.push(Transition { name, time_squared, law, balanced, moves });
+            self.motion.configurations.push(configuration);
         }
         self.last = Box::new(place);
         Ok(())
+    }
+
+    /// States the last configuration, if it is not stated yet, by runs of these domains, on each of which it must be
+    /// affine.
+    ///
+    /// # Errors
+    /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
+    pub(super) fn state_last(&mut self, domains: &[Domain]) -> Result<(), Refusal> {
+        if let Some(last @ None) = self.motion.configurations.last_mut() {
+            *last = Some(runs(domains, self.motion.count, self.limits.anchored, &self.last)?);
+        }
+        Ok(())
+    }
+
+    /// Returns the configuration in which `place` returns the state of a cell, affine on each of the domains.
+    fn runs(&self, domains: &[Domain], place: &dyn Fn(u64) -> CellState) -> Result<Vec<Run>, Refusal> {
+        runs(domains, self.motion.count, self.limits.anchored, place)
+    }
+
+    /// Returns the displacements from the last configuration to that in which `place` returns the state of a cell.
+    fn displacements(&self, domains: &[Domain], place: &dyn Fn(u64) -> CellState) -> Displacements {
+        Displacements::of(domains, (self.motion.count, self.limits.anchored), &self.last, place)
     }
 
     /// Appends two stages between which the cells do not come to rest: a speed-up to the states `middle` and a
@@ -141,8 +192,8 @@ impl<'a> Builder<'a> {
         middle: impl Fn(u64) -> CellState + 'a,
         end: impl Fn(u64) -> CellState + 'a,
     ) -> Result<(), Refusal> {
-        let whole = Displacements::of(domains, self.motion.count, &self.last, &end);
-        let resized = 2 * Displacements::of(domains, self.motion.count, &self.last, &middle).resized;
+        let whole = self.displacements(domains, &end);
+        let resized = 2 * self.displacements(domains, &middle).resized;
         let limits = PlanLimits { profile: Profile::Trapezoid, ..self.limits };
         let (time, law) = least_time(&limits, self.motion.count, &whole, relative_displacement.max(resized))
             .ok_or(Refusal::TooLarge)?;
@@ -156,14 +207,16 @@ impl<'a> Builder<'a> {
                 time_squared: half,
                 law,
                 balanced: whole.balanced,
+                moves: None,
             });
-            self.motion.configurations.push(runs(domains, self.motion.count, &place)?);
+            let configuration = self.runs(domains, &place)?;
+            self.motion.configurations.push(Some(configuration));
         }
         self.last = Box::new(end);
         Ok(())
     }
 
-    /// Returns the motion of the stages added so far.
+    /// Returns the motion of the stages added so far, whose last configuration must be stated.
     pub(super) fn motion(self) -> Motion {
         self.motion
     }
@@ -243,12 +296,17 @@ impl Affine {
     }
 }
 
-/// Returns the configuration about its centre of mass, as arithmetic runs.
-fn runs(domains: &[Domain], count: u64, place: &dyn Fn(u64) -> CellState) -> Result<Vec<Run>, Refusal> {
+/// Returns the configuration as arithmetic runs, about its centre of mass if it is not `anchored`.
+fn runs(
+    domains: &[Domain],
+    count: u64,
+    anchored: bool,
+    place: &dyn Fn(u64) -> CellState,
+) -> Result<Vec<Run>, Refusal> {
     crate::interrupt::checkpoint();
     let affine: Vec<Affine> = domains.iter().map(|domain| Affine::of(domain, place)).collect();
     let sum = |axis| domains.iter().zip(&affine).map(|(d, a)| a.sum(d, axis)).sum::<i128>();
-    let total = [sum(0), sum(1), sum(2)];
+    let total = if anchored { [0; 3] } else { [sum(0), sum(1), sum(2)] };
     let quarters = |n: i64| Ratio::new(n.into(), WHOLE.into()).ok_or(Refusal::TooLarge);
     let three = |f: &dyn Fn(usize) -> Result<Ratio, Refusal>| Ok([f(0)?, f(1)?, f(2)?]);
     let run = |(domain, affine): (&Domain, &Affine)| {
@@ -291,10 +349,11 @@ impl Displacements {
         Ratio::new(root, whole * ROOT_PARTS)
     }
 
-    /// Computes the displacements of a stage, relative to the centre of mass, and its angular momentum.
+    /// Computes the displacements of a stage, relative to the centre of mass if it is not `anchored`, and its angular
+    /// momentum.
     fn of(
         domains: &[Domain],
-        count: u64,
+        (count, anchored): (u64, bool),
         before: &dyn Fn(u64) -> CellState,
         after: &dyn Fn(u64) -> CellState,
     ) -> Displacements {
@@ -305,7 +364,7 @@ impl Displacements {
             domains.iter().zip(&ends).map(moved).sum::<i128>()
         };
         // The centre of mass would drift by this; all displacements are relative to it.
-        let drift = [sum(0), sum(1), sum(2)];
+        let drift = if anchored { [0; 3] } else { [sum(0), sum(1), sum(2)] };
         let mut motion = Displacements { farthest: [0; 3], resized: 0, moves: false, balanced: true };
         // Twelve times the sum of position × displacement over all cells, about the origin: the angular
         // momentum but for the common time law.
@@ -349,7 +408,7 @@ impl Displacements {
             let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
             i128::from(count) * turning[axis] - 12 * (places[y] * drift[z] - places[z] * drift[y])
         };
-        motion.balanced = (0..3).all(|axis| about(axis) == 0);
+        motion.balanced = !anchored && (0..3).all(|axis| about(axis) == 0);
         motion
     }
 }
@@ -361,14 +420,18 @@ impl Motion {
     /// # Errors
     /// [`Refusal::TooLarge`] if a number does not fit 64 bits.
     pub fn rest(count: u64, domains: &[Domain], place: impl Fn(u64) -> CellState) -> Result<Motion, Refusal> {
-        Ok(Motion { count, configurations: vec![runs(domains, count, &place)?], transitions: vec![] })
+        let start = runs(domains, count, false, &place)?;
+        Ok(Motion { count, configurations: vec![Some(start)], transitions: vec![] })
     }
 
     /// Returns the motion in reverse, from the end to the start, with the time laws reversed.
     pub fn reversed(mut self) -> Motion {
         self.configurations.reverse();
         self.transitions.reverse();
-        self.transitions.iter_mut().for_each(|transition| transition.law = transition.law.reversed());
+        for transition in &mut self.transitions {
+            transition.law = transition.law.reversed();
+            transition.moves = transition.moves.as_ref().map(Moves::reversed);
+        }
         self
     }
 
@@ -388,7 +451,12 @@ impl Motion {
             (0..3).for_each(|k| turned[to[k]] = ratios[k]);
             turned
         };
-        for run in self.configurations.iter_mut().flatten() {
+        let moves = self.transitions.iter_mut().filter_map(|transition| transition.moves.as_mut());
+        for class in moves.flat_map(|moves| &mut moves.classes) {
+            class.displacement = turn(class.displacement);
+            class.growth = turn(class.growth);
+        }
+        for run in self.configurations.iter_mut().flatten().flatten() {
             run.center = turn(run.center);
             run.size = turn(run.size);
             run.counters.iter_mut().for_each(|counter| counter.step = turn(counter.step));
@@ -396,15 +464,18 @@ impl Motion {
         self
     }
 
-    /// Returns the motion as the body of a plan, whose stages all have cause 0.
+    /// Returns the motion as the body of a plan without an anchor, whose stages all have cause 0.
     pub fn into_stages(self, header: PlanHeader) -> Stages {
         let mut configurations = self.configurations.into_iter();
-        let start = configurations.next().unwrap_or_default();
-        let stage = |(transition, end): (Transition, Vec<Run>)| Stage {
+        let start = configurations.next().flatten().unwrap_or_default();
+        let stage = |(transition, end): (Transition, Option<Vec<Run>>)| Stage {
             name: transition.name.into(),
             time_squared: transition.time_squared,
             law: transition.law,
-            end,
+            end: match transition.moves {
+                Some(moves) => StageEnd::Moves(moves),
+                None => StageEnd::Runs(end.unwrap_or_default()),
+            },
             cause: CauseId(0),
         };
         Stages {
@@ -413,6 +484,7 @@ impl Motion {
             time_unit: header.time_unit,
             limits: header.limits,
             model: header.model,
+            anchor: None,
             start,
             stages: self.transitions.into_iter().zip(configurations).map(stage).collect(),
         }

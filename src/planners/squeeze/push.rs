@@ -6,13 +6,13 @@ use super::listed::Listed;
 use super::motion::{Motion, PlanLimits};
 use super::shape::Shape;
 use crate::plan::Ratio;
-use crate::planners::push::{Placed, best};
+use crate::planners::push::{Bounds, Placed, best};
 
 /// The name of the stages.
 const STAGE: &str = "push";
 
-/// Returns a motion from one shape to another in which lines of cells are pushed; `None` if none is found that takes
-/// less than `time_limit` (in units of time, for cells whose speed limit is 1). `numbers`: the number of the cell at
+/// Returns a motion from one shape to another within `bounds` in which lines of cells are pushed; `None` if none is found
+/// that takes less than `time_limit` (in units of time, for cells whose speed limit is 1). `numbers`: the number of the cell at
 /// each position of the first shape.
 ///
 /// # Errors
@@ -21,10 +21,12 @@ pub(super) fn push(
     limits: PlanLimits,
     (from, to): (&Shape, &Shape),
     numbers: &[u64],
-    time_limit: f64,
+    (bounds, time_limit): (Bounds, f64),
 ) -> Result<Option<Motion>, Refusal> {
     let squeezes = limits.cell.smallest.order(Ratio(1, 2)).is_le();
-    let Some(way) = best(&from.positions, &to.positions, squeezes, time_limit) else { return Ok(None) };
+    let Some(way) = best(&from.positions, &to.positions, (squeezes, bounds), time_limit) else {
+        return Ok(None);
+    };
     let state = |placed: Placed| CellState { center: placed.center, size: placed.size };
     let states = way.places(from.positions.len());
     let states: Vec<Vec<CellState>> =

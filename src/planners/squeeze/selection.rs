@@ -1,13 +1,15 @@
 //! The planner itself: shapes to candidates, and the fastest that the model allows.
 
-use super::candidates::{Candidate, MELT_MAX, candidates};
+use super::anchor::{self, AnchorFault};
+use super::candidates::{Candidate, MELT_MAX, anchored_candidates, candidates};
 use super::motion::{Motion, PlanHeader, PlanLimits};
 use super::retime::retime;
 use super::shape::Shape;
 use super::tolerances::TOLERANCES;
 use super::{Method, ModelChoice, Norm, Problem, Refusal, Report, Settings};
 use crate::plan::lattice::{end_shapes, time_lower_bound};
-use crate::plan::{Body, CellLimits, Model, Ratio, Stages};
+use crate::plan::{Anchor, Body, CellLimits, Model, Ratio, Stages};
+use crate::planners::push::Bounds;
 use crate::planners::{Progress, Solution};
 use crate::robot::Cell;
 use crate::units::{Dimension, quantity};
@@ -23,6 +25,7 @@ const SPEED_SQUARED_MAX: f64 = 1e6;
 /// # Errors
 /// A [`Refusal`]: [`Counts`](Refusal::Counts) for shapes of different numbers of cells; [`Stiff`](Refusal::Stiff),
 /// [`Solid`](Refusal::Solid) or [`Method`](Refusal::Method) if no construction asked for applies;
+/// [`Anchor`](Refusal::Anchor) for fixed cells or obstacles that do not fit the shapes, or leave no way that is found;
 /// [`Unbalanced`](Refusal::Unbalanced) if the model allows none of the motions; [`TooLarge`](Refusal::TooLarge) for
 /// numbers that do not fit 64 bits; [`Cancelled`](Refusal::Cancelled) if `progress` ends the search before the first
 /// candidate. [`Defect`](Refusal::Defect) alone is a failure of the planner, not of the problem.
@@ -34,21 +37,33 @@ pub fn plan(
     if problem.start.len() != problem.goal.len() {
         return Err(Refusal::Counts { from: problem.start.len(), to: problem.goal.len() });
     }
-    let (from, to) = (Shape::of(&problem.start), Shape::of(&problem.goal));
+    anchor::check(problem, settings).map_err(Refusal::Anchor)?;
+    let anchored = !problem.fixed.is_empty();
+    let shape: fn(&[[i64; 3]]) -> Shape = if anchored { Shape::standing } else { Shape::of };
+    let (from, to) = (shape(&problem.start), shape(&problem.goal));
+    let anchor = anchor::of(problem, &from);
     let units = Units::of(&problem.cell, settings)?;
     // All candidates that the model allows, the fastest first.
     let euclidean = settings.norm == Norm::Euclidean;
-    let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean };
-    let candidates = candidates(limits, &from, &to, settings.method)?;
+    let limits = PlanLimits { cell: units.cell, profile: settings.profile, euclidean, anchored };
+    let candidates = if anchored {
+        let bounds = Bounds { fixed: &problem.fixed, obstacles: &problem.obstacles };
+        anchored_candidates(limits, &from, &to, bounds)?
+    } else {
+        candidates(limits, &from, &to, settings.method)?
+    };
     if candidates.is_empty() {
+        if anchored {
+            return Err(Refusal::Anchor(AnchorFault::NoWay));
+        }
         return Err(not_covered(settings, &from, units.cell));
     }
     let candidates = allowed(candidates, settings)?;
-    let (method, balanced, stages) = fastest(candidates, &units, settings, progress)?;
+    let (method, balanced, stages) = fastest(candidates, &units, (settings, anchor), progress)?;
     // The plan begins and ends as it should, exactly.
-    check_ends(&stages, &from, &to)?;
+    check_ends(&stages, &Shape::of(&problem.start), &Shape::of(&problem.goal))?;
     let lower_bound = time_lower_bound(&stages).map_err(|fault| Refusal::Defect(fault.to_string()))?;
-    let why = why(settings, method, balanced);
+    let why = why(settings, method, balanced, anchored);
     let named = stages.stages.iter().map(|stage| (stage.name.clone(), stage.duration() * stages.time_unit));
     let report = Report { lower_bound, method, balanced, why, stages: named.collect() };
     Ok(Solution { body: Body::Stages(stages), program: None, report })
@@ -104,13 +119,14 @@ fn allowed(candidates: Vec<Candidate>, settings: &Settings) -> Result<Vec<Candid
 fn fastest(
     candidates: Vec<Candidate>,
     units: &Units,
-    settings: &Settings,
+    (settings, anchor): (&Settings, Option<Anchor>),
     progress: &mut dyn Progress,
 ) -> Result<(Method, bool, Stages), Refusal> {
     let stages_of = |motion: Motion, balanced: bool| {
         let euclidean = settings.norm == Norm::Euclidean;
         let model = Model { balanced, contact_force: units.contact_force, euclidean };
-        motion.into_stages(PlanHeader { cell: 0, time_unit: units.time, limits: units.cell, model })
+        let header = PlanHeader { cell: 0, time_unit: units.time, limits: units.cell, model };
+        Stages { anchor: anchor.clone(), ..motion.into_stages(header) }
     };
     let mut best: Option<(Method, bool, Stages)> = None;
     for candidate in candidates {
@@ -128,7 +144,8 @@ fn fastest(
         if best.as_ref().is_some_and(|(_, _, stages)| time(stages) <= candidate.motion.duration()) {
             break;
         }
-        let balanced = candidate.motion.is_balanced();
+        // A robot that is held is not balanced by itself, not even at rest.
+        let balanced = candidate.motion.is_balanced() && anchor.is_none();
         // In the paper's model the judge does not ask for balance.
         let mut stages = stages_of(candidate.motion, balanced && settings.model != ModelChoice::Paper);
         if let Some(force) = units.contact_force {
@@ -163,8 +180,11 @@ fn check_ends(stages: &Stages, from: &Shape, to: &Shape) -> Result<(), Refusal> 
 }
 
 /// Returns the reason for a method, in words.
-fn why(settings: &Settings, method: Method, balanced: bool) -> String {
+fn why(settings: &Settings, method: Method, balanced: bool, anchored: bool) -> String {
     let name = method.name();
+    if anchored {
+        return format!("{name}: the way on which the fixed cells stay");
+    }
     match (settings.method, settings.model, balanced) {
         (Method::Auto, ModelChoice::Paper, _) => format!("{name}: the fastest way in the paper's model"),
         (Method::Auto, _, true) => format!("{name}: the fastest way that nothing outside has to turn"),

@@ -1,7 +1,7 @@
 //! The shape of a set of cells.
 
-/// A set of lattice cells as their sites, translated so that the least coordinate along each axis is 0, in ascending
-/// order.
+/// A set of lattice cells as their sites in ascending order, translated so that the least coordinate along each axis is
+/// 0 unless it must stand where it is.
 pub(super) struct Shape {
     /// The lattice sites of the cells, in cell sizes, in ascending order of x, then y, then z.
     pub positions: Vec<[i64; 3]>,
@@ -18,6 +18,13 @@ impl Shape {
         positions.sort_unstable();
         let sides = [0, 1, 2].map(|axis| positions.iter().map(|p| p[axis] as u64 + 1).max().unwrap_or(0));
         Shape { positions, sides }
+    }
+
+    /// Returns the shape of the cells at these lattice sites, in whole cells, where it stands: without a translation.
+    pub(super) fn standing(positions: &[[i64; 3]]) -> Shape {
+        let mut standing = positions.to_vec();
+        standing.sort_unstable();
+        Shape { positions: standing, ..Shape::of(positions) }
     }
 
     /// Returns the number of cells.

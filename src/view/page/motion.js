@@ -216,7 +216,7 @@ function latticeMotion(plan, body) {
   if (every > 1) plan.notes.push(`of ${body.count} cells one in ${every} is drawn`);
   // Configurations are differences: each stage names the cells that it moves, in runs that count along
   // axes. Of the innermost axis only the cells that are drawn are gone through.
-  const fill = (boxes, runs) => {
+  const fill = (boxes, runs, every) => {
     for (const [first, counters, [x, y, z], size] of runs) {
       const along = (c, cell, x, y, z) => {
         const [count, stride, dx, dy, dz] = counters[c] || [1, 0, 0, 0, 0];
@@ -243,20 +243,36 @@ function latticeMotion(plan, body) {
     }
     return boxes;
   };
+  // Or it says which move each cell makes: of every class of cells the displacement and the growth.
+  const shift = (boxes, [classes, spans]) => {
+    let cell = 0;
+    for (const span of spans) {
+      const [k, count] = span.length ? span : [span, 1];
+      const end = cell + count;
+      for (let i = 6 * Math.ceil(cell / every); i * every < 6 * end; i += 6)
+        for (let axis = 0; axis < 6; axis++) boxes[i + axis] += classes[k][axis];
+      cell = end;
+    }
+    return boxes;
+  };
+  const after = (boxes, stage) => (stage.moves ? shift(boxes.slice(), stage.moves) : fill(boxes.slice(), stage.end, every));
+  const around = body.obstacles.reduce((count, run) => count + run[1].reduce((n, counter) => n * counter[0], 1), 0);
+  const obstacles = fill(new Float64Array(6 * around), body.obstacles, 1);
   const times = [0];
   for (const stage of body.stages) times.push(times[times.length - 1] + stage.duration);
   // Configurations at the stages' ends: every so many are kept, those between are found again from the
   // one before, and the last two are at hand.
   const apart = Math.ceil(((body.stages.length + 1) * n) / KEPT_MAX);
-  const kept = [fill(new Float32Array(6 * n), body.start)];
+  const kept = [fill(new Float64Array(6 * n), body.start, every)];
   const hand = new Map();
   let low = Infinity;
   const lower = boxes => {
     for (let i = 0; i < n; i++) low = Math.min(low, boxes[6 * i + 2] - boxes[6 * i + 5] / 2);
   };
+  for (let i = 0; i < around; i++) low = Math.min(low, obstacles[6 * i + 2] - obstacles[6 * i + 5] / 2);
   lower(kept[0]);
   body.stages.reduce((boxes, stage, i) => {
-    const next = fill(boxes.slice(), stage.end);
+    const next = after(boxes, stage);
     lower(next);
     if ((i + 1) % apart === 0) kept.push(next);
     return next;
@@ -264,7 +280,7 @@ function latticeMotion(plan, body) {
   const endAt = index => {
     if (index % apart === 0) return kept[index / apart];
     if (!hand.has(index)) {
-      const boxes = fill(endAt(index - 1).slice(), body.stages[index - 1].end);
+      const boxes = after(endAt(index - 1), body.stages[index - 1]);
       if (hand.size > 1) hand.delete(hand.keys().next().value);
       hand.set(index, boxes);
     }
@@ -272,10 +288,11 @@ function latticeMotion(plan, body) {
   };
   const stageAt = t => clamp(lastNotAbove(times, t), 0, Math.max(body.stages.length - 1, 0));
   const modules = Array.from({ length: n }, (_, i) => ({ name: "cell " + i * every, type: body.cell, group: "" }));
+  for (let i = 0; i < around; i++) modules.push({ name: "obstacle " + i, type: "obstacle", group: "surroundings", around: true });
   return {
-    bodies: n,
+    bodies: n + around,
     // A cube with a plate on each face, if it is near.
-    solids: modules.flatMap((_, i) => [[[0.97, 0.97, 0.97], 0, 0], ...[0, 1, 2].map(axis => [[0, 1, 2].map(k => (k === axis ? 0.985 : 0.72)), 5, PLATE])]
+    solids: modules.flatMap((module, i) => module.around ? [{ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s: [1, 1, 1], shade: 0 }] : [[[0.97, 0.97, 0.97], 0, 0], ...[0, 1, 2].map(axis => [[0, 1, 2].map(k => (k === axis ? 0.985 : 0.72)), 5, PLATE])]
       .map(([s, shade, least]) => ({ body: i, shape: 0, p: [0, 0, 0], q: [0, 0, 0, 1], s, shade, least }))),
     ...eachItsOwn(modules),
     place(t, X) {
@@ -284,8 +301,8 @@ function latticeMotion(plan, body) {
       const a = endAt(at);
       const b = stage ? endAt(at + 1) : a;
       const u = stage ? stageProgress(stage.law, stage.duration > 0 ? (t - times[at]) / stage.duration : 1) : 0;
-      for (let i = 0; i < n; i++) {
-        const box = k => mix(a[6 * i + k], b[6 * i + k], u) * body.size;
+      for (let i = 0; i < n + around; i++) {
+        const box = k => (i < n ? mix(a[6 * i + k], b[6 * i + k], u) : obstacles[6 * (i - n) + k]) * body.size;
         X.set([box(0), box(1), box(2) - low * body.size, 0, 0, 0, 0, 1, box(3), box(4), box(5)], POSE * i);
       }
     },
@@ -293,9 +310,9 @@ function latticeMotion(plan, body) {
     beginnings: () => body.stages.map((stage, i) => [times[i], stage.cause]),
     events: body.stages.map((stage, i) => ({ time: times[i], kind: "stage", text: stage.name })),
     facts(b, t) {
-      const X = new Float32Array(POSE * n);
+      const X = new Float32Array(POSE * this.bodies);
       this.place(t, X);
-      return [["type", body.cell], ["size", [8, 9, 10].map(k => (X[POSE * b + k] * 1000).toFixed(0)).join(" × ") + " mm"]];
+      return [["type", modules[b].type], ["size", [8, 9, 10].map(k => (X[POSE * b + k] * 1000).toFixed(0)).join(" × ") + " mm"]];
     },
     /** How much smaller than at rest each cell is, 0..1: for the colours. */
     squeezed: (X, i) => 1 - (X[POSE * i + 8] * X[POSE * i + 9] * X[POSE * i + 10]) / body.size ** 3,

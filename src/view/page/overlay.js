@@ -40,7 +40,8 @@ function cubeOf(choose) {
         const [a, b] = [onScreen(corner), onScreen(add(corner, scaled(axis, 2.7 * CUBE_HALF)))];
         const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         bars[i].style.transform = `translate(${a[0]}px, ${a[1]}px) rotate(${Math.atan2(dy, dx)}rad) scaleX(${Math.hypot(dx, dy) / 100})`;
-        letters[i].style.transform = `translate(${b[0] + dx * 0.1}px, ${b[1] + dy * 0.1}px) translate(-50%, -50%)`;
+        // Nearer than all of the cube, which would cover them.
+        letters[i].style.transform = `translate3d(${b[0] + dx * 0.1}px, ${b[1] + dy * 0.1}px, 60px) translate(-50%, -50%)`;
         bars[i].style.zIndex = b[2] > a[2] ? 2 : 0;
       });
     },

@@ -5,6 +5,7 @@ use super::judgement::{Judgement, Step, names};
 use crate::plan::lattice::contacts::ContactForest;
 use crate::plan::lattice::lanes::Overlap;
 use crate::plan::lattice::law::Change;
+use crate::plan::lattice::{Cube, boxes};
 use crate::plan::verify::ledger::{Ledger, keep_least};
 use crate::plan::{CheckKind, Dynamics, Ratio, Stage};
 use crate::units::{Dimension, quantity};
@@ -129,16 +130,52 @@ impl Judgement<'_> {
         keep_least(&mut ledger.verdict.speed_margin, margin, step.from, || names(cells));
     }
 
-    /// Checks that the centre of mass stays (F1) and, for balanced plans, that angular momentum is zero (F3). Takes
-    /// the stage's energy (J), angular momentum and greatest speed (m/s) into `dynamics` and the verdict.
+    /// Checks that the cells that stand fast neither move nor change their size, and that the centre of mass stays if
+    /// there are none (F1).
+    fn held(&self, step: &Step, ledger: &mut Ledger) {
+        let message = match &self.stages.anchor {
+            Some(anchor) => {
+                let moves = |cell: &&u64| step.before[**cell as usize] != step.after[**cell as usize];
+                let Some(cell) = anchor.cells.iter().find(moves) else { return };
+                format!("cell {cell} is fixed, and moves in stage `{}`", step.stage.name)
+            }
+            None => {
+                let Some(axis) = (0..3).find(|&axis| step.change.drift[axis] != 0) else { return };
+                let axis = ["x", "y", "z"][axis];
+                format!("the centre of mass moves along {axis}: something outside would have to push")
+            }
+        };
+        self.fail(CheckKind::Momentum, step.from, Some(step.stage), message, ledger);
+    }
+
+    /// Checks that no cell overlaps an obstacle (K2) while cells get from the first to the second configuration,
+    /// between two times (s), and records the failure; `stage`: `None` at the start of the plan. `None` if too many
+    /// pairs come near each other.
+    pub(super) fn clear_of_obstacles(
+        &self,
+        (before, after): (&[Cube], &[Cube]),
+        (from, to): (f64, f64),
+        stage: Option<&Stage>,
+        ledger: &mut Ledger,
+    ) -> Option<()> {
+        if self.obstacles.is_empty() {
+            return Some(());
+        }
+        if let Err(overlap) = boxes::examine_obstacles(before, after, &self.obstacles)? {
+            let (cell, obstacle) = overlap.cells;
+            let name = stage.map_or(String::new(), |stage| format!(" in stage `{}`", stage.name));
+            let message = format!("cell {cell} runs into obstacle {obstacle}{name}");
+            let time = if overlap.at_start { from } else { to };
+            self.fail_at(CheckKind::Collision, time, stage, (message, 0.0, 0.0), &[cell], ledger);
+        }
+        Some(())
+    }
+
+    /// Checks that the centre of mass or the fixed cells stay (F1) and, for balanced plans, that angular momentum is zero
+    /// (F3). Takes the stage's energy (J), angular momentum and greatest speed (m/s) into `dynamics` and the verdict.
     pub(super) fn momentum(&self, step: &Step, dynamics: &mut Dynamics, ledger: &mut Ledger) {
         let (change, scaling) = (&step.change, &step.scaling);
-        if let Some(axis) = (0..3).find(|&axis| change.drift[axis] != 0) {
-            let axis = ["x", "y", "z"][axis];
-            let message =
-                format!("the centre of mass moves along {axis}: something outside would have to push");
-            self.fail(CheckKind::Momentum, step.from, Some(step.stage), message, ledger);
-        }
+        self.held(step, ledger);
         let lines = 2.0 * step.lines as f64;
         let unit_speed = self.cell.size / self.stages.time_unit;
         let rate = scaling.peak_speed() * unit_speed;
@@ -155,7 +192,10 @@ impl Judgement<'_> {
         }
         let energy = 0.5 * self.cell.mass * (change.squares as f64) / lines / lines * rate * rate;
         ledger.verdict.energy += energy;
-        dynamics.angular_momentum = dynamics.angular_momentum.max(turning);
+        // A robot that is held has no angular momentum of its own.
+        if self.stages.anchor.is_none() {
+            dynamics.angular_momentum = dynamics.angular_momentum.max(turning);
+        }
         dynamics.peak_energy = dynamics.peak_energy.max(energy);
         dynamics.peak_speed = dynamics.peak_speed.max(libm::sqrt(change.square as f64) / lines * rate);
     }
@@ -170,12 +210,13 @@ impl Judgement<'_> {
         dynamics: &mut Dynamics,
         ledger: &mut Ledger,
     ) {
-        if step.change.drift != [0; 3] {
+        if step.change.drift != [0; 3] && self.stages.anchor.is_none() {
             return;
         }
         let lines = 2 * i128::from(step.lines);
         for axis in (0..3).filter(|&axis| step.change.axes[axis]) {
-            let (force, (a, b)) = match forest.forces(step.before, step.after, axis) {
+            let (force, (a, b)) = match forest.forces_from(self.stages.root(), step.before, step.after, axis)
+            {
                 Ok(worst) => worst,
                 Err(_) => {
                     let message = "the forces between the cells do not add up".to_string();

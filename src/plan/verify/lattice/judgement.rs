@@ -12,6 +12,8 @@ pub(super) struct Judgement<'a> {
     pub stages: &'a Stages,
     /// The type of cell that the lattice is made of.
     pub cell: &'a Cell,
+    /// The obstacles, in grid lines.
+    pub obstacles: Vec<Cube>,
 }
 
 /// A stage of a lattice plan with the configurations at its two ends.

@@ -4,9 +4,10 @@
 //! determine it. The arithmetic is that of [`crate::plan::lattice`]; here its results are held against the
 //! limits of the plan and of the cell. The checks, by the names of `docs/planners/squeeze.md`, are made for
 //! each stage in this order: K7 rest at both ends of the plan and continuous velocities between stages, K1
-//! sizes, K4 accelerations, K6 rates of sizes, F1 the centre of mass stays, F3 no angular momentum (balanced
-//! plans), K2 no overlap of cells, K5 speeds in contact, K3 connectedness over faces at all but finitely many
-//! instants, F2 contact forces that explain the motion, F4 their limit.
+//! sizes, K4 accelerations, K6 rates of sizes, F1 the centre of mass stays, or the fixed cells do, F3 no angular
+//! momentum (balanced plans), K2 no overlap of cells with each other and with obstacles, K5 speeds in contact, K3
+//! connectedness over faces at all but finitely many instants, F2 contact forces that explain the motion, F4 their
+//! limit.
 
 mod checks;
 mod judgement;
@@ -21,7 +22,7 @@ use judgement::Judgement;
 /// gravity, gets a failure of the check of form and no other checks.
 pub(super) fn judge(plan: &Plan, stages: &Stages) -> Verdict {
     let mut ledger = Ledger::new(&plan.exemptions, stages.duration());
-    let judgement = Judgement { stages, cell: &plan.library.cells[stages.cell] };
+    let mut judgement = Judgement { stages, cell: &plan.library.cells[stages.cell], obstacles: vec![] };
     if let Err(reason) = judgement.assumptions(plan).and_then(|()| judgement.stages(&mut ledger)) {
         ledger.fail(Failure { message: reason.to_string(), ..judgement.failure(CheckKind::Form, 0.0, None) });
         ledger.check(CheckKind::Form, Status::Proved);

@@ -75,8 +75,7 @@ impl Judgement<'_> {
         if !sound {
             return Err(NotJudged::Units(cell.name.clone()));
         }
-        let named = |runs: &[Run]| runs.iter().map(Run::count).sum::<u64>();
-        let work = stages.stages.iter().map(|s| stages.count + named(&s.end)).fold(0, u64::saturating_add);
+        let work = stages.stages.iter().map(|s| stages.count + s.count()).fold(0, u64::saturating_add);
         if work > 2 * WORK_MAX {
             return Err(NotJudged::Work);
         }
@@ -88,7 +87,7 @@ impl Judgement<'_> {
     /// # Errors
     /// [`NotJudged`] if there are no exact integers for the plan, a cell has no place at the start, or too many pairs
     /// of cells come near each other.
-    pub(super) fn stages(&self, ledger: &mut Ledger) -> Result<(), NotJudged> {
+    pub(super) fn stages(&mut self, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let grid = Grid::of(self.stages)?;
         // A cell that no run names has no size.
         let mut before = vec![Cube::default(); self.stages.count as usize];
@@ -99,6 +98,7 @@ impl Judgement<'_> {
         if self.stages.count == 0 {
             return Ok(());
         }
+        self.obstacles = self.placed_obstacles(grid)?;
         let mut dynamics = Dynamics::default();
         let instants = self.stages.instants();
         self.start(&before, grid, ledger)?;
@@ -108,7 +108,7 @@ impl Judgement<'_> {
             let stages = self.stages.stages.len();
             crate::interrupt::progress_checkpoint(|| format!("stage {} of {stages}", index + 1));
             after.clone_from(&before);
-            grid.place(&stage.end, &mut after)?;
+            grid.advance(&stage.end, &mut after)?;
             if let Some(last) = index.checked_sub(1).map(|i| &self.stages.stages[i]) {
                 self.velocities_continuous(
                     (last, &earlier),
@@ -141,6 +141,17 @@ impl Judgement<'_> {
         Ok(())
     }
 
+    /// Returns the obstacles in grid lines.
+    fn placed_obstacles(&self, grid: Grid) -> Result<Vec<Cube>, NotJudged> {
+        let runs = self.stages.anchor.as_ref().map_or(&[][..], |anchor| &anchor.obstacles[..]);
+        let count = runs.iter().map(Run::count).sum::<u64>();
+        let mut obstacles = vec![Cube::default(); count as usize];
+        grid.place(runs, &mut obstacles)?;
+        // Obstacles that no run names, because others are named twice, have no size.
+        obstacles.retain(|obstacle| obstacle.size(0) > 0);
+        Ok(obstacles)
+    }
+
     /// Checks K7, and the start by itself for plans that do not move at first.
     fn start(&self, cubes: &[Cube], grid: Grid, ledger: &mut Ledger) -> Result<(), NotJudged> {
         let change = Change::of(cubes, cubes);
@@ -168,7 +179,7 @@ impl Judgement<'_> {
             Some(Err(overlap)) => self.overlapping(&overlap, 0.0, 0.0, None, ledger),
             Some(Ok(())) => self.connected(&mut forest, 0.0, None, ledger),
         }
-        Ok(())
+        self.clear_of_obstacles((cubes, cubes), (0.0, 0.0), None, ledger).ok_or(NotJudged::EntangledStart)
     }
 
     /// Checks that velocities are continuous between two stages.
@@ -217,6 +228,9 @@ impl Judgement<'_> {
             Some(Err(overlap)) => self.overlapping(&overlap, step.from, step.to, Some(stage), ledger),
             Some(Ok(())) => {}
         }
+        let times = (step.from, step.to);
+        self.clear_of_obstacles((step.before, step.after), times, Some(stage), ledger)
+            .ok_or_else(|| NotJudged::Entangled(stage.name.clone()))?;
         self.contact_speed(step, &forest, ledger);
         if forest.is_connected() {
             self.forces(step, &forest, dynamics, ledger);

@@ -1,0 +1,41 @@
+--- fixed cells stay where they are drawn, and the others push off from them
+use std.crystal.ExpandingCube
+lattice Left of ExpandingCube = cells("""
+  ##.....
+  #######
+  #######
+""")
+lattice Right of ExpandingCube = cells("""
+  .....##
+  #######
+  #######
+""")
+let base = row(7)
+let p = squeeze(Left, Right, fixed: base)
+print(p.method, p.balanced, verify(p).ok, p.why)
+//> push false true push: the way on which the fixed cells stay
+let wall = cells("""
+  ...#...
+  .......
+  .......
+""")
+let q = squeeze(Left, Right, fixed: base, obstacles: wall)
+print(verify(q).ok, verify(reverse(q)).ok, verify(q ++ reverse(q)).ok)
+//> true true true
+
+--- fixed cells and obstacles that do not fit the shapes are refused
+use std.crystal.ExpandingCube
+lattice Square of ExpandingCube = block(2, 2)
+lattice Bar of ExpandingCube = row(4)
+print(squeeze(Square, Bar, obstacles: row(9)).duration)
+//                                    ^^^^^^ E0801 among obstacles some cells must be fixed | around a robot that floats
+print(squeeze(Square, Bar, fixed: column(2)).duration)
+//                                ^^^^^^^^^ E0801 the fixed cell (0, 1, 0) is no cell of the second shape
+print(squeeze(Square, Bar, fixed: row(3)).duration)
+//                                ^^^^^^ E0801 the fixed cell (2, 0, 0) is no cell of the first shape
+print(squeeze(Square, Bar, fixed: row(1), obstacles: column(2)).duration)
+//                                                   ^^^^^^^^^ E0801 the obstacle (0, 0, 0) is where the first shape has a cell
+print(squeeze(Square, Bar, fixed: row(1), method: accordion).duration)
+//                                                ^^^^^^^^^ E0802 `accordion` moves all cells: none stays fixed
+print(squeeze(Square, Bar, fixed: row(1), model: balanced).duration)
+//                                               ^^^^^^^^ E0801 it is not balanced by itself
